@@ -1,0 +1,1 @@
+"""Agents that drive: scripted, oracle and learned, behind one interface."""

@@ -1,0 +1,61 @@
+"""Poses and rigid transforms in the plane: x forward, y left, angles counter-clockwise."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Point: TypeAlias = tuple[float, float]
+"""(x, y) in metres."""
+
+Pose: TypeAlias = tuple[float, float, float]
+"""(x, y, heading) in metres and radians."""
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+
+def wrap_angle(angle: float) -> float:
+    """The same angle in [-pi, pi]."""
+    return math.remainder(angle, 2.0 * math.pi)
+
+
+def compose(frame: Pose, local: Pose) -> Pose:
+    """Express in the parent frame a pose that is given in `frame`."""
+    x, y = to_parent(frame, local[:2])
+    return x, y, wrap_angle(frame[2] + local[2])
+
+
+def relative(frame: Pose, pose: Pose) -> Pose:
+    """Express in `frame` a pose that is given in its parent frame; the inverse of `compose`."""
+    x, y = to_local(frame, pose[:2])
+    return x, y, wrap_angle(pose[2] - frame[2])
+
+
+def to_parent(frame: Pose, point: Point) -> Point:
+    """Express in the parent frame a point that is given in `frame`."""
+    c, s = math.cos(frame[2]), math.sin(frame[2])
+    return frame[0] + c * point[0] - s * point[1], frame[1] + s * point[0] + c * point[1]
+
+
+def to_local(frame: Pose, point: Point) -> Point:
+    """Express in `frame` a point that is given in its parent frame."""
+    c, s = math.cos(frame[2]), math.sin(frame[2])
+    dx, dy = point[0] - frame[0], point[1] - frame[1]
+    return c * dx + s * dy, c * dy - s * dx
+
+
+def points_to_parent(frame: Pose, points: FloatArray) -> FloatArray:
+    """`to_parent` for an array of points, shape (..., 2)."""
+    c, s = math.cos(frame[2]), math.sin(frame[2])
+    x, y = points[..., 0], points[..., 1]
+    return np.stack((frame[0] + c * x - s * y, frame[1] + s * x + c * y), axis=-1)
+
+
+def points_to_local(frame: Pose, points: FloatArray) -> FloatArray:
+    """`to_local` for an array of points, shape (..., 2)."""
+    c, s = math.cos(frame[2]), math.sin(frame[2])
+    dx, dy = points[..., 0] - frame[0], points[..., 1] - frame[1]
+    return np.stack((c * dx + s * dy, c * dy - s * dx), axis=-1)

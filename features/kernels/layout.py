@@ -1,0 +1,26 @@
+"""How kernels lay out a scene: one structured array per kind, and how many entries are used.
+
+Kernels write into arrays that the caller allocates once, so that a scan costs no allocation.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+START_RUPTURE, END_RUPTURE, START_BREAK, END_BREAK = 1, 2, 4, 8
+"""Bits of a wall's `flags`."""
+
+_ENDS = [("start_x", "f8"), ("start_y", "f8"), ("end_x", "f8"), ("end_y", "f8")]
+
+WALL = np.dtype([*_ENDS, ("residual", "f8"), ("first", "i8"), ("last", "i8"), ("flags", "i8")])
+"""A wall; `first` and `last` are the beam indices of its end points (inclusive)."""
+
+DOOR = np.dtype(_ENDS)
+CORNER = np.dtype([("x", "f8"), ("y", "f8"), ("kind", "i8")])
+CORRIDOR = np.dtype(_ENDS)
+
+CAPACITY = {"walls": 256, "doors": 64, "corners": 512, "corridors": 128}
+"""Entries beyond these are dropped, in beam order."""
+
+WALLS, DOORS, CORNERS, CORRIDORS = range(4)
+"""Places in the `counts` array, shape (4,), int64."""

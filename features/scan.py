@@ -1,0 +1,105 @@
+"""One sweep of a 2D lidar."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from semnav_env.features.frames import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """One sweep of a 2D lidar, beams counter-clockwise, in the lidar frame.
+
+    NaN, infinity, zero, negative values and anything at or beyond `range_max` or below
+    `range_min` mean "no return" (REP 117, and what drivers send in the wild).
+
+    Attributes:
+        ranges: distances in metres, shape (n,); any real array is accepted and copied.
+        angle_min: direction of beam 0 in radians, x forward, counter-clockwise.
+        angle_increment: angle between beams in radians, positive.
+        range_min: shortest valid distance in metres.
+        range_max: longest valid distance in metres.
+        stamp: time in seconds, if known.
+
+    Raises:
+        ValueError: not one-dimensional, no beams, not real numbers, an increment that is not
+            positive, limits out of order, or ranges that must be millimetres.
+    """
+
+    ranges: FloatArray
+    angle_min: float
+    angle_increment: float
+    range_min: float = 0.05
+    range_max: float = 10.0
+    stamp: float | None = None
+
+    def __init__(
+        self,
+        ranges: ArrayLike,
+        angle_min: float,
+        angle_increment: float,
+        range_min: float = 0.05,
+        range_max: float = 10.0,
+        stamp: float | None = None,
+    ) -> None:
+        values = dict(
+            angle_min=float(angle_min),
+            angle_increment=float(angle_increment),
+            range_min=float(range_min),
+            range_max=float(range_max),
+        )
+        _check_numbers(values)
+        array = _check_ranges(ranges, values["range_max"])
+        array.setflags(write=False)
+        for name, value in dict(ranges=array, stamp=stamp, **values).items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def angles(self) -> FloatArray:
+        """Direction of each beam in radians, shape (n,)."""
+        return self.angle_min + self.angle_increment * np.arange(len(self.ranges))
+
+    @property
+    def valid(self) -> np.ndarray:
+        """Which beams returned a distance, shape (n,), bool."""
+        with np.errstate(invalid="ignore"):
+            return (self.ranges >= self.range_min) & (self.ranges < self.range_max)
+
+
+def _check_numbers(values: dict[str, float]) -> None:
+    for name, value in values.items():
+        if not math.isfinite(value):
+            raise ValueError(f"{name} is {value}; it must be a finite number")
+    if values["angle_increment"] <= 0:
+        raise ValueError(
+            f"angle_increment is {values['angle_increment']}; it must be positive: "
+            "flip the ranges of a scanner that sweeps clockwise"
+        )
+    if not 0 <= values["range_min"] < values["range_max"]:
+        raise ValueError(
+            f"range_min {values['range_min']} and range_max {values['range_max']} must satisfy "
+            "0 <= range_min < range_max"
+        )
+
+
+def _check_ranges(ranges: ArrayLike, range_max: float) -> FloatArray:
+    raw = np.asarray(ranges)
+    if raw.ndim != 1:
+        raise ValueError(f"ranges have shape {raw.shape}; one scan is one-dimensional")
+    if raw.dtype.kind not in "fiu":
+        raise ValueError(f"ranges have dtype {raw.dtype}; they must be real numbers in metres")
+    if len(raw) == 0:
+        raise ValueError("ranges are empty; a scan has at least one beam")
+    array = raw.astype(np.float64)
+    returns = array[np.isfinite(array) & (array > 0)]
+    if len(returns) and np.median(returns) > 20.0 * range_max:
+        raise ValueError(
+            f"ranges have a median of {np.median(returns):.0f} but range_max is {range_max} m; "
+            "they look like millimetres: divide them by 1000"
+        )
+    return array

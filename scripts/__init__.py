@@ -1,0 +1,1 @@
+"""The `semnav` command line: thin entry points that nothing imports."""

@@ -1,0 +1,1 @@
+"""semnav-env: a Gymnasium environment for semantic indoor navigation."""

@@ -1,0 +1,140 @@
+"""The immutable floor plan: what is solid, what is seen, and what things are called."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+
+import numpy as np
+from shapely import Polygon
+
+from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.scene import Door, Scene, Wall
+
+
+class Material(StrEnum):
+    """What a surface is made of: glass stops the body but not the beam."""
+
+    WALL = "wall"
+    GLASS = "glass"
+    LEAF = "leaf"
+    FURNITURE = "furniture"
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A solid polyline; closed ones repeat their first point.
+
+    Attributes:
+        points: (x, y) in metres, at least two.
+        material: glass is not seen by the lidar.
+        assumed: closes what the source of the plan leaves open.
+    """
+
+    points: tuple[Point, ...]
+    material: Material = Material.WALL
+    assumed: bool = False
+
+
+@dataclass(frozen=True)
+class PlanDoor:
+    """A doorway of a plan.
+
+    Attributes:
+        name: unique in the plan.
+        start: one jamb, (x, y) in metres.
+        end: the other jamb.
+        open: whether a robot may pass; a closed door's leaf fills the opening.
+    """
+
+    name: str
+    start: Point
+    end: Point
+    open: bool = True
+
+    @property
+    def midpoint(self) -> Point:
+        """Middle of the opening."""
+        return self.as_door().midpoint
+
+    @property
+    def width(self) -> float:
+        """Distance between the jambs, metres."""
+        return self.as_door().width
+
+    def as_door(self) -> Door:
+        """The door as a scene holds it."""
+        return Door(self.start, self.end, self.name)
+
+
+@dataclass(frozen=True)
+class Region:
+    """A named area: a room, a corridor or an intersection."""
+
+    name: str
+    polygon: Polygon
+
+
+@dataclass(frozen=True)
+class FloorPlan:
+    """One storey, in metres, in the world frame (x right, y up on the page).
+
+    Attributes:
+        name: short identifier.
+        surfaces: everything solid.
+        doors: named doorways.
+        rooms: named rooms.
+        corridors: named stretches of corridor.
+        intersections: where corridors meet.
+        boundary: the outline; a robot never leaves it.
+        source: where the plan comes from.
+    """
+
+    name: str
+    surfaces: tuple[Surface, ...]
+    doors: tuple[PlanDoor, ...]
+    rooms: tuple[Region, ...]
+    corridors: tuple[Region, ...]
+    intersections: tuple[Region, ...]
+    boundary: Polygon
+    source: str = ""
+
+    @cached_property
+    def segments(self) -> FloatArray:
+        """Everything that stops a body, shape (n, 4): x1, y1, x2, y2 in metres."""
+        rows = [(*a, *b) for s in self.surfaces for a, b in _pairs(s)]
+        return _frozen(np.array(rows, dtype=np.float64).reshape(-1, 4))
+
+    @cached_property
+    def opaque_segments(self) -> FloatArray:
+        """The segments that stop a beam, shape (m, 4): all but glass."""
+        opaque = [s.material is not Material.GLASS for s in self.surfaces for _ in _pairs(s)]
+        return _frozen(self.segments[np.array(opaque, dtype=bool)])
+
+    @cached_property
+    def scene(self) -> Scene:
+        """All walls (glass included) and all open doors, world frame."""
+        walls = tuple(Wall((x1, y1), (x2, y2)) for x1, y1, x2, y2 in self.segments.tolist())
+        return Scene(walls, tuple(door.as_door() for door in self.doors if door.open))
+
+    def door(self, name: str) -> PlanDoor:
+        """The door of that name.
+
+        Raises:
+            KeyError: no such door; lists those there are.
+        """
+        for door in self.doors:
+            if door.name == name:
+                return door
+        names = ", ".join(door.name for door in self.doors)
+        raise KeyError(f"{self.name} has no door {name!r}; there are: {names}")
+
+
+def _pairs(surface: Surface) -> list[tuple[Point, Point]]:
+    return list(zip(surface.points, surface.points[1:], strict=False))
+
+
+def _frozen(array: FloatArray) -> FloatArray:
+    array.setflags(write=False)
+    return array

@@ -1,0 +1,97 @@
+"""The robots' bodies and limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from semnav_env.features.frames import Pose
+
+
+@dataclass(frozen=True)
+class RobotSpec:
+    """A rectangular robot. The robot frame's origin is the centre of the footprint.
+
+    Attributes:
+        name: as in `robot=`.
+        length: extent along x, metres.
+        width: extent along y, metres.
+        mass: kilograms.
+        max_speed: forward and backward, m/s.
+        max_sideways_speed: m/s; 0 for a differential drive.
+        max_turn_rate: rad/s.
+        max_acceleration: m/s^2, forward and sideways.
+        max_turn_acceleration: rad/s^2.
+        axle: x of the point that a turn on the spot turns about, metres in the robot frame.
+        lidar_mount: pose of the lidar in the robot frame.
+        source: where the numbers come from.
+    """
+
+    name: str
+    length: float
+    width: float
+    mass: float
+    max_speed: float
+    max_sideways_speed: float
+    max_turn_rate: float
+    max_acceleration: float
+    max_turn_acceleration: float
+    axle: float
+    lidar_mount: Pose
+    source: str
+
+    @property
+    def holonomic(self) -> bool:
+        """Whether it can move sideways."""
+        return self.max_sideways_speed > 0
+
+    @property
+    def action_size(self) -> int:
+        """3 (forward, left, turn) for a holonomic robot, else 2 (forward, turn)."""
+        return 3 if self.holonomic else 2
+
+
+WHEELCHAIR = RobotSpec(
+    name="wheelchair",
+    length=1.10,
+    width=0.65,
+    mass=120.0,
+    max_speed=1.5,
+    max_sideways_speed=0.0,
+    max_turn_rate=1.5,
+    max_acceleration=1.0,
+    max_turn_acceleration=3.0,
+    axle=-1.10 / 2 + 1.10 / 3,
+    lidar_mount=(0.45, 0.0, 0.0),
+    source="a powered wheelchair inside the maximum overall dimensions of ISO 7193 (1.20 m x 0.70 m), "
+    "driven at the rear third of its length; lidar at the front as in Barbret 2021",
+)
+
+SPOT = RobotSpec(
+    name="spot",
+    length=1.10,
+    width=0.50,
+    mass=32.5,
+    max_speed=1.6,
+    max_sideways_speed=0.5,
+    max_turn_rate=1.5,
+    max_acceleration=2.0,
+    max_turn_acceleration=4.0,
+    axle=0.0,
+    lidar_mount=(0.30, 0.0, 0.0),
+    source="Boston Dynamics' SPOT specification: 1.10 m x 0.50 m, 1.6 m/s; the robot of Mes 2021",
+)
+
+ROBOTS = {spec.name: spec for spec in (WHEELCHAIR, SPOT)}
+
+
+def robot(name_or_spec: str | RobotSpec) -> RobotSpec:
+    """The robot of that name, or the spec itself.
+
+    Raises:
+        ValueError: no such robot; lists those there are.
+    """
+    if isinstance(name_or_spec, RobotSpec):
+        return name_or_spec
+    if name_or_spec not in ROBOTS:
+        raise ValueError(f"no robot named {name_or_spec!r}; there are: {', '.join(ROBOTS)}")
+    return ROBOTS[name_or_spec]
