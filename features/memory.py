@@ -1,0 +1,84 @@
+"""Scenes over time joined into one, so that a door that has left the view still counts."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels import layout
+from semnav_env.features.kernels.memory import (
+    REMEMBERED,
+    contradict_doors,
+    remember_doors,
+    remember_walls,
+)
+from semnav_env.features.scene import Door, Scene, Wall
+
+MAX_WALLS, MAX_DOORS = 512, 64
+
+
+class SceneMemory:
+    """What was seen so far, in one fixed frame (the odometry frame).
+
+    A wall counts from its second sighting. A door counts from its third, while no more than a
+    third of the scans contradict it, that is, found its opening filled.
+    """
+
+    def __init__(self) -> None:
+        self._walls = np.zeros(MAX_WALLS, dtype=REMEMBERED)
+        self._doors = np.zeros(MAX_DOORS, dtype=REMEMBERED)
+        self._used_walls = 0
+        self._used_doors = 0
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._used_walls = self._used_doors = 0
+
+    def update(
+        self,
+        walls: NDArray[np.void],
+        doors: NDArray[np.void],
+        counts: NDArray[np.int64],
+        ranges: FloatArray,
+        angles: tuple[float, float],
+        lidar_pose: Pose,
+    ) -> None:
+        """Add one scan's walls and doors.
+
+        Args:
+            walls: `layout.WALL` array, lidar frame.
+            doors: `layout.DOOR` array, lidar frame.
+            counts: entries used, by kind.
+            ranges: of the scan, metres.
+            angles: angle_min and angle_increment of the scan, radians.
+            lidar_pose: of the lidar in the memory's frame.
+        """
+        self._used_walls = remember_walls(
+            walls, counts[layout.WALLS], lidar_pose, self._walls, self._used_walls
+        )
+        contradict_doors(ranges, *angles, lidar_pose, self._doors, self._used_doors)
+        self._used_doors = remember_doors(
+            doors, counts[layout.DOORS], lidar_pose, self._doors, self._used_doors
+        )
+
+    @property
+    def door_entries(self) -> NDArray[np.void]:
+        """The doors that count, `REMEMBERED`, in the order of their first sighting."""
+        doors = self._doors[: self._used_doors]
+        return doors[(doors["hits"] >= 3) & (doors["misses"] * 2 <= doors["hits"])]
+
+    @property
+    def wall_entries(self) -> NDArray[np.void]:
+        """The walls that count, `REMEMBERED`, in the order of their first sighting."""
+        walls = self._walls[: self._used_walls]
+        return walls[walls["hits"] >= 2]
+
+    def scene(self) -> Scene:
+        """The remembered walls and doors that count, in the memory's frame."""
+        walls = [Wall((a, b), (c, d)) for a, b, c, d, *_ in self.wall_entries.tolist()]
+        doors = [
+            Door((a, b), (c, d), sightings=hits)
+            for a, b, c, d, hits, _ in self.door_entries.tolist()
+        ]
+        return Scene(tuple(walls), tuple(doors))

@@ -1,0 +1,7 @@
+"""Grounding: what a clause refers to in a scene, and how far the robot is in following it."""
+
+from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.ground import ground
+from semnav_env.grounding.situation import GroundingError
+
+__all__ = ["Goal", "GoalKind", "GroundingError", "ground"]

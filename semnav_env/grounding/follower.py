@@ -1,0 +1,118 @@
+"""How far a robot is in following a command: which clause is active and where it leads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from semnav_env.commands import Command
+from semnav_env.commands.clauses import Follow
+from semnav_env.features.frames import Pose
+from semnav_env.features.scene import Scene
+from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.ground import ground
+from semnav_env.grounding.situation import GroundingError
+
+STANDSTILL = 0.05
+"""Slower than this is standing still, m/s."""
+
+
+@dataclass
+class Follower:
+    """The clause under way and its goal.
+
+    The agent's follower runs on the remembered scene and on odometry; the verifier's runs on the
+    true scene and the true pose. Both are this class, so both count alike.
+
+    Attributes:
+        command: what to follow.
+        complete: the scenes hold everything there is (true scenes).
+        care: share of a goal's tolerances within which it counts as reached; an agent aims well
+            inside what the verifier accepts.
+        jamb_margin: how far beside a jamb a crossing still counts, metres; perceived jambs are
+            not exact.
+        active: index of the clause under way; the number of clauses when all are done.
+        begin: where that clause began.
+        goal: where it leads.
+        impossible: why the clause cannot be carried out, if it cannot.
+    """
+
+    command: Command
+    complete: bool = False
+    care: float = 1.0
+    jamb_margin: float = 0.0
+    active: int = field(default=0, init=False)
+    begin: Pose = field(default=(0.0, 0.0, 0.0), init=False)
+    goal: Goal = field(default=Goal(GoalKind.STOP, (0.0, 0.0, 0.0)), init=False)
+    impossible: str | None = field(default=None, init=False)
+    _last: Pose = field(default=(0.0, 0.0, 0.0), init=False)
+
+    def start(self, scene: Scene, pose: Pose) -> None:
+        """Begin with the first clause."""
+        self.active, self._last = 0, pose
+        self._begin_clause(scene, pose)
+
+    @property
+    def done(self) -> bool:
+        """Whether every clause has been carried out."""
+        return self.active >= len(self.command.clauses)
+
+    def advance(self, scene: Callable[[], Scene], pose: Pose, speed: float) -> bool:
+        """Note where the robot is now; begin the next clause if this one is done.
+
+        Args:
+            scene: called for the scene when a new clause must be grounded.
+            pose: of the robot's centre, in the scene's frame.
+            speed: m/s.
+
+        Returns:
+            Whether a clause was completed.
+        """
+        completed = not self.done and self._completed(pose, speed)
+        self._last = pose
+        if completed:
+            self.active += 1
+            self._begin_clause(scene(), pose)
+        return completed
+
+    def look(self, scene: Scene, pose: Pose) -> None:
+        """Ground the active clause anew, on what is known by now."""
+        if self.done:
+            self.goal = Goal(GoalKind.STOP, pose, because="done")
+            return
+        try:
+            self.goal = ground(
+                self.command.clauses[self.active],
+                scene,
+                self.begin,
+                pose,
+                complete=self.complete,
+                after_hallway=self._after_hallway,
+            )
+            self.impossible = None
+        except GroundingError as error:
+            self.impossible = str(error)
+            self.goal = Goal(GoalKind.STOP, pose, because=self.impossible)
+
+    def _begin_clause(self, scene: Scene, pose: Pose) -> None:
+        while not self.done and self._is_only_a_direction(self.active):
+            self.active += 1
+        self.begin = pose
+        self.look(scene, pose)
+
+    def _is_only_a_direction(self, index: int) -> bool:
+        """ "go down the hallway" before another clause says where that clause looks."""
+        return self.command.clauses[index] == Follow() and index + 1 < len(self.command.clauses)
+
+    @property
+    def _after_hallway(self) -> bool:
+        return self.active > 0 and self._is_only_a_direction(self.active - 1)
+
+    def _completed(self, pose: Pose, speed: float) -> bool:
+        if self.goal.kind is GoalKind.PASS:
+            return self.goal.crossed_between(self._last, pose, self.jamb_margin)
+        if self.goal.kind is GoalKind.REACH:
+            return self.goal.reached_by(pose, self.care)
+        if self.goal.kind is GoalKind.STOP:
+            return self.impossible is None and speed < STANDSTILL
+        return False

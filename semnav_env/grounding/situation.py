@@ -1,0 +1,70 @@
+"""What a clause is grounded on: a scene, where the clause began, and where the robot is now."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from semnav_env.features.frames import Pose
+from semnav_env.features.hallway import Hallway, hallway
+from semnav_env.features.scene import Scene
+from semnav_env.grounding.goal import Goal, GoalKind
+
+LOOK_AHEAD = 4.0
+"""How far ahead of the robot the goal of a search lies, metres."""
+
+END_MARGIN = 1.0
+"""How far before the end of a hallway the robot's centre stops, metres."""
+
+AT_END = 1.9
+"""Within this distance of its end a hallway has been seen to its end, metres."""
+
+
+class GroundingError(ValueError):
+    """The referent of a clause cannot be there; the message says what is."""
+
+
+@dataclass(frozen=True)
+class Situation:
+    """What a clause is grounded on.
+
+    Attributes:
+        scene: remembered or true walls and doors.
+        begin: where the clause began, in the scene's frame.
+        pose: where the robot is now, in the scene's frame.
+        complete: the scene holds everything there is.
+        after_hallway: the clause before was "go down the hallway".
+    """
+
+    scene: Scene
+    begin: Pose
+    pose: Pose
+    complete: bool = False
+    after_hallway: bool = False
+
+    @cached_property
+    def hallway(self) -> Hallway:
+        """The hallway that the robot looked along when the clause began."""
+        return hallway(self.scene, self.begin)
+
+    @property
+    def progress(self) -> float:
+        """How far along the hallway the robot is, metres."""
+        return self.hallway.along((self.pose[0], self.pose[1]))
+
+    @property
+    def seen_to_end(self) -> bool:
+        """Whether nothing of the hallway is left to be looked at."""
+        return self.complete or self.progress > self.hallway.end - AT_END
+
+    def seek(self, because: str, at_most: float = float("inf")) -> Goal:
+        """Go on along the hallway and keep looking.
+
+        Args:
+            because: what is being looked for.
+            at_most: how far along the hallway to go, metres.
+        """
+        along = min(self.progress + LOOK_AHEAD, self.hallway.end - END_MARGIN, at_most)
+        return Goal(
+            GoalKind.SEEK, self.hallway.place(along), because=because, hallway=self.hallway
+        )

@@ -1,0 +1,117 @@
+"""Shortest ways through a floor plan, on a grid; for rewards and for path lengths to compare with."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+import shapely
+from numba import njit
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import dijkstra
+
+from semnav_env.features.frames import FloatArray, Point
+from semnav_env.maps.floor_plan import FloorPlan
+
+SPACING = 0.1
+"""Of the grid, metres."""
+
+CLEARANCE = 0.2
+"""The way of the robot's centre keeps this far from everything solid, metres."""
+
+
+class Geodesic:
+    """Shortest ways of a robot's centre in one floor plan."""
+
+    def __init__(self, floor_plan: FloorPlan) -> None:
+        west, south, east, north = floor_plan.boundary.bounds
+        self._origin = (west, south)
+        self._shape = (
+            math.ceil((north - south) / SPACING) + 1,
+            math.ceil((east - west) / SPACING) + 1,
+        )
+        self._free = self._free_cells(floor_plan)
+        self._graph = self._build_graph()
+        self._field = lru_cache(maxsize=256)(self._field_from)
+
+    def distance(self, start: Point, goal: Point) -> float:
+        """Length of the shortest way, metres; infinite if there is none."""
+        return float(_read(self._field(self._cell(goal)), *self._origin, SPACING, *start))
+
+    def way(self, start: Point, goal: Point) -> FloatArray:
+        """The shortest way as points, shape (k, 2), from start to goal."""
+        cells = _descend(self._field(self._cell(goal)), *self._cell(start))
+        inner = np.array(self._origin) + SPACING * cells[:, ::-1]
+        return np.vstack((start, inner[1:-1], goal))
+
+    def _cell(self, point: Point) -> tuple[int, int]:
+        """The nearest free cell (row, column)."""
+        rows, columns = np.nonzero(self._free)
+        dx = self._origin[0] + SPACING * columns - point[0]
+        dy = self._origin[1] + SPACING * rows - point[1]
+        nearest = int(np.argmin(dx * dx + dy * dy))
+        return int(rows[nearest]), int(columns[nearest])
+
+    def _free_cells(self, floor_plan: FloorPlan) -> NDArray[np.bool_]:
+        rows, columns = np.indices(self._shape)
+        x = self._origin[0] + SPACING * columns
+        y = self._origin[1] + SPACING * rows
+        solid = shapely.multilinestrings(floor_plan.segments.reshape(-1, 2, 2))
+        blocked = solid.buffer(CLEARANCE)
+        shapely.prepare(blocked)
+        inside = shapely.contains_xy(floor_plan.boundary, x, y)
+        return np.asarray(inside & ~shapely.contains_xy(blocked, x, y), dtype=bool)
+
+    def _build_graph(self) -> coo_matrix:
+        index = np.arange(self._free.size).reshape(self._shape)
+        parts = []
+        for dr, dc in ((0, 1), (1, 0), (1, 1), (1, -1)):
+            a = np.s_[: self._shape[0] - dr, max(0, -dc) : self._shape[1] - max(0, dc)]
+            b = np.s_[dr:, max(0, dc) : self._shape[1] + min(0, dc)]
+            both = self._free[a] & self._free[b]
+            length = np.full(both.sum(), SPACING * math.hypot(dr, dc))
+            parts.append((index[a][both], index[b][both], length))
+        i, j, length = (np.concatenate(column) for column in zip(*parts, strict=True))
+        return coo_matrix((length, (i, j)), shape=(self._free.size,) * 2).tocsr()
+
+    def _field_from(self, cell: tuple[int, int]) -> FloatArray:
+        source = cell[0] * self._shape[1] + cell[1]
+        field = dijkstra(self._graph, directed=False, indices=source)
+        return np.asarray(field, dtype=np.float64).reshape(self._shape)
+
+
+@lru_cache(maxsize=16)
+def geodesic(floor_plan: FloorPlan) -> Geodesic:
+    """The shortest ways of a floor plan, computed once per plan object."""
+    return Geodesic(floor_plan)
+
+
+@njit(cache=True)
+def _read(field: FloatArray, west: float, south: float, spacing: float, x: float, y: float) -> float:
+    """The distance at a point: over the best of the nearest nine cells."""
+    row, column = round((y - south) / spacing), round((x - west) / spacing)
+    best = np.inf
+    for r in range(max(row - 1, 0), min(row + 2, field.shape[0])):
+        for c in range(max(column - 1, 0), min(column + 2, field.shape[1])):
+            dx, dy = west + spacing * c - x, south + spacing * r - y
+            best = min(best, field[r, c] + math.sqrt(dx * dx + dy * dy))
+    return best
+
+
+@njit(cache=True)
+def _descend(field: FloatArray, row: int, column: int) -> NDArray[np.int64]:
+    """The cells from (row, column) downhill to the zero of the field."""
+    cells = [(row, column)]
+    while field[row, column] > 0.0 and len(cells) < field.size:
+        best_row, best_column = row, column
+        for r in range(max(row - 1, 0), min(row + 2, field.shape[0])):
+            for c in range(max(column - 1, 0), min(column + 2, field.shape[1])):
+                if field[r, c] < field[best_row, best_column]:
+                    best_row, best_column = r, c
+        if (best_row, best_column) == (row, column):
+            break
+        row, column = best_row, best_column
+        cells.append((row, column))
+    return np.array(cells)
