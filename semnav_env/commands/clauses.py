@@ -1,13 +1,16 @@
-"""The typed form of a command: a tuple of frozen clauses whose text is canonical English.
+"""The clauses of a command: frozen values whose text is canonical English.
 
-`parse(str(command)) == command` for every command.
+`parse(str(clause)).clauses == (clause,)` for every clause.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from numbers import Integral
 from typing import TypeAlias
+
+from semnav_env.commands.language import Language, english
 
 
 class Side(StrEnum):
@@ -37,10 +40,13 @@ class Place(StrEnum):
 LAST = -1
 """The ordinal of "the last door"."""
 
+MAX_ORDINAL = 20
+"""The highest ordinal: doors and places are counted from 1 to here."""
+
 
 @dataclass(frozen=True, slots=True)
 class DoorReference:
-    """ "the second door on the right".
+    """A door by its number and side: "the second door on the right".
 
     Attributes:
         ordinal: 1 for the first or next, n for the nth, `LAST` for the last.
@@ -50,10 +56,24 @@ class DoorReference:
     ordinal: int = 1
     side: Side | None = None
 
+    def __post_init__(self) -> None:
+        if self.ordinal != LAST:
+            _check_ordinal("door", self.ordinal)
+
+    def __str__(self) -> str:
+        return self.say(english())
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        last = self.ordinal == LAST
+        ordinal = language.say("last") if last else language.ordinals[self.ordinal - 1][0]
+        phrase = "door" if self.side is None else f"door_{self.side}"
+        return language.say(phrase, ordinal=ordinal)
+
 
 @dataclass(frozen=True, slots=True)
 class PlaceReference:
-    """ "the second intersection", "the corner", "the end of the hallway".
+    """A place by its number: "the second intersection", "the corner", "the end of the hallway".
 
     Attributes:
         place: what kind of place.
@@ -63,10 +83,22 @@ class PlaceReference:
     place: Place
     ordinal: int = 1
 
+    def __post_init__(self) -> None:
+        _check_ordinal(self.place, self.ordinal)
+        if self.place == Place.END and self.ordinal != 1:
+            raise ValueError(f"a hallway has one end ahead: its ordinal is 1, not {self.ordinal!r}")
+
+    def __str__(self) -> str:
+        return self.say(english())
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        return language.say(self.place, ordinal=language.ordinals[self.ordinal - 1][0])
+
 
 @dataclass(frozen=True, slots=True)
 class Follow:
-    """ "go down the hallway until the next intersection".
+    """Follow the hallway: "go down the hallway until the next intersection".
 
     Attributes:
         until: where to stop; None leaves it to the next clause, or to the end of the hallway.
@@ -74,10 +106,19 @@ class Follow:
 
     until: PlaceReference | DoorReference | None = None
 
+    def __str__(self) -> str:
+        return self.say(english())
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        if self.until is None:
+            return language.say("follow")
+        return language.say("follow_until", referent=self.until.say(language))
+
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """ "turn left at the second intersection".
+    """Change direction: "turn left at the second intersection".
 
     Attributes:
         turning: which way.
@@ -86,6 +127,16 @@ class Turn:
 
     turning: Turning
     at: PlaceReference | None = None
+
+    def __str__(self) -> str:
+        return self.say(english())
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        turning = language.say(self.turning)
+        if self.at is None:
+            return language.say("turn", turning=turning)
+        return language.say("turn_at", turning=turning, place=self.at.say(language))
 
 
 class Approach(StrEnum):
@@ -97,7 +148,7 @@ class Approach(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class GoToDoor:
-    """ "go through the second door on the right".
+    """Go to a door or through it: "go through the second door on the right".
 
     Attributes:
         door: which door.
@@ -107,10 +158,30 @@ class GoToDoor:
     door: DoorReference
     approach: Approach = Approach.THROUGH
 
+    def __str__(self) -> str:
+        return self.say(english())
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        return language.say(self.approach, door=self.door.say(language))
+
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """ "stop"."""
+    """Stand still: "stop"."""
+
+    def __str__(self) -> str:
+        return self.say(english())
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        return language.say("stop")
 
 
 Clause: TypeAlias = Follow | Turn | GoToDoor | Stop
+
+
+def _check_ordinal(what: str, ordinal: int) -> None:
+    if not isinstance(ordinal, Integral) or not 1 <= ordinal <= MAX_ORDINAL:
+        last = " or LAST" if what == "door" else ""
+        raise ValueError(f"the ordinal of a {what} is 1 to {MAX_ORDINAL}{last}, not {ordinal!r}")

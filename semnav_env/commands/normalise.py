@@ -1,0 +1,120 @@
+"""One way to write each text: the same letters, case and spaces, and nothing unseen."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from semnav_env.commands.errors import CommandError, named
+from semnav_env.commands.language import Language
+
+MAX_CHARACTERS = 2000
+MAX_WORDS = 400
+
+INVISIBLE = frozenset("\u00ad\u200b\u200c\u200d\u200e\u200f\u061c\u2060\ufeff")
+"""Soft hyphen, zero-width spaces and joiners, direction marks: they change no word and are
+dropped."""
+
+REORDERING = frozenset("\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+"""They can show the words in another order than they are read in, and are refused."""
+
+_CLUSTER = re.compile(r".[\u0300-\u036f]*", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class NormalisedText:
+    """A text and where its characters come from.
+
+    Attributes:
+        original: the text as it was given.
+        text: lower case, NFKC, single spaces.
+        origin: for each character of `text`, and for its end, the index in `original`.
+    """
+
+    original: str
+    text: str
+    origin: tuple[int, ...]
+
+    def span(self, start: int, stop: int) -> tuple[int, int]:
+        """Where `text[start:stop]` begins in the original, and how long it is there."""
+        position = self.origin[start]
+        last = self.origin[stop - 1] if stop > start else position
+        return position, last + 1 - position
+
+
+def normalise(original: str, language: Language) -> NormalisedText:
+    """Bring a text into the one form that the grammar reads.
+
+    Raises:
+        CommandError: not a text, empty, too long, or with characters no command has.
+    """
+    _check_size(original)
+    characters: list[str] = []
+    origin: list[int] = []
+    for index, folded in _folded(original, language):
+        if folded == " " and (not characters or characters[-1] == " "):
+            continue
+        characters.append(folded)
+        origin.append(index)
+    text = "".join(characters).rstrip()
+    if not text:
+        example = language.say("through", door=language.say("door_right", ordinal="second"))
+        raise CommandError("the command is empty", hint=f'for example: "{example}"')
+    if (words := text.count(" ") + 1) > MAX_WORDS:
+        raise CommandError(f"the command has {words} words; at most {MAX_WORDS} are read")
+    end = origin[len(text) - 1] + 1
+    return NormalisedText(original, text, (*origin[: len(text)], end))
+
+
+def _check_size(original: str) -> None:
+    if not isinstance(original, str):
+        raise CommandError(f"a command is a text (str), not {type(original).__name__}")
+    if len(original) > MAX_CHARACTERS:
+        problem = f"the command has {len(original)} characters; at most {MAX_CHARACTERS} are read"
+        raise CommandError(problem)
+
+
+def _folded(original: str, language: Language) -> Iterator[tuple[int, str]]:
+    """Each character of the normalised text, with the index it comes from.
+
+    A letter is folded together with the accents that follow it, so that both ways of writing an
+    accented letter are one.
+    """
+    for cluster in _CLUSTER.finditer(original):
+        index = cluster.start()
+        first = cluster.group()[0]
+        if first in INVISIBLE:
+            continue
+        if first.isspace() and first not in "\x0b\x0c\x1c\x1d\x1e\x1f\x85":
+            yield index, " "
+            continue
+        _refuse_unseen(original, index)
+        for character in _nfkc_casefold(cluster.group()):
+            known = language.same_as.get(character, character)
+            _refuse_foreign(original, index, known, language)
+            yield index, known
+
+
+def _nfkc_casefold(text: str) -> str:
+    """Compatibility case folding (The Unicode Standard, section 3.13, definition D146)."""
+    folded = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", text).casefold())
+    return "".join(" " if c.isspace() else c for c in folded if c not in INVISIBLE)
+
+
+def _refuse_unseen(original: str, index: int) -> None:
+    character = original[index]
+    if character in REORDERING:
+        problem = f"{named(character)} can change the order in which words are shown: leave it out"
+        raise CommandError(problem, original, index)
+    if unicodedata.category(character) in ("Cc", "Cs"):
+        kind = "surrogate" if unicodedata.category(character) == "Cs" else "control character"
+        raise CommandError(f"{named(character)} is a {kind}: leave it out", original, index)
+
+
+def _refuse_foreign(original: str, index: int, character: str, language: Language) -> None:
+    if not character.isascii() and character not in language.letters:
+        shown = character if original[index].isascii() else original[index]
+        problem = f"{named(shown)} is not used in {language.name.capitalize()} commands"
+        raise CommandError(problem, original, index)
