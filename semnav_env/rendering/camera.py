@@ -1,0 +1,92 @@
+"""From metres in the world to pixels on the page, and which part of the world to show."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from semnav_env.features.frames import FloatArray, Point
+
+MARGIN = 0.4
+"""Metres left around a plan that is shown whole."""
+
+SPAN = 16.0
+"""Metres across the view where it follows the robot."""
+
+LARGEST_FIT = 1.35
+"""A plan up to this many times the span is still shown whole."""
+
+
+@dataclass(frozen=True, slots=True)
+class Viewport:
+    """A rectangle of the page, pixels: left, top, width, height."""
+
+    left: float
+    top: float
+    width: float
+    height: float
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """A similarity from the world (y up) to the page (y down).
+
+    Attributes:
+        scale: pixels per metre.
+        origin: page position of the world's origin.
+    """
+
+    scale: float
+    origin: Point
+
+    def pixels(self, points: ArrayLike) -> FloatArray:
+        """World points of shape (..., 2) as page positions."""
+        return np.asarray(points, dtype=np.float64) * (self.scale, -self.scale) + self.origin
+
+    def pixel(self, point: Point) -> Point:
+        """`pixels` for one point."""
+        return self.origin[0] + self.scale * point[0], self.origin[1] - self.scale * point[1]
+
+
+def looking_at(
+    bounds: tuple[float, float, float, float], position: Point, view: Viewport, grid: float
+) -> Camera:
+    """The whole plan where it is small, else the neighbourhood of `position`.
+
+    Args:
+        bounds: of the plan: least x, least y, greatest x, greatest y, metres.
+        position: of the robot, metres.
+        view: where on the page.
+        grid: the origin is rounded to multiples of this many pixels, so that a plan drawn once
+            can be pasted.
+    """
+    size = bounds[2] - bounds[0] + 2 * MARGIN, bounds[3] - bounds[1] + 2 * MARGIN
+    fit = min(view.width / size[0], view.height / size[1])
+    follow = view.width / SPAN
+    scale = fit if fit * LARGEST_FIT >= follow else follow
+    seen = view.width / scale, view.height / scale
+    x, y = (
+        _centre(bounds[axis] - MARGIN, bounds[axis + 2] + MARGIN, seen[axis], position[axis])
+        for axis in (0, 1)
+    )
+    return Camera(
+        scale,
+        (
+            _rounded(view.left + view.width / 2 - scale * x, grid),
+            _rounded(view.top + view.height / 2 + scale * y, grid),
+        ),
+    )
+
+
+def _centre(low: float, high: float, seen: float, wanted: float) -> float:
+    """Nearest to `wanted` without showing what lies beyond the plan."""
+    if seen >= high - low:
+        return (low + high) / 2
+    return min(max(wanted, low + seen / 2), high - seen / 2)
+
+
+def _rounded(value: float, grid: float) -> float:
+    return math.floor(value / grid + 0.5) * grid

@@ -1,0 +1,73 @@
+"""Everything one picture shows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray, Point, Pose
+from semnav_env.features.scene import Scene
+from semnav_env.grounding.goal import Goal
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.robots import RobotSpec
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """One moment of an episode, all in the world frame, metres and radians.
+
+    Attributes:
+        floor_plan: where it happens.
+        robot: the body.
+        pose: of the footprint's centre.
+        lidar: where the beams start; None draws no beams, only hits.
+        hits: where beams ended, shape (n, 2), in beam order; rows that are not finite are skipped.
+        scene: what is perceived now.
+        remembered: the memory, moved from the odometry frame to the world frame.
+        door_numbers: number to show at `remembered.doors[index]`, by index, as the command counts.
+        goal: where the active clause leads.
+        trail: past positions, oldest first, shape (k, 2).
+        route: the true route, shape (m, 2); None hides it.
+        command: the text of each clause.
+        active_clause: index into `command`; those before are done. len(command): all are done.
+        status: lines of text below the command, such as "t = 12.4 s".
+        in_contact: the body touches something.
+
+    Raises:
+        ValueError: a pose that is not finite, points that are not of shape (n, 2), or numbers for
+            doors that are not remembered.
+    """
+
+    floor_plan: FloorPlan
+    robot: RobotSpec
+    pose: Pose
+    lidar: Point | None = None
+    hits: FloatArray | None = None
+    scene: Scene = field(default_factory=Scene)
+    remembered: Scene = field(default_factory=Scene)
+    door_numbers: Mapping[int, int] = field(default_factory=dict)
+    goal: Goal | None = None
+    trail: FloatArray | None = None
+    route: FloatArray | None = None
+    command: tuple[str, ...] = ()
+    active_clause: int = 0
+    status: tuple[str, ...] = ()
+    in_contact: bool = False
+
+    def __post_init__(self) -> None:
+        """Check what would otherwise fail deep inside the drawing."""
+        if not all(math.isfinite(value) for value in self.pose):
+            raise ValueError(f"pose is {self.pose}; it must be finite")
+        for name in ("hits", "trail", "route"):
+            points = getattr(self, name)
+            if points is not None and (np.ndim(points) != 2 or np.shape(points)[1] != 2):
+                raise ValueError(f"{name} has shape {np.shape(points)}; it must be (n, 2)")
+        doors = len(self.remembered.doors)
+        if not all(0 <= index < doors for index in self.door_numbers):
+            raise ValueError(
+                f"door_numbers has the indices {list(self.door_numbers)}; "
+                f"{doors} doors are remembered"
+            )

@@ -1,0 +1,109 @@
+"""The map side of the picture: what is seen, remembered and wanted, over the floor plan."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from semnav_env.features.frames import Point
+from semnav_env.features.scene import Door, Scene
+from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.rendering import marks, palette
+from semnav_env.rendering.body import draw_body
+from semnav_env.rendering.camera import Camera, Viewport
+from semnav_env.rendering.canvas import Canvas
+from semnav_env.rendering.frame import Frame
+
+DRAWN_BEAMS = 9
+"""Every how many beams one is drawn as a line."""
+
+
+def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
+    """Everything but the floor plan, faint things first."""
+    with canvas.highlighter():
+        _draw_beams(canvas, camera, frame)
+        for wall in frame.scene.walls:
+            marks.wall_seen(canvas, camera.pixels([wall.start, wall.end]))
+        if frame.goal is not None and frame.goal.door is not None:
+            door = frame.goal.door
+            canvas.stroke(camera.pixels([door.start, door.end]), palette.GOAL_DOORWAY, 24.0)
+    _draw_lines(canvas, camera, frame)
+    _draw_remembered(canvas, camera, frame.remembered)
+    if frame.hits is not None:
+        marks.hits(canvas, camera.pixels(frame.hits))
+    _draw_seen(canvas, camera, frame.scene)
+    draw_body(canvas, camera, frame.robot, frame.pose, frame.in_contact)
+    if frame.goal is not None:
+        _draw_goal(canvas, camera, frame.goal, frame.pose[:2])
+    for index, number in frame.door_numbers.items():
+        marks.badge(canvas, _badge_place(camera, frame.remembered.doors[index]), number)
+
+
+def draw_scale_bar(canvas: Canvas, camera: Camera, view: Viewport) -> None:
+    """Two metres, at the lower left."""
+    x, y = view.left + 18, view.top + view.height - 18
+    end = x + 2.0 * camera.scale
+    canvas.stroke([(x, y), (end, y)], palette.MUTED, 2.0)
+    for tick in (x, end):
+        canvas.stroke([(tick, y - 4), (tick, y + 4)], palette.MUTED, 2.0)
+    canvas.text(((x + end) / 2, y - 11), "2 m", palette.MUTED, 11.0, centred=True)
+
+
+def _draw_beams(canvas: Canvas, camera: Camera, frame: Frame) -> None:
+    if frame.lidar is None or frame.hits is None or len(frame.hits) == 0:
+        return
+    lidar, ends = camera.pixel(frame.lidar), camera.pixels(frame.hits)
+    canvas.polygon(np.vstack((lidar, ends)), palette.FAN)
+    canvas.rays(lidar, ends[::DRAWN_BEAMS], palette.BEAM, 0.6)
+
+
+def _draw_lines(canvas: Canvas, camera: Camera, frame: Frame) -> None:
+    if frame.route is not None:
+        marks.route(canvas, camera.pixels(frame.route))
+    if frame.trail is not None:
+        marks.trail(canvas, camera.pixels(frame.trail))
+
+
+def _draw_remembered(canvas: Canvas, camera: Camera, scene: Scene) -> None:
+    for wall in scene.walls:
+        marks.wall_remembered(canvas, camera.pixels([wall.start, wall.end]))
+    for door in scene.doors:
+        marks.door_remembered(canvas, camera.pixels([door.start, door.end]))
+
+
+def _draw_seen(canvas: Canvas, camera: Camera, scene: Scene) -> None:
+    for corridor in scene.corridors:
+        marks.corridor(canvas, camera.pixel(corridor.start), camera.pixel(corridor.end))
+    for door in scene.doors:
+        marks.door_seen(canvas, camera.pixels([door.start, door.end]))
+    for corner in scene.corners:
+        marks.corner(canvas, camera.pixel(corner.point), corner.kind)
+
+
+def _badge_place(camera: Camera, door: Door) -> Point:
+    """Just behind the opening, to the right of start-end, where the scanner is not."""
+    (x1, y1), (x2, y2) = camera.pixels([door.start, door.end])
+    length = math.hypot(x2 - x1, y2 - y1) or 1.0
+    away = 2.2 * marks.BADGE_RADIUS / length
+    return (x1 + x2) / 2 - away * (y2 - y1), (y1 + y2) / 2 + away * (x2 - x1)
+
+
+def _draw_goal(canvas: Canvas, camera: Camera, goal: Goal, robot: Point) -> None:
+    foot = camera.pixel(goal.pose[:2])
+    heading = math.cos(goal.pose[2]), -math.sin(goal.pose[2])
+    if goal.kind is GoalKind.STOP:
+        canvas.polygon(marks.regular(foot, 8, 11.0, math.pi / 8), palette.GOAL)
+        return
+    start, reach = foot, 34.0
+    if goal.kind is GoalKind.PASS and goal.door is not None:
+        start = camera.pixel(goal.door.midpoint)
+    canvas.dashes([camera.pixel(robot), start], palette.GOAL, 1.0, dash=2.0, gap=5.0)
+    tip = foot[0] + reach * heading[0], foot[1] + reach * heading[1]
+    marks.arrow(canvas, start, tip, palette.GOAL)
+    if goal.kind is GoalKind.SEEK:
+        canvas.discs([foot], 11.0, palette.WHITE)
+        canvas.ring(foot, 10.0, palette.GOAL, 2.0)
+        canvas.text(foot, "?", palette.GOAL, 14.0, bold=True, centred=True)
+    else:
+        marks.flag(canvas, foot)

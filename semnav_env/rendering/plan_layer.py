@@ -1,0 +1,136 @@
+"""The floor plan: the quiet background that is drawn once and pasted into every picture."""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+from shapely import Polygon
+
+from semnav_env.maps.floor_plan import FloorPlan, Material, Region, Surface
+from semnav_env.rendering import marks, palette
+from semnav_env.rendering.camera import Camera, Viewport
+from semnav_env.rendering.canvas import Canvas, Sheet
+
+TILE = 512
+"""Fine pixels along one side of the squares that a plan is drawn in."""
+
+SOLID_AREA = 2.0
+"""Square metres up to which a closed wall is a pillar, not the outline of a room."""
+
+WALL_WIDTH = 0.07
+"""Metres that a wall's line is wide, where that is more than two units of the page."""
+
+
+class PlanLayer:
+    """A plan at one scale, drawn tile by tile as they come into view.
+
+    Args:
+        floor_plan: what to draw.
+        scale: units of the page per metre.
+        zoom: fine pixels per unit.
+    """
+
+    def __init__(self, floor_plan: FloorPlan, scale: float, zoom: float) -> None:
+        self.floor_plan, self.scale, self.zoom = floor_plan, scale, zoom
+        self._tile = functools.lru_cache(64)(self._drawn_tile)
+
+    def paste_onto(self, canvas: Canvas, camera: Camera, view: Viewport) -> None:
+        """Fill the view; the camera's origin must lie on a fine pixel."""
+        origin = round(camera.origin[0] * self.zoom), round(camera.origin[1] * self.zoom)
+        spans = (view.left, view.width), (view.top, view.height)
+        columns, rows = (
+            range(
+                math.floor((start * self.zoom - offset) / TILE),
+                math.ceil(((start + length) * self.zoom - offset) / TILE),
+            )
+            for (start, length), offset in zip(spans, origin, strict=True)
+        )
+        for column in columns:
+            for row in rows:
+                at = origin[0] + column * TILE, origin[1] + row * TILE
+                canvas.paste(self._tile(column, row), at)
+
+    def _drawn_tile(self, column: int, row: int) -> Sheet:
+        sheet = Sheet((TILE, TILE), self.zoom)
+        side = TILE / self.zoom
+        camera = Camera(self.scale, (-column * side, -row * side))
+        draw_plan(sheet, camera, self.floor_plan)
+        draw_names(sheet, camera, self.floor_plan)
+        return sheet
+
+
+def draw_plan(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
+    """Regions, doorways and everything solid."""
+    sheet.fill(palette.OUTSIDE)
+    _draw_area(sheet, camera, plan.boundary, palette.FLOOR)
+    tints = (
+        (plan.rooms, palette.ROOM),
+        (plan.corridors, palette.CORRIDOR),
+        (plan.intersections, palette.INTERSECTION),
+    )
+    for regions, tint in tints:
+        for region in regions:
+            _draw_area(sheet, camera, region.polygon, tint)
+    for door in plan.doors:
+        line = camera.pixels([door.start, door.end])
+        if door.open:
+            sheet.dashes(line, palette.THRESHOLD, 1.2, dash=3.0, gap=3.0)
+        else:
+            sheet.stroke(line, palette.LEAF, 3.0)
+    for surface in sorted(plan.surfaces, key=_drawing_order):
+        _draw_surface(sheet, camera, surface)
+
+
+def draw_names(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
+    """The names of the regions that are large enough to hold them."""
+    for region in (*plan.rooms, *plan.corridors, *plan.intersections):
+        name = region.name.replace("_", " ")
+        x1, _, x2, _ = region.polygon.bounds
+        if sheet.text_width(name, 10.5) < 0.8 * camera.scale * (x2 - x1):
+            sheet.engrave(camera.pixel(_label_point(region)), name, palette.NAME, 10.5)
+
+
+def _label_point(region: Region) -> tuple[float, float]:
+    point = region.polygon.representative_point()
+    return float(point.x), float(point.y)
+
+
+def _draw_area(sheet: Sheet, camera: Camera, area: Polygon, colour: palette.Colour) -> None:
+    if not area.is_empty:
+        sheet.polygon(camera.pixels(np.asarray(area.exterior.coords)[:, :2]), colour)
+
+
+def _drawing_order(surface: Surface) -> tuple[bool, bool]:
+    return surface.material is not Material.FURNITURE, not surface.assumed
+
+
+def _draw_surface(sheet: Sheet, camera: Camera, surface: Surface) -> None:
+    line = camera.pixels(surface.points)
+    thick = max(2.2, WALL_WIDTH * camera.scale)
+    match surface.material:
+        case Material.WALL if surface.assumed:
+            sheet.dashes(line, palette.ASSUMED, 1.6)
+        case Material.WALL:
+            if _is_solid(surface):
+                sheet.polygon(line, palette.ASSUMED)
+            sheet.stroke(line, palette.WALL, thick)
+        case Material.GLASS:
+            marks.glass(sheet, line, thick)
+        case Material.LEAF:
+            sheet.stroke(line, palette.LEAF, thick)
+        case Material.FURNITURE:
+            _draw_furniture(sheet, line, surface)
+
+
+def _draw_furniture(sheet: Sheet, line: ArrayLike, surface: Surface) -> None:
+    if surface.points[0] == surface.points[-1]:
+        sheet.polygon(line, palette.FURNITURE)
+    sheet.stroke(line, palette.ASSUMED, 1.5)
+
+
+def _is_solid(surface: Surface) -> bool:
+    closed = len(surface.points) >= 4 and surface.points[0] == surface.points[-1]
+    return closed and Polygon(surface.points).area <= SOLID_AREA

@@ -1,0 +1,136 @@
+"""Saving pictures and films."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+Picture = NDArray[np.uint8]
+
+SAMPLES = 12
+"""Frames that the shared palette of a GIF is chosen from."""
+
+FASTEST_GIF = 50.0
+"""Frames per second; viewers slow down films whose frames last less than 20 ms."""
+
+
+def save_video(path: str | Path, frames: Sequence[Picture], fps: float, scale: float = 1.0) -> Path:
+    """Save frames as the suffix says: .gif, .mp4, or .png, which holds the last frame.
+
+    Args:
+        path: where to; missing folders are made.
+        frames: each of shape (height, width, 3), all alike.
+        fps: frames per second.
+        scale: of the saved picture to the frames, at most 1.
+
+    Returns:
+        The path.
+
+    Raises:
+        ValueError: an unknown suffix, no frames, frames that are not alike, or bad numbers.
+        ImportError: .mp4 without imageio and PyAV.
+    """
+    path = Path(path)
+    match path.suffix.lower():
+        case ".gif":
+            return save_gif(path, frames, fps, scale)
+        case ".mp4":
+            return save_mp4(path, frames, fps, scale)
+        case ".png" if len(frames):
+            return save_png(path, frames[-1], scale)
+        case ".png":
+            raise ValueError(f"there are no frames to save as {path}")
+    raise ValueError(f"cannot save {path.name!r}; the name must end in .gif, .mp4 or .png")
+
+
+def save_png(path: str | Path, frame: Picture, scale: float = 1.0) -> Path:
+    """Save one picture; see `save_video`."""
+    target = _prepared(path, [frame], 1.0, scale)
+    _image(frame, scale).save(target, optimize=True)
+    return target
+
+
+def save_gif(path: str | Path, frames: Sequence[Picture], fps: float, scale: float = 1.0) -> Path:
+    """Save a film that loops, with one palette for all frames; see `save_video`.
+
+    Frames that are equal to the one before are stored as a longer duration of it.
+    """
+    if fps > FASTEST_GIF:
+        raise ValueError(f"fps is {fps}; a GIF shows at most {FASTEST_GIF:g}")
+    target = _prepared(path, frames, fps, scale)
+    palette = _shared_palette(frames, scale)
+    images = (
+        _image(frame, scale).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames
+    )
+    first = next(images)
+    first.save(
+        target,
+        save_all=True,
+        append_images=images,
+        duration=_durations(len(frames), fps),
+        loop=0,
+        optimize=False,  # would give every frame its own palette
+        disposal=1,
+    )
+    return target
+
+
+def save_mp4(path: str | Path, frames: Sequence[Picture], fps: float, scale: float = 1.0) -> Path:
+    """Save a film as H.264; see `save_video`. An odd last row or column is cut off."""
+    target = _prepared(path, frames, fps, scale)
+    try:
+        importlib.import_module("av")
+        imageio: Any = importlib.import_module("imageio.v3")
+    except ImportError as error:
+        raise ImportError(
+            '.mp4 needs imageio and PyAV: pip install "semnav-env[render]", or save a .gif'
+        ) from error
+    with imageio.imopen(target, "w", plugin="pyav") as film:
+        film.init_video_stream("libx264", fps=fps)
+        for frame in frames:
+            pixels = np.asarray(_image(frame, scale))
+            film.write_frame(pixels[: len(pixels) // 2 * 2, : pixels.shape[1] // 2 * 2])
+    return target
+
+
+def _prepared(path: str | Path, frames: Sequence[Picture], fps: float, scale: float) -> Path:
+    """Check what is asked for and make the folder."""
+    if len(frames) == 0:
+        raise ValueError(f"there are no frames to save as {path}")
+    shapes = {np.shape(frame) for frame in frames}
+    if len(shapes) > 1 or len(shape := shapes.pop()) != 3 or shape[2] != 3:
+        raise ValueError("all frames must have one shape, (height, width, 3)")
+    if not 0 < scale <= 1:
+        raise ValueError(f"scale is {scale}; it must be above 0 and at most 1")
+    if not 0 < fps < float("inf"):
+        raise ValueError(f"fps is {fps}; it must be positive")
+    target = Path(path)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    return target
+
+
+def _image(frame: Picture, scale: float) -> Image.Image:
+    image = Image.fromarray(np.ascontiguousarray(frame, dtype=np.uint8))
+    if scale == 1:
+        return image
+    size = max(1, round(image.width * scale)), max(1, round(image.height * scale))
+    return image.resize(size, Image.Resampling.LANCZOS)
+
+
+def _shared_palette(frames: Sequence[Picture], scale: float) -> Image.Image:
+    """255 colours of frames from the whole film; one is left to mark unchanged pixels."""
+    chosen = np.linspace(0, len(frames) - 1, min(SAMPLES, len(frames))).round().astype(int)
+    montage = np.concatenate([np.asarray(_image(frames[index], scale)) for index in chosen])
+    return Image.fromarray(montage).quantize(255, Image.Quantize.MEDIANCUT)
+
+
+def _durations(count: int, fps: float) -> list[int]:
+    """Milliseconds of each frame, in whole hundredths of a second that do not drift."""
+    ends = np.round(100.0 * np.arange(count + 1) / fps).astype(int)
+    return [int(value) for value in 10 * np.diff(ends)]

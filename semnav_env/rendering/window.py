@@ -1,0 +1,49 @@
+"""The window of `render_mode="human"`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from semnav_env.rendering.backend import load_pygame
+
+
+class Window:
+    """A window that shows finished pages at a steady rate.
+
+    Args:
+        size: pixels, (width, height).
+        title: for its frame.
+        fps: pages per second that `present` slows down to.
+
+    Raises:
+        RuntimeError: there is no display.
+    """
+
+    def __init__(self, size: tuple[int, int], title: str, fps: float) -> None:
+        self._pygame, self._fps = load_pygame(), fps
+        try:
+            self._pygame.display.init()
+            self._screen = self._pygame.display.set_mode(size)
+        except self._pygame.error as error:
+            raise RuntimeError(
+                f'render_mode="human" needs a display ({error}); "rgb_array" needs none'
+            ) from error
+        self._pygame.display.set_caption(title)
+        self._clock = self._pygame.time.Clock()
+        self.is_open = True
+
+    def present(self, page: Any) -> bool:
+        """Show a page, then wait for the next one's time; False once the user closed the window."""
+        if self.is_open and self._pygame.event.get(self._pygame.QUIT):
+            self.close()
+        if self.is_open:
+            self._screen.blit(page, (0, 0))
+            self._pygame.display.flip()
+            self._clock.tick(self._fps)
+        return self.is_open
+
+    def close(self) -> None:
+        """Take the window away; more than once does nothing."""
+        if self.is_open:
+            self.is_open = False
+            self._pygame.display.quit()
