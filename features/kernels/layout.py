@@ -12,8 +12,11 @@ START_RUPTURE, END_RUPTURE, START_BREAK, END_BREAK = 1, 2, 4, 8
 
 _ENDS = [("start_x", "f8"), ("start_y", "f8"), ("end_x", "f8"), ("end_y", "f8")]
 
-WALL = np.dtype([*_ENDS, ("residual", "f8"), ("first", "i8"), ("last", "i8"), ("flags", "i8")])
-"""A wall; `first` and `last` are the beam indices of its end points (inclusive)."""
+WALL = np.dtype(
+    [*_ENDS, ("residual", "f8"), ("first", "i8"), ("last", "i8"), ("flags", "i8"), ("points", "i8")]
+)
+"""A wall; `first` and `last` are the beam indices of its end points (inclusive), `points` how
+many beams support it."""
 
 DOOR = np.dtype(_ENDS)
 CORNER = np.dtype([("x", "f8"), ("y", "f8"), ("kind", "i8")])

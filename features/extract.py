@@ -1,0 +1,99 @@
+"""From a scan to a scene."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.chain import extract_arrays
+from semnav_env.features.kernels.layout import (
+    CORNERS,
+    CORRIDORS,
+    DOORS,
+    END_BREAK,
+    END_RUPTURE,
+    START_BREAK,
+    START_RUPTURE,
+    WALLS,
+)
+from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
+from semnav_env.features.scan import Scan
+from semnav_env.features.scene import Corner, CornerKind, Corridor, Door, Scene, Wall
+from semnav_env.features.settings import ExtractorSettings
+
+DEFAULT_SETTINGS = ExtractorSettings()
+
+
+def extract(scan: Scan, settings: ExtractorSettings = DEFAULT_SETTINGS) -> Scene:
+    """Walls, doors, corners and corridors of a scan, in the lidar frame.
+
+    Beams beyond one full turn are left out. In a full-circle scan a wall across the first beam
+    is found as two.
+
+    Args:
+        scan: one sweep of a lidar.
+        settings: every limit of the chain.
+
+    Returns:
+        The scene, features in beam order; empty where the scan says nothing.
+    """
+    directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
+    beams = len(directions)
+    features = allocate_features()
+    extract_arrays(
+        scan.ranges[:beams].copy(),
+        directions,
+        scan.angle_increment,
+        scan.range_min,
+        scan.range_max,
+        _record(settings),
+        allocate_scratch(beams),
+        *features,
+    )
+    return to_scene(features)
+
+
+@lru_cache(maxsize=16)
+def beam_directions(beams: int, angle_min: float, angle_increment: float) -> FloatArray:
+    """Cosine and sine of every beam of at most one full turn, shape (n, 2); do not write."""
+    turn = int(2.0 * math.pi / angle_increment * (1.0 + 1e-9)) + 1 if angle_increment else beams
+    angles = angle_min + angle_increment * np.arange(min(beams, turn))
+    return np.stack((np.cos(angles), np.sin(angles)), axis=1)
+
+
+def to_scene(features: Features) -> Scene:
+    """The used entries of the kernels' arrays as a scene."""
+    counts = features.counts.tolist()
+    return Scene(
+        tuple(_wall(row) for row in features.walls[: counts[WALLS]].tolist()),
+        tuple(Door(row[:2], row[2:]) for row in features.doors[: counts[DOORS]].tolist()),
+        tuple(
+            Corner(row[:2], CornerKind(row[2]))
+            for row in features.corners[: counts[CORNERS]].tolist()
+        ),
+        tuple(
+            Corridor(row[:2], row[2:]) for row in features.corridors[: counts[CORRIDORS]].tolist()
+        ),
+    )
+
+
+def _wall(row: tuple[float, float, float, float, float, int, int, int, int]) -> Wall:
+    flags = row[7]
+    return Wall(
+        start=row[:2],
+        end=row[2:4],
+        start_rupture=bool(flags & START_RUPTURE),
+        end_rupture=bool(flags & END_RUPTURE),
+        start_break=bool(flags & START_BREAK),
+        end_break=bool(flags & END_BREAK),
+        beams=row[8],
+        residual=row[4],
+    )
+
+
+@lru_cache(maxsize=16)
+def _record(settings: ExtractorSettings) -> np.ndarray:
+    return settings.as_record()

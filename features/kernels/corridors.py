@@ -1,0 +1,166 @@
+"""Corridors: probes from corners that end square on another wall."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.corners import INNER, OUTER
+from semnav_env.features.kernels.segmentation import is_return
+
+
+@njit(cache=True, error_model="numpy")
+def find_corridors(
+    ranges: FloatArray,
+    directions: FloatArray,
+    increment: float,
+    range_min: float,
+    limit: float,
+    walls: int,
+    corner_count: int,
+    settings: Any,
+    scratch: Any,
+    corners: np.ndarray,
+    corridors: np.ndarray,
+) -> int:
+    """Probe from inner and potential corners (Barbret sections 3.3, 4.8).
+
+    An inner corner is probed along the extensions of its two walls; a potential corner
+    straight on from its wall (180 degrees) and across from it (90 degrees). The nearest wall
+    that the probe meets counts and no other.
+
+    Returns:
+        How many corridors were written.
+    """
+    found = 0
+    for c in range(corner_count):
+        corner = corners[c]
+        if corner.kind == OUTER or math.hypot(corner.x, corner.y) > (
+            settings.corridor_distance_max + 0.5 * settings.corridor_probe
+        ):
+            continue
+        ending, starting = scratch.corner_ends[c, 0], scratch.corner_ends[c, 1]
+        for probe in range(2):
+            along_x, along_y = probe_direction(corner.kind, ending, starting, probe, scratch)
+            reach = nearest_wall(
+                corner.x, corner.y, along_x, along_y, ending, starting, walls, settings, scratch
+            )
+            if reach < 0.0 or found == len(corridors):
+                continue
+            entry = corridors[found]
+            entry.start_x, entry.start_y = corner.x, corner.y
+            entry.end_x, entry.end_y = corner.x + reach * along_x, corner.y + reach * along_y
+            if (
+                is_in_reach(entry, settings)
+                and is_seen(entry, ranges, directions, increment, range_min, limit)
+                and is_new(entry, found, corridors, settings)
+            ):
+                found += 1
+    return found
+
+
+@njit(cache=True, error_model="numpy")
+def probe_direction(
+    kind: int, ending: int, starting: int, probe: int, scratch: Any
+) -> tuple[float, float]:
+    """Unit direction of a corner's first or second probe."""
+    if kind == INNER:
+        wall = scratch.pieces[scratch.wall_piece[ending if probe == 0 else starting]]
+        sense = 1.0 if probe == 0 else -1.0
+        return sense * wall.along_x, sense * wall.along_y
+    wall = scratch.pieces[scratch.wall_piece[max(ending, starting)]]
+    if probe == 1:
+        return -wall.along_y, wall.along_x
+    sense = 1.0 if ending >= 0 else -1.0
+    return sense * wall.along_x, sense * wall.along_y
+
+
+@njit(cache=True, error_model="numpy")
+def nearest_wall(
+    x: float,
+    y: float,
+    along_x: float,
+    along_y: float,
+    ending: int,
+    starting: int,
+    walls: int,
+    settings: Any,
+    scratch: Any,
+) -> float:
+    """Distance along a probe to the first wall it meets, or -1.
+
+    -1 too if that wall is met from behind or too far from square, or beyond the probe.
+    """
+    nearest = settings.corridor_probe
+    square = math.cos(settings.corridor_angle_tolerance)
+    met = False
+    for k in range(walls):
+        if k in (ending, starting):
+            continue
+        wall = scratch.pieces[scratch.wall_piece[k]]
+        facing = along_y * wall.along_x - along_x * wall.along_y
+        dx, dy = wall.start_x - x, wall.start_y - y
+        reach = (dy * wall.along_x - dx * wall.along_y) / facing if facing != 0.0 else -1.0
+        if reach <= 0.0 or reach > nearest:
+            continue
+        place = reach * (along_x * wall.along_x + along_y * wall.along_y)
+        place -= dx * wall.along_x + dy * wall.along_y
+        dx, dy = wall.end_x - wall.start_x, wall.end_y - wall.start_y
+        length = math.sqrt(dx * dx + dy * dy)
+        slack = settings.corridor_wall_slack
+        if place >= -slack and place <= length + slack:
+            nearest = reach
+            met = facing <= -square
+    return nearest if met else -1.0
+
+
+@njit(cache=True, error_model="numpy")
+def is_in_reach(entry: Any, settings: Any) -> bool:
+    """Whether the corridor is wide enough and its midpoint neither too near nor too far."""
+    width = math.hypot(entry.end_x - entry.start_x, entry.end_y - entry.start_y)
+    away = 0.5 * math.hypot(entry.start_x + entry.end_x, entry.start_y + entry.end_y)
+    return (
+        width >= 2.0 * settings.corridor_half_width
+        and away >= settings.corridor_distance_min
+        and away <= settings.corridor_distance_max
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def is_seen(
+    entry: Any,
+    ranges: FloatArray,
+    directions: FloatArray,
+    increment: float,
+    range_min: float,
+    limit: float,
+) -> bool:
+    """Whether a beam passes over the midpoint, so that it lies in free space."""
+    x, y = 0.5 * (entry.start_x + entry.end_x), 0.5 * (entry.start_y + entry.end_y)
+    angle = math.atan2(
+        directions[0, 0] * y - directions[0, 1] * x, directions[0, 0] * x + directions[0, 1] * y
+    )
+    if angle < -0.5 * increment:
+        angle += 2.0 * math.pi
+    beam = int(angle / increment + 0.5)
+    if beam >= len(ranges):
+        return False
+    distance = ranges[beam]
+    return not is_return(distance, range_min, limit) or distance > math.hypot(x, y)
+
+
+@njit(cache=True, error_model="numpy")
+def is_new(entry: Any, found: int, corridors: np.ndarray, settings: Any) -> bool:
+    """Whether no corridor found so far has its midpoint within half the least width."""
+    least = settings.corridor_half_width
+    for k in range(found):
+        other = corridors[k]
+        dx = other.start_x + other.end_x - entry.start_x - entry.end_x
+        dy = other.start_y + other.end_y - entry.start_y - entry.end_y
+        if dx * dx + dy * dy < (2.0 * least) ** 2:
+            return False
+    return True

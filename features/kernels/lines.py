@@ -1,0 +1,140 @@
+"""Straight pieces of a group of points: iterative end-point fit and total least squares."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from numba import njit
+
+from semnav_env.features.frames import FloatArray
+
+
+@njit(cache=True, error_model="numpy")
+def split(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float, scratch: Any) -> int:
+    """Iterative end-point fit (Barbret section 2.4.4), with a stack instead of recursion.
+
+    Points first to last are cut at the point farthest from the chord until none is farther
+    than `limit`.
+
+    Returns:
+        How many indices were written to `scratch.vertices`: first, every cut, last.
+    """
+    stack, vertices = scratch.stack, scratch.vertices
+    vertices[0] = start = first
+    count = 1
+    stack[0] = last
+    height = 1
+    while height > 0:
+        end = stack[height - 1]
+        cut = farthest(xs, ys, start, end, limit)
+        if cut > 0:
+            stack[height] = cut
+            height += 1
+        else:
+            height -= 1
+            vertices[count] = start = end
+            count += 1
+    return count
+
+
+@njit(cache=True, error_model="numpy")
+def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float) -> int:
+    """The inner point farthest from the chord (Barbret (1.4)), or -1 if all are within limit."""
+    x, y = xs[first], ys[first]
+    dx, dy = xs[last] - x, ys[last] - y
+    offset = dx * y - dy * x
+    best = limit * math.sqrt(dx * dx + dy * dy)
+    found = -1
+    for i in range(first + 1, last):
+        distance = abs(dx * ys[i] - dy * xs[i] - offset)
+        if distance > best:
+            best = distance
+            found = i
+    return found
+
+
+@njit(cache=True, error_model="numpy")
+def gather(xs: FloatArray, ys: FloatArray, first: int, last: int, piece: Any) -> None:
+    """Mean and central second-moment sums of points first to last (inclusive)."""
+    x0, y0 = xs[first], ys[first]
+    sx = sy = sxx = sxy = syy = 0.0
+    for i in range(first, last + 1):
+        dx, dy = xs[i] - x0, ys[i] - y0
+        sx += dx
+        sy += dy
+        sxx += dx * dx
+        sxy += dx * dy
+        syy += dy * dy
+    count = last - first + 1
+    piece.points, piece.first, piece.last = count, first, last
+    piece.mean_x, piece.mean_y = x0 + sx / count, y0 + sy / count
+    piece.xx = sxx - sx * sx / count
+    piece.xy = sxy - sx * sy / count
+    piece.yy = syy - sy * sy / count
+
+
+@njit(cache=True, error_model="numpy")
+def add_point(xs: FloatArray, ys: FloatArray, piece: Any, index: int) -> None:
+    """Add the point just before or after a piece to its moments."""
+    dx, dy = xs[index] - piece.mean_x, ys[index] - piece.mean_y
+    count = piece.points + 1
+    weight = piece.points / count
+    piece.xx += weight * dx * dx
+    piece.xy += weight * dx * dy
+    piece.yy += weight * dy * dy
+    piece.mean_x += dx / count
+    piece.mean_y += dy / count
+    piece.points = count
+    piece.first, piece.last = min(piece.first, index), max(piece.last, index)
+
+
+@njit(cache=True, error_model="numpy")
+def absorb(piece: Any, other: Any) -> None:
+    """Add the points of `other` to the moments of `piece` (the parallel-axis theorem)."""
+    count = piece.points + other.points
+    dx, dy = other.mean_x - piece.mean_x, other.mean_y - piece.mean_y
+    weight = piece.points * other.points / count
+    piece.xx += other.xx + weight * dx * dx
+    piece.xy += other.xy + weight * dx * dy
+    piece.yy += other.yy + weight * dy * dy
+    piece.mean_x += dx * other.points / count
+    piece.mean_y += dy * other.points / count
+    piece.points = count
+    piece.first = min(piece.first, other.first)
+    piece.last = max(piece.last, other.last)
+
+
+@njit(cache=True, error_model="numpy")
+def fit(xs: FloatArray, ys: FloatArray, piece: Any) -> None:
+    """Total least squares line through a piece, and its ends projected on that line.
+
+    The direction is the major axis of the second moments, pointing from the first point to
+    the last: beams run counter-clockwise, so the scanner is on its left.
+    """
+    difference, double = piece.xx - piece.yy, 2.0 * piece.xy
+    size = math.sqrt(difference * difference + double * double)
+    along_x, along_y = 1.0, 0.0
+    if size > 0.0 and difference >= 0.0:
+        along_x = math.sqrt(0.5 * (1.0 + difference / size))
+        along_y = piece.xy / (size * along_x)
+    elif size > 0.0:
+        along_y = math.sqrt(0.5 * (1.0 - difference / size))
+        along_x = piece.xy / (size * along_y)
+    first, last = piece.first, piece.last
+    if (xs[last] - xs[first]) * along_x + (ys[last] - ys[first]) * along_y < 0.0:
+        along_x, along_y = -along_x, -along_y
+    piece.along_x, piece.along_y = along_x, along_y
+    piece.spread = 0.5 * (piece.xx + piece.yy + size)
+    piece.scatter = max(0.5 * (piece.xx + piece.yy - size), 0.0)
+    mean_x, mean_y = piece.mean_x, piece.mean_y
+    start = (xs[first] - mean_x) * along_x + (ys[first] - mean_y) * along_y
+    end = (xs[last] - mean_x) * along_x + (ys[last] - mean_y) * along_y
+    piece.start_x, piece.start_y = mean_x + start * along_x, mean_y + start * along_y
+    piece.end_x, piece.end_y = mean_x + end * along_x, mean_y + end * along_y
+
+
+@njit(cache=True, error_model="numpy")
+def offset(piece: Any, x: float, y: float) -> float:
+    """Signed distance of a point from a piece's line, metres; positive on its left."""
+    return piece.along_x * (y - piece.mean_y) - piece.along_y * (x - piece.mean_x)

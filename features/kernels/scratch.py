@@ -1,0 +1,100 @@
+"""Working memory of the extraction kernels, allocated once per scanner."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.layout import CAPACITY, CORNER, CORRIDOR, DOOR, WALL
+
+PIECE = np.dtype(
+    [(name, "f8") for name in ("mean_x", "mean_y", "xx", "xy", "yy", "along_x", "along_y")]
+    + [(name, "f8") for name in ("spread", "scatter", "start_x", "start_y", "end_x", "end_y")]
+    + [(name, "i8") for name in ("points", "first", "last", "flags", "wall")]
+)
+"""A straight piece of the scan: `mean` and central second-moment sums `xx`, `xy`, `yy` of its
+points, unit direction `along`, sums of squares along (`spread`) and across (`scatter`) the line,
+projected ends, first and last point, `flags` as in `layout`, and its wall's index or -1."""
+
+CANDIDATE = np.dtype(
+    [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y", "score")] + [("state", "i8")]
+)
+"""A possible door; `state` is 0 open, 1 kept, 2 suppressed."""
+
+DOOR_CANDIDATES = 128
+
+
+class Scratch(NamedTuple):
+    """Working memory for scans of up to n beams; contents do not matter between calls.
+
+    Attributes:
+        xs: x of the valid points in beam order, metres, shape (n,).
+        ys: y of the valid points, shape (n,).
+        beams: their beam indices, shape (n,).
+        group_first: first point of each connected group, shape (n + 1,).
+        stack: split points still to be visited, shape (n,).
+        vertices: the break points of one group, shape (n + 1,).
+        pieces: straight pieces, dtype `PIECE`, shape (n,).
+        candidates: possible doors, dtype `CANDIDATE`.
+        wall_piece: the piece of each wall, shape of the wall array.
+        corner_ends: the walls that end and start at each corner or -1, two columns.
+    """
+
+    xs: FloatArray
+    ys: FloatArray
+    beams: NDArray[np.int64]
+    group_first: NDArray[np.int64]
+    stack: NDArray[np.int64]
+    vertices: NDArray[np.int64]
+    pieces: np.ndarray
+    candidates: np.ndarray
+    wall_piece: NDArray[np.int64]
+    corner_ends: NDArray[np.int64]
+
+
+class Features(NamedTuple):
+    """Arrays the kernels write a scene into; see `layout`.
+
+    Attributes:
+        walls: dtype `WALL`.
+        doors: dtype `DOOR`.
+        corners: dtype `CORNER`.
+        corridors: dtype `CORRIDOR`.
+        counts: how many of each are used, shape (4,), int64.
+    """
+
+    walls: np.ndarray
+    doors: np.ndarray
+    corners: np.ndarray
+    corridors: np.ndarray
+    counts: NDArray[np.int64]
+
+
+def allocate_scratch(beams: int) -> Scratch:
+    """Working memory for scans of up to that many beams."""
+    return Scratch(
+        xs=np.zeros(beams),
+        ys=np.zeros(beams),
+        beams=np.zeros(beams, np.int64),
+        group_first=np.zeros(beams + 1, np.int64),
+        stack=np.zeros(beams, np.int64),
+        vertices=np.zeros(beams + 1, np.int64),
+        pieces=np.zeros(beams, PIECE),
+        candidates=np.zeros(DOOR_CANDIDATES, CANDIDATE),
+        wall_piece=np.zeros(CAPACITY["walls"], np.int64),
+        corner_ends=np.zeros((CAPACITY["corners"], 2), np.int64),
+    )
+
+
+def allocate_features() -> Features:
+    """Empty arrays of the standard capacity."""
+    return Features(
+        walls=np.zeros(CAPACITY["walls"], WALL),
+        doors=np.zeros(CAPACITY["doors"], DOOR),
+        corners=np.zeros(CAPACITY["corners"], CORNER),
+        corridors=np.zeros(CAPACITY["corridors"], CORRIDOR),
+        counts=np.zeros(4, np.int64),
+    )

@@ -1,0 +1,165 @@
+"""Every limit of the feature extractor, with its unit and where it comes from."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import astuple, dataclass, fields
+
+import numpy as np
+
+_RECORD_TYPES = {"float": "f8", "int": "i8", "bool": "?"}
+
+
+@dataclass(frozen=True)
+class ExtractorSettings:
+    """Limits of the chain from a scan to a scene. Lengths in metres, angles in radians.
+
+    "Thesis" is Barbret 2021. Defaults without a source were chosen by measurement on simulated
+    office corridors with sigma 20 mm.
+
+    Attributes:
+        rupture_range: a longer range counts as no return, metres (thesis (2.1): 6; the
+            TiM561 reaches 10, and doors and junctions beyond 6 m are worth having).
+        sigma: standard deviation of a range, metres (TiM561 data sheet: 0.02).
+        breakpoint_angle: lambda of the adaptive breakpoint, the flattest incidence at which
+            neighbouring points are still joined, radians (thesis (2.3), 10 degrees).
+        dropout_beams: so many missing returns in a row do not end a wall.
+        split_distance: a point farther from the chord splits a segment, metres (thesis: 0.06;
+            here four standard deviations).
+        wall_beams: fewest beams of a wall (thesis: 3).
+        wall_length: shortest wall, metres.
+        merge_gap: widest gap that two collinear walls are joined across, metres; nothing that
+            is wanted as a wall has a gap that a robot could pass.
+        merge_offset: a step between two walls that is still taken for one wall, metres.
+        confidence: how many standard deviations of a line fit are tolerated.
+        door_width_min: narrowest door, metres (thesis section 3.1: 0.8).
+        door_width_max: widest door, metres (thesis section 3.1: 1.2).
+        door_width_tolerance: added to both limits, metres; on top of it each jamb may lie one
+            beam spacing inside the gap that was measured.
+        door_angle_tolerance: angle between a door and its wall on top of the fit's own
+            uncertainty, radians (thesis: 2 degrees in all; walls drawn or built a few centimetres
+            off need more).
+        door_offset_tolerance: distance from the line of a wall to the jamb at its end, on top
+            of the fit's uncertainty, metres.
+        door_point_tolerance: the same for the jamb across the opening, metres.
+        door_wall_gap: a supporting wall may end this far before the jamb, metres; door frames
+            break the fit.
+        door_line_error: a wall supports a door only if `confidence` standard deviations of its
+            line at the jamb across stay below this, metres.
+        door_depth: beams through the opening reach this far beyond its chord, along the beam,
+            metres. Along the beam rather than across the chord, so that an open leaf seen
+            through a grazing gap does not hide the door.
+        door_clear_fraction: share of the beams between the jambs that must do so.
+        door_beams: fewest beams through an opening.
+        jamb_beams: fewest beams of what counts as a jamb.
+        one_sided_doors: accept a wall on one side and only a jamb on the other.
+        corner_angle: smallest turn between two walls that is a corner, radians (thesis: 50
+            degrees).
+        corner_gap: walls whose ends are this close are extended to their corner, metres.
+        corridor_probe: how far a corner is probed for an opposite wall, metres (thesis 3.3).
+        corridor_wall_slack: a probed wall may end this far beside the probe, metres.
+        corridor_angle_tolerance: how far from square a probe may meet a wall, radians.
+        corridor_half_width: least distance from the midpoint to its corner, metres (thesis
+            4.8: 0.3).
+        corridor_distance_min: least distance from the scanner to a midpoint, metres (thesis
+            4.8: 0.5).
+        corridor_distance_max: largest distance from the scanner to a midpoint, metres (thesis
+            4.8: 3).
+
+    Raises:
+        ValueError: a limit is out of its range; the message names it and its range.
+    """
+
+    rupture_range: float = 10.0
+    sigma: float = 0.02
+    breakpoint_angle: float = math.radians(10.0)
+    dropout_beams: int = 2
+    split_distance: float = 0.08
+    wall_beams: int = 5
+    wall_length: float = 0.2
+    merge_gap: float = 0.3
+    merge_offset: float = 0.015
+    confidence: float = 2.0
+    door_width_min: float = 0.8
+    door_width_max: float = 1.2
+    door_width_tolerance: float = 0.05
+    door_angle_tolerance: float = math.radians(4.0)
+    door_offset_tolerance: float = 0.03
+    door_point_tolerance: float = 0.05
+    door_wall_gap: float = 0.4
+    door_line_error: float = 0.1
+    door_depth: float = 0.3
+    door_clear_fraction: float = 0.6
+    door_beams: int = 3
+    jamb_beams: int = 2
+    one_sided_doors: bool = True
+    corner_angle: float = math.radians(50.0)
+    corner_gap: float = 0.3
+    corridor_probe: float = 2.5
+    corridor_wall_slack: float = 0.2
+    corridor_angle_tolerance: float = math.radians(30.0)
+    corridor_half_width: float = 0.3
+    corridor_distance_min: float = 0.5
+    corridor_distance_max: float = 6.0
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            low, high = _LIMITS.get(field.name, _LENGTH)
+            value = _checked_number(field.name, getattr(self, field.name), str(field.type))
+            if not low <= value <= high:
+                raise ValueError(f"{field.name} is {value}; it must be from {low:g} to {high:g}")
+            object.__setattr__(self, field.name, value)
+        for small, large in _ORDER:
+            if getattr(self, small) > getattr(self, large):
+                raise ValueError(
+                    f"{small} is {getattr(self, small)}; it must not exceed {large}, "
+                    f"which is {getattr(self, large)}"
+                )
+
+    def as_record(self) -> np.ndarray:
+        """The settings as the kernels take them: a structured array of shape (1,)."""
+        return np.array([astuple(self)], dtype=RECORD)
+
+
+def _checked_number(name: str, value: float, kind: str) -> float:
+    if kind == "bool":
+        if not isinstance(value, (bool, np.bool_)):
+            raise ValueError(f"{name} is {value!r}; it must be True or False")
+        return bool(value)
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} is {value!r}; it must be a number") from None
+    if kind == "int":
+        if number != math.floor(number) or math.isinf(number):
+            raise ValueError(f"{name} is {value!r}; it must be a whole number")
+        return int(number)
+    return number
+
+
+_LENGTH = (0.0, 1000.0)
+_RIGHT_ANGLE = math.pi / 2
+_LIMITS = {
+    "rupture_range": (0.1, 1000.0),
+    "breakpoint_angle": (math.radians(0.1), _RIGHT_ANGLE),
+    "dropout_beams": (0, 10),
+    "split_distance": (1e-4, 10.0),
+    "wall_beams": (2, 10_000),
+    "wall_length": (0.01, 100.0),
+    "confidence": (0.0, 10.0),
+    "door_angle_tolerance": (0.0, _RIGHT_ANGLE / 2),
+    "door_clear_fraction": (0.0, 1.0),
+    "door_beams": (1, 10_000),
+    "jamb_beams": (2, 10_000),
+    "one_sided_doors": (0, 1),
+    "corner_angle": (math.radians(5.0), math.radians(175.0)),
+    "corridor_angle_tolerance": (0.0, _RIGHT_ANGLE),
+}
+_ORDER = (
+    ("door_width_min", "door_width_max"),
+    ("merge_gap", "door_width_min"),
+    ("corridor_distance_min", "corridor_distance_max"),
+)
+
+RECORD = np.dtype([(f.name, _RECORD_TYPES[str(f.type)]) for f in fields(ExtractorSettings)])
+"""The layout of `ExtractorSettings.as_record`."""

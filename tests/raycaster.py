@@ -1,0 +1,66 @@
+"""A brute-force lidar over wall segments, independent of the simulator's."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+
+from semnav_env.features import Scan
+from semnav_env.features.frames import FloatArray, Pose
+
+REFERENCE = Path(__file__).resolve().parents[2] / "shared" / "reference"
+FIELD_OF_VIEW = math.radians(270.0)
+
+
+def polygon(*corners: tuple[float, float]) -> FloatArray:
+    """The sides of a closed polygon as segments, shape (n, 2, 2)."""
+    points = np.array(corners, dtype=float)
+    return np.stack((points, np.roll(points, -1, axis=0)), axis=1)
+
+
+def polyline(*corners: tuple[float, float]) -> FloatArray:
+    """The segments between successive points, shape (n - 1, 2, 2)."""
+    points = np.array(corners, dtype=float)
+    return np.stack((points[:-1], points[1:]), axis=1)
+
+
+def cast(segments: FloatArray, pose: Pose, angles: FloatArray) -> FloatArray:
+    """Distance to the nearest segment along every beam; infinity where there is none."""
+    directions = np.stack((np.cos(angles + pose[2]), np.sin(angles + pose[2])), axis=1)
+    start = segments[:, 0] - np.array(pose[:2])
+    along = segments[:, 1] - segments[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cross = directions[:, :1] * along[:, 1] - directions[:, 1:] * along[:, 0]
+        distance = (start[:, 0] * along[:, 1] - start[:, 1] * along[:, 0]) / cross
+        place = start[:, 0] * directions[:, 1:] - start[:, 1] * directions[:, :1]
+        place = place / cross
+        hit = (distance > 0) & (place >= -1e-12) & (place <= 1 + 1e-12)
+    return np.where(hit, distance, np.inf).min(axis=1)
+
+
+def scan_of(
+    segments: FloatArray,
+    pose: Pose,
+    beams: int = 811,
+    field_of_view: float = FIELD_OF_VIEW,
+    sigma: float = 0.0,
+    rng: np.random.Generator | None = None,
+    range_max: float = 10.0,
+) -> Scan:
+    """A scan with the scanner at `pose`, x forward, and normal noise if a generator is given."""
+    increment = field_of_view / (beams - 1)
+    ranges = cast(segments, pose, -field_of_view / 2 + increment * np.arange(beams))
+    if rng is not None:
+        ranges = ranges + rng.normal(0.0, sigma, beams)
+    return Scan(ranges, -field_of_view / 2, increment, range_max=range_max)
+
+
+def heidelberg() -> tuple[FloatArray, dict[str, FloatArray]]:
+    """The hallway's segments and its doors (jambs, shape (2, 2)) by name."""
+    plan = json.loads((REFERENCE / "heidelberg_hallway.json").read_text())
+    pillar = polygon(*plan["pillar"])
+    segments = np.concatenate((np.array(plan["walls"]), np.array(plan["door_leaves"]), pillar))
+    return segments, {door["id"]: np.array(door["ends"]) for door in plan["doors"]}
