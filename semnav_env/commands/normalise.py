@@ -117,4 +117,5 @@ def _refuse_foreign(original: str, index: int, character: str, language: Languag
     if not character.isascii() and character not in language.letters:
         shown = character if original[index].isascii() else original[index]
         problem = f"{named(shown)} is not used in {language.name.capitalize()} commands"
-        raise CommandError(problem, original, index)
+        hint = f"letters a to z{language.letters}, digits and {' '.join(language.punctuation)} are"
+        raise CommandError(problem, original, index, hint=hint)
