@@ -6,13 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels import layout
-from semnav_env.features.kernels.memory import (
-    REMEMBERED,
-    contradict_doors,
-    remember_doors,
-    remember_walls,
-)
+from semnav_env.features.kernels.memory import REMEMBERED, remember
 from semnav_env.features.scene import Door, Scene, Wall
 
 MAX_WALLS, MAX_DOORS = 512, 64
@@ -28,12 +22,16 @@ class SceneMemory:
     def __init__(self) -> None:
         self._walls = np.zeros(MAX_WALLS, dtype=REMEMBERED)
         self._doors = np.zeros(MAX_DOORS, dtype=REMEMBERED)
-        self._used_walls = 0
-        self._used_doors = 0
+        self._used = np.zeros(2, dtype=np.int64)
+
+    @property
+    def arrays(self) -> tuple[NDArray[np.void], NDArray[np.void], NDArray[np.int64]]:
+        """(walls, doors, used), for a kernel that updates them in place."""
+        return self._walls, self._doors, self._used
 
     def clear(self) -> None:
         """Forget everything."""
-        self._used_walls = self._used_doors = 0
+        self._used[:] = 0
 
     def update(
         self,
@@ -54,24 +52,23 @@ class SceneMemory:
             angles: angle_min and angle_increment of the scan, radians.
             lidar_pose: of the lidar in the memory's frame.
         """
-        self._used_walls = remember_walls(
-            walls, counts[layout.WALLS], lidar_pose, self._walls, self._used_walls
-        )
-        contradict_doors(ranges, *angles, lidar_pose, self._doors, self._used_doors)
-        self._used_doors = remember_doors(
-            doors, counts[layout.DOORS], lidar_pose, self._doors, self._used_doors
-        )
+        remember(walls, doors, counts, ranges, *angles, lidar_pose, self.arrays)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """How many walls and doors count."""
+        return len(self.wall_entries), len(self.door_entries)
 
     @property
     def door_entries(self) -> NDArray[np.void]:
         """The doors that count, `REMEMBERED`, in the order of their first sighting."""
-        doors = self._doors[: self._used_doors]
+        doors = self._doors[: self._used[1]]
         return doors[(doors["hits"] >= 3) & (doors["misses"] * 2 <= doors["hits"])]
 
     @property
     def wall_entries(self) -> NDArray[np.void]:
         """The walls that count, `REMEMBERED`, in the order of their first sighting."""
-        walls = self._walls[: self._used_walls]
+        walls = self._walls[: self._used[0]]
         return walls[walls["hits"] >= 2]
 
     def scene(self) -> Scene:

@@ -90,6 +90,8 @@ class ExtractorSettings:
     door_line_error: float = 0.1
     door_depth: float = 0.3
     door_clear_fraction: float = 0.6
+    door_recess: float = 0.2
+    door_deep_fraction: float = 0.05
     door_beams: int = 3
     jamb_beams: int = 2
     one_sided_doors: bool = True

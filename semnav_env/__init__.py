@@ -1,1 +1,8 @@
-"""semnav-env: a Gymnasium environment for semantic indoor navigation."""
+"""semnav-env: a Gymnasium environment for semantic indoor navigation.
+
+Importing it registers `SemNav-v0`; say `gymnasium.make("semnav_env:SemNav-v0")` to do both.
+"""
+
+import gymnasium
+
+gymnasium.register("SemNav-v0", entry_point="semnav_env.env:SemNavEnv")

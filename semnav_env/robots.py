@@ -84,7 +84,7 @@ SPOT = RobotSpec(
 ROBOTS = {spec.name: spec for spec in (WHEELCHAIR, SPOT)}
 
 
-def robot(name_or_spec: str | RobotSpec) -> RobotSpec:
+def robot_spec(name_or_spec: str | RobotSpec) -> RobotSpec:
     """The robot of that name, or the spec itself.
 
     Raises:

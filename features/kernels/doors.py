@@ -9,6 +9,7 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
 from semnav_env.features.kernels.lines import offset
 from semnav_env.features.kernels.segmentation import is_return
 
@@ -33,47 +34,82 @@ def find_doors(
     doors: np.ndarray,
 ) -> int:
     """Every pair of jambs, tested; overlapping finds reduced to the best. Returns how many."""
+    starts, ends = find_jambs(pieces, settings, scratch)
     found = 0
-    for a in range(pieces):
-        for b in range(a + 1, pieces):
-            before, after = scratch.pieces[a], scratch.pieces[b]
-            if not has_door_width(before, after, increment, settings):
+    for i in range(starts):
+        start = scratch.start_jambs[i]
+        for j in range(ends):
+            end = scratch.end_jambs[j]
+            if not has_door_width(start, end, increment, settings):
                 continue
-            misfit = alignment(a, b, pieces, settings, scratch)
+            misfit = alignment(start, end, pieces, settings, scratch)
             if misfit >= NO_SUPPORT or found == len(scratch.candidates):
                 continue
-            clear = clear_fraction(
-                ranges, directions, range_min, limit, before, after, settings, scratch.beams
-            )
+            clear = clear_fraction(ranges, directions, range_min, limit, start, end, settings)
             if clear >= settings.door_clear_fraction:
                 candidate = scratch.candidates[found]
-                candidate.start_x, candidate.start_y = before.end_x, before.end_y
-                candidate.end_x, candidate.end_y = after.start_x, after.start_y
+                candidate.start_x, candidate.start_y = start.x, start.y
+                candidate.end_x, candidate.end_y = end.x, end.y
                 candidate.score = clear - misfit
                 found += 1
     return keep_best(found, settings.door_width_min, scratch.candidates, doors)
 
 
 @njit(cache=True, error_model="numpy")
-def has_door_width(before: Any, after: Any, increment: float, settings: Any) -> bool:
-    """Whether the gap from the end of one piece to the start of another can be a door.
+def find_jambs(pieces: int, settings: Any, scratch: Any) -> tuple[int, int]:
+    """Points at which an opening may start and end; returns how many of each.
+
+    An opening starts where a piece ends. It also starts where a piece that hangs on nothing
+    starts, such as an open leaf whose hinge is seen and the wall before it is not; and the
+    other way round.
+    """
+    beams = scratch.beams
+    starts = ends = 0
+    for k in range(pieces):
+        piece = scratch.pieces[k]
+        if piece.points < settings.jamb_beams:
+            continue
+        first, last = beams[piece.first], beams[piece.last]
+        if piece.flags & (START_BREAK | START_RUPTURE):
+            write_jamb(scratch.start_jambs[starts], piece.start_x, piece.start_y, first, k - 1)
+            starts += 1
+        write_jamb(scratch.start_jambs[starts], piece.end_x, piece.end_y, last, k)
+        write_jamb(scratch.end_jambs[ends], piece.start_x, piece.start_y, first, k)
+        starts += 1
+        ends += 1
+        if piece.flags & (END_BREAK | END_RUPTURE):
+            write_jamb(scratch.end_jambs[ends], piece.end_x, piece.end_y, last, k + 1)
+            ends += 1
+    return starts, ends
+
+
+@njit(cache=True, error_model="numpy")
+def write_jamb(jamb: Any, x: float, y: float, beam: int, piece: int) -> None:
+    """Set every field of a jamb."""
+    jamb.x, jamb.y, jamb.beam, jamb.piece = x, y, beam, piece
+
+
+@njit(cache=True, error_model="numpy")
+def has_door_width(start: Any, end: Any, increment: float, settings: Any) -> bool:
+    """Whether the gap between two jambs can be a door.
 
     A jamb lies up to one beam spacing past the last point that was seen, so the width is only
     known as an interval; it must meet the interval of door widths.
     """
-    x, y = after.start_x - before.end_x, after.start_y - before.end_y
+    x, y = end.x - start.x, end.y - start.y
     square = x * x + y * y
     widest = settings.door_width_max + settings.door_width_tolerance
-    if square > (widest + 2.0 * LONGEST_SPACING) ** 2:
+    if (
+        end.beam - start.beam <= settings.door_beams
+        or square > (widest + 2.0 * LONGEST_SPACING) ** 2
+    ):
         return False
     if square < (settings.door_width_min - settings.door_width_tolerance) ** 2:
         return False
-    if min(before.points, after.points) < settings.jamb_beams:
-        return False
     width = math.sqrt(square)
-    width -= beam_spacing(before.end_x, before.end_y, x / width, y / width, increment)
-    hypotenuse = math.sqrt(square)
-    width -= beam_spacing(after.start_x, after.start_y, x / hypotenuse, y / hypotenuse, increment)
+    x, y = x / width, y / width
+    width -= beam_spacing(start.x, start.y, x, y, increment)
+    width -= beam_spacing(end.x, end.y, x, y, increment)
     return width <= widest
 
 
@@ -88,31 +124,25 @@ def beam_spacing(x: float, y: float, along_x: float, along_y: float, increment: 
 
 
 @njit(cache=True, error_model="numpy")
-def alignment(a: int, b: int, pieces: int, settings: Any, scratch: Any) -> float:
-    """How well the walls beside the gap from piece a to piece b are in line with it.
+def alignment(start: Any, end: Any, pieces: int, settings: Any, scratch: Any) -> float:
+    """How well the walls beside the gap from one jamb to another are in line with it.
 
     Returns:
         0 (perfect) to 1 with a wall on both sides, 1 to 2 with one, `NO_SUPPORT` otherwise.
     """
-    start_x, start_y = scratch.pieces[a].end_x, scratch.pieces[a].end_y
-    end_x, end_y = scratch.pieces[b].start_x, scratch.pieces[b].start_y
-    left = right = NO_SUPPORT
-    for k in range(a, max(a - SUPPORT_PIECES, -1), -1):
+    before = after = NO_SUPPORT
+    for k in range(start.piece, max(start.piece - SUPPORT_PIECES, -1), -1):
         wall = scratch.pieces[k]
-        if wall.wall >= 0 and right >= NO_SUPPORT:
-            right = support(
-                wall, wall.end_x, wall.end_y, start_x, start_y, end_x, end_y, 1.0, settings
-            )
-    for k in range(b, min(b + SUPPORT_PIECES, pieces)):
+        if wall.wall >= 0 and before >= NO_SUPPORT:
+            before = support(wall, wall.end_x, wall.end_y, start, end, 1.0, settings)
+    for k in range(end.piece, min(end.piece + SUPPORT_PIECES, pieces)):
         wall = scratch.pieces[k]
-        if wall.wall >= 0 and left >= NO_SUPPORT:
-            left = support(
-                wall, wall.start_x, wall.start_y, end_x, end_y, start_x, start_y, -1.0, settings
-            )
-    if left < NO_SUPPORT and right < NO_SUPPORT:
-        return max(left, right)
-    if settings.one_sided_doors and min(left, right) < NO_SUPPORT:
-        return 1.0 + min(left, right)
+        if wall.wall >= 0 and after >= NO_SUPPORT:
+            after = support(wall, wall.start_x, wall.start_y, end, start, -1.0, settings)
+    if before < NO_SUPPORT and after < NO_SUPPORT:
+        return max(before, after)
+    if settings.one_sided_doors and min(before, after) < NO_SUPPORT:
+        return 1.0 + min(before, after)
     return NO_SUPPORT
 
 
@@ -121,10 +151,8 @@ def support(
     wall: Any,
     wall_end_x: float,
     wall_end_y: float,
-    near_x: float,
-    near_y: float,
-    far_x: float,
-    far_y: float,
+    near: Any,
+    far: Any,
     sense: float,
     settings: Any,
 ) -> float:
@@ -136,20 +164,20 @@ def support(
     Returns:
         0 to 1, or `NO_SUPPORT` if the wall ends elsewhere or is not in line with the gap.
     """
-    if (near_x - wall_end_x) ** 2 + (near_y - wall_end_y) ** 2 > settings.door_wall_gap**2:
+    if (near.x - wall_end_x) ** 2 + (near.y - wall_end_y) ** 2 > settings.door_wall_gap**2:
         return NO_SUPPORT
-    gap_x, gap_y = far_x - near_x, far_y - near_y
+    gap_x, gap_y = far.x - near.x, far.y - near.y
     if sense * (gap_x * wall.along_x + gap_y * wall.along_y) <= 0.0:
         return NO_SUPPORT
-    near_error = settings.confidence * line_deviation(wall, near_x, near_y, settings.sigma)
-    if abs(offset(wall, near_x, near_y)) > settings.door_offset_tolerance + near_error:
+    near_error = settings.confidence * line_deviation(wall, near.x, near.y, settings.sigma)
+    if abs(offset(wall, near.x, near.y)) > settings.door_offset_tolerance + near_error:
         return NO_SUPPORT
-    far_error = settings.confidence * line_deviation(wall, far_x, far_y, settings.sigma)
+    far_error = settings.confidence * line_deviation(wall, far.x, far.y, settings.sigma)
     if far_error > settings.door_line_error:
         return NO_SUPPORT
     allowed = settings.door_point_tolerance + far_error
     allowed += math.tan(settings.door_angle_tolerance) * math.sqrt(gap_x * gap_x + gap_y * gap_y)
-    misfit = abs(offset(wall, far_x, far_y)) / allowed if allowed > 0.0 else NO_SUPPORT
+    misfit = abs(offset(wall, far.x, far.y)) / allowed if allowed > 0.0 else NO_SUPPORT
     return misfit if misfit <= 1.0 else NO_SUPPORT
 
 
@@ -170,10 +198,9 @@ def clear_fraction(
     directions: FloatArray,
     range_min: float,
     limit: float,
-    before: Any,
-    after: Any,
+    start: Any,
+    end: Any,
     settings: Any,
-    beams: np.ndarray,
 ) -> float:
     """Share of the beams between the jambs that reach well beyond the chord or return nothing.
 
@@ -181,24 +208,29 @@ def clear_fraction(
         0 to 1; 0 also where too few beams pass, or where a beam beside a jamb ends in front of
         the chord: then the jamb is only the edge of a shadow.
     """
-    x, y = before.end_x, before.end_y
-    gap_x, gap_y = after.start_x - x, after.start_y - y
-    jamb = x * gap_y - y * gap_x
-    first, last = beams[before.last] + 1, beams[after.first] - 1
-    if last - first + 1 < settings.door_beams or jamb <= 0.0:
+    gap_x, gap_y = end.x - start.x, end.y - start.y
+    jamb = start.x * gap_y - start.y * gap_x
+    first, last = start.beam + 1, end.beam - 1
+    if jamb <= 0.0:
         return 0.0
-    clear = 0
+    across = settings.door_recess * math.sqrt(gap_x * gap_x + gap_y * gap_y)
+    clear = deep = 0
     for beam in range(first, last + 1):
         distance = ranges[beam]
         if not is_return(distance, range_min, limit):
             clear += 1
+            deep += 1
             continue
         slant = directions[beam, 0] * gap_y - directions[beam, 1] * gap_x
         beyond = distance * slant - jamb
         clear += beyond >= settings.door_depth * slant
+        deep += beyond >= across
         if beam in (first, last) and beyond < -settings.door_depth * slant:
             return 0.0
-    return clear / (last - first + 1)
+    beams_through = last - first + 1
+    if deep < settings.door_deep_fraction * beams_through:
+        return 0.0
+    return clear / beams_through
 
 
 @njit(cache=True, error_model="numpy")

@@ -92,9 +92,7 @@ def probe(
 
 
 @njit(cache=True)
-def stepped_back(
-    side: FloatArray, step: float, usual: float
-) -> list[tuple[int, int, float]]:
+def stepped_back(side: FloatArray, step: float, usual: float) -> list[tuple[int, int, float]]:
     """The runs of probes where a side lies more than `step` behind where it was before.
 
     Args:

@@ -9,6 +9,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.layout import DOORS, WALLS
 
 REMEMBERED = np.dtype(
     [
@@ -189,3 +190,32 @@ def contradict_doors(
                 filled += 1
         if filled >= 2:
             door.misses += 1
+
+
+@njit(cache=True)
+def remember(
+    walls: NDArray,
+    doors: NDArray,
+    counts: NDArray,
+    ranges: FloatArray,
+    angle_min: float,
+    angle_increment: float,
+    pose: tuple[float, float, float],
+    memory: tuple[NDArray, NDArray, NDArray],
+) -> None:
+    """Add one scan to the memory.
+
+    Args:
+        walls: the scan's walls (`layout.WALL`), lidar frame.
+        doors: its doors (`layout.DOOR`).
+        counts: entries used, by kind.
+        ranges: of the scan, metres.
+        angle_min: of the scan, radians.
+        angle_increment: of the scan, radians.
+        pose: of the lidar in the memory's frame.
+        memory: walls, doors (`REMEMBERED`) and how many of each are used, changed in place.
+    """
+    known_walls, known_doors, used = memory
+    used[0] = remember_walls(walls, counts[WALLS], pose, known_walls, used[0])
+    contradict_doors(ranges, angle_min, angle_increment, pose, known_doors, used[1])
+    used[1] = remember_doors(doors, counts[DOORS], pose, known_doors, used[1])

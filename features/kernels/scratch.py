@@ -24,6 +24,9 @@ CANDIDATE = np.dtype(
 )
 """A possible door; `state` is 0 open, 1 kept, 2 suppressed."""
 
+JAMB = np.dtype([("x", "f8"), ("y", "f8"), ("beam", "i8"), ("piece", "i8")])
+"""A possible jamb: a point, its beam, and the nearest piece that may be the wall it ends."""
+
 DOOR_CANDIDATES = 128
 
 
@@ -38,6 +41,8 @@ class Scratch(NamedTuple):
         stack: split points still to be visited, shape (n,).
         vertices: the break points of one group, shape (n + 1,).
         pieces: straight pieces, dtype `PIECE`, shape (n,).
+        start_jambs: where an opening may start, dtype `JAMB`, shape (n,).
+        end_jambs: where an opening may end, dtype `JAMB`, shape (n,).
         candidates: possible doors, dtype `CANDIDATE`.
         wall_piece: the piece of each wall, shape of the wall array.
         corner_ends: the walls that end and start at each corner or -1, two columns.
@@ -50,6 +55,8 @@ class Scratch(NamedTuple):
     stack: NDArray[np.int64]
     vertices: NDArray[np.int64]
     pieces: np.ndarray
+    start_jambs: np.ndarray
+    end_jambs: np.ndarray
     candidates: np.ndarray
     wall_piece: NDArray[np.int64]
     corner_ends: NDArray[np.int64]
@@ -83,6 +90,8 @@ def allocate_scratch(beams: int) -> Scratch:
         stack=np.zeros(beams, np.int64),
         vertices=np.zeros(beams + 1, np.int64),
         pieces=np.zeros(beams, PIECE),
+        start_jambs=np.zeros(beams, JAMB),
+        end_jambs=np.zeros(beams, JAMB),
         candidates=np.zeros(DOOR_CANDIDATES, CANDIDATE),
         wall_piece=np.zeros(CAPACITY["walls"], np.int64),
         corner_ends=np.zeros((CAPACITY["corners"], 2), np.int64),

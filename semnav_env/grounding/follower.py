@@ -94,6 +94,11 @@ class Follower:
             self.impossible = str(error)
             self.goal = Goal(GoalKind.STOP, pose, because=self.impossible)
 
+    def skip_to_next(self, scene: Scene) -> None:
+        """Take the active clause for done, at the very pose of its goal."""
+        self.active += 1
+        self._begin_clause(scene, self.goal.pose)
+
     def _begin_clause(self, scene: Scene, pose: Pose) -> None:
         while not self.done and self._is_only_a_direction(self.active):
             self.active += 1

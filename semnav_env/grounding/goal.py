@@ -6,7 +6,9 @@ import math
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 
-from semnav_env.features.frames import Pose, wrap_angle
+from numba import njit
+
+from semnav_env.features.frames import FloatArray, Pose, wrap_angle
 from semnav_env.features.hallway import Hallway, Junction
 from semnav_env.features.scene import Door
 
@@ -86,13 +88,30 @@ def crossing(door: Door, before: Pose, after: Pose) -> float | None:
         0 at the start jamb, 1 at the end jamb, less or more beside them; None if the way does
         not cross the line.
     """
-    (x1, y1), (x2, y2) = door.start, door.end
-    dx, dy = x2 - x1, y2 - y1
-    side_before = dx * (before[1] - y1) - dy * (before[0] - x1)
-    side_after = dx * (after[1] - y1) - dy * (after[0] - x1)
-    if (side_before > 0) == (side_after > 0):
-        return None
-    share = side_before / (side_before - side_after)
-    x = before[0] + share * (after[0] - before[0])
-    y = before[1] + share * (after[1] - before[1])
-    return ((x - x1) * dx + (y - y1) * dy) / (dx * dx + dy * dy)
+    share = _crossing(*door.start, *door.end, *before[:2], *after[:2])
+    return None if math.isnan(share) else share
+
+
+@njit(cache=True)
+def first_crossed(doors: FloatArray, x1: float, y1: float, x2: float, y2: float) -> int:
+    """The index of the first of `doors`, shape (n, 4), that a step crosses; -1 if none."""
+    for i in range(len(doors)):
+        share = _crossing(doors[i, 0], doors[i, 1], doors[i, 2], doors[i, 3], x1, y1, x2, y2)
+        if 0.0 <= share <= 1.0:
+            return i
+    return -1
+
+
+@njit(cache=True)
+def _crossing(
+    ax: float, ay: float, bx: float, by: float, x1: float, y1: float, x2: float, y2: float
+) -> float:
+    """Where the step from 1 to 2 crosses the line a-b, as a share of a-b; NaN if it does not."""
+    dx, dy = bx - ax, by - ay
+    before = dx * (y1 - ay) - dy * (x1 - ax)
+    after = dx * (y2 - ay) - dy * (x2 - ax)
+    if (before > 0.0) == (after > 0.0):
+        return math.nan
+    share = before / (before - after)
+    x, y = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
+    return ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -34,17 +34,14 @@ class Geodesic:
         )
         self._free = self._free_cells(floor_plan)
         self._graph = self._build_graph()
-        self._field = lru_cache(maxsize=256)(self._field_from)
+        self._known: dict[tuple[int, int], FloatArray] = {}
 
-    def distance(self, start: Point, goal: Point) -> float:
-        """Length of the shortest way, metres; infinite if there is none."""
-        return float(_read(self._field(self._cell(goal)), *self._origin, SPACING, *start))
-
-    def way(self, start: Point, goal: Point) -> FloatArray:
-        """The shortest way as points, shape (k, 2), from start to goal."""
-        cells = _descend(self._field(self._cell(goal)), *self._cell(start))
-        inner = np.array(self._origin) + SPACING * cells[:, ::-1]
-        return np.vstack((start, inner[1:-1], goal))
+    def to(self, goal: Point) -> WaysTo:
+        """The shortest ways to a point; computed once per grid cell."""
+        row, column = self._cell(goal)
+        if (row, column) not in self._known:
+            self._known[row, column] = self._distances(row * self._shape[1] + column)
+        return WaysTo(goal, self._known[row, column], self._origin)
 
     def _cell(self, point: Point) -> tuple[int, int]:
         """The nearest free cell (row, column)."""
@@ -76,16 +73,36 @@ class Geodesic:
         i, j, length = (np.concatenate(column) for column in zip(*parts, strict=True))
         return coo_matrix((length, (i, j)), shape=(self._free.size,) * 2).tocsr()
 
-    def _field_from(self, cell: tuple[int, int]) -> FloatArray:
-        source = cell[0] * self._shape[1] + cell[1]
-        field = dijkstra(self._graph, directed=False, indices=source)
-        return np.asarray(field, dtype=np.float64).reshape(self._shape)
+    def _distances(self, source: int) -> FloatArray:
+        distances = dijkstra(self._graph, directed=False, indices=source)
+        return np.asarray(distances, dtype=np.float64).reshape(self._shape)
 
 
-@lru_cache(maxsize=16)
-def geodesic(floor_plan: FloorPlan) -> Geodesic:
-    """The shortest ways of a floor plan, computed once per plan object."""
-    return Geodesic(floor_plan)
+@dataclass(frozen=True, eq=False)
+class WaysTo:
+    """The shortest ways to one goal.
+
+    Attributes:
+        goal: (x, y) in metres.
+        distances: of every cell of the grid, metres.
+        origin: of the grid.
+    """
+
+    goal: Point
+    distances: FloatArray
+    origin: Point
+
+    def length(self, start: Point) -> float:
+        """Length of the shortest way from `start`, metres; infinite if there is none."""
+        return float(_read(self.distances, *self.origin, SPACING, *start))
+
+    def way(self, start: Point) -> FloatArray:
+        """The shortest way from `start` as points, shape (k, 2)."""
+        row = round((start[1] - self.origin[1]) / SPACING)
+        column = round((start[0] - self.origin[0]) / SPACING)
+        cells = _descend(self.distances, *_nearest_reached(self.distances, row, column))
+        inner = np.array(self.origin) + SPACING * cells[:, ::-1]
+        return np.vstack((start, inner[1:-1], self.goal))
 
 
 @njit(cache=True)
@@ -115,3 +132,15 @@ def _descend(field: FloatArray, row: int, column: int) -> NDArray[np.int64]:
         row, column = best_row, best_column
         cells.append((row, column))
     return np.array(cells)
+
+
+@njit(cache=True)
+def _nearest_reached(field: FloatArray, row: int, column: int) -> tuple[int, int]:
+    """The nearest cell with a finite distance."""
+    best, found = np.inf, (0, 0)
+    for r in range(field.shape[0]):
+        for c in range(field.shape[1]):
+            gap = (r - row) ** 2 + (c - column) ** 2
+            if gap < best and field[r, c] < np.inf:
+                best, found = gap, (r, c)
+    return found

@@ -1,0 +1,281 @@
+"""The environment: the one place where world, lidar, perception, task and picture meet."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, ClassVar
+
+import gymnasium as gym
+import numpy as np
+from gymnasium.spaces import Box
+from numpy.typing import ArrayLike, NDArray
+
+from semnav_env.features import ExtractorSettings
+from semnav_env.features.frames import Pose
+from semnav_env.lidar.lidar import Lidar
+from semnav_env.lidar.spec import LidarSpec, lidar_spec
+from semnav_env.maps import FloorPlan, load_floor_plan
+from semnav_env.observations import Observer
+from semnav_env.odometry import Odometry, OdometrySettings
+from semnav_env.perception import Perception, TruePerception
+from semnav_env.rendering.scribe import Scribe
+from semnav_env.robots import RobotSpec, robot_spec
+from semnav_env.tasks import CommandTask, RewardWeights
+from semnav_env.verifier import Motion
+from semnav_env.world import World
+
+CONTROL_HZ = 15
+"""Steps per second, the rate of the lidar."""
+
+OPTIONS = ("command", "pose", "floor_plan")
+
+
+class SemNavEnv(gym.Env[dict[str, NDArray[Any]], NDArray[np.float32]]):
+    """A robot in an office carries out a spoken-style command.
+
+    ## Description
+    A wheelchair or a SPOT robot stands in a floor plan and is told where to go ("go down the
+    hallway, turn left at the intersection and go in the first door on the right"). It has a 2D
+    lidar and drifting odometry. Each scan is turned into walls, doors, corners and corridors, these
+    are remembered, and the command is grounded on what was seen, never on the map. A verifier that
+    does know the map says clause by clause whether the command was carried out.
+
+    ## Action Space
+    `Box(-1, 1, (2,))` for the wheelchair: forward speed and turn rate, as shares of the robot's
+    largest; `Box(-1, 1, (3,))` for SPOT: forward, left, turn. Values outside are clipped; NaN,
+    infinity and other shapes raise `ValueError`. Accelerations are bounded by the robot.
+
+    ## Observation Space
+    A `Dict` of fixed shape; lengths in metres, features and goal in the robot frame (x forward,
+    y left, origin at the centre of the footprint). Row i of a feature counts where its mask is 1.
+
+    | entry | shape | meaning |
+    |---|---|---|
+    | walls, walls_mask | (48, 4), (48,) | start and end; the robot is to the left |
+    | doors, doors_mask | (16, 4), (16,) | the jambs of open doors in this scan |
+    | corners, corners_mask | (48, 3), (48,) | x, y, kind: 0 outer, 1 inner, 2 potential |
+    | corridors, corridors_mask | (24, 2), (24,) | midpoints of corridor entrances |
+    | remembered_doors, .._mask | (16, 4), (16,) | doors seen in three or more scans so far |
+    | command | (8, 5) | the command as tokens, see `commands.tokens.encode` |
+    | clause | (8,) | one-hot: the clause that the robot believes to be under way |
+    | odometry | (7,) | x, y, cosine and sine of heading; speed forward, left and turning |
+    | goal | (13,) | seek, reach, pass or stop; x, y, cosine, sine; jambs; has a door |
+    | scan | (beams,) | ranges; no return reads as the lidar's range |
+
+    `observation="semantic"` has all but the scan; `"raw"` has scan, command, clause and odometry;
+    `"all"` has everything; `"truth"` has the entries of "semantic" without errors: features from an
+    exact scan, the true pose in the world as odometry, and the goal grounded on the floor plan.
+
+    ## Rewards
+    A weighted sum of named terms (`RewardWeights`), all in `info["reward_terms"]`: progress along
+    the shortest way, clauses done, success, failure, contact, time.
+
+    ## Starting State
+    `reset(options=...)` takes "command" (text), "pose" (x, y, heading; world frame) and
+    "floor_plan". What is not given is drawn: a free pose in a corridor looking along it, and a
+    command that can be carried out from there.
+
+    ## Episode End
+    Terminates when the command has been carried out, at a wrong door or a wrong turn, and after
+    standing still for 10 s ("stopped short"). Truncates after `max_seconds`. Contact does not end
+    an episode; it is counted in `info["collisions"]`.
+
+    ## Arguments
+    robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a bundled name, a path or a
+    `FloorPlan`. observation: see above. lidar: "tim561", "barbret" or a `LidarSpec`. odometry:
+    drift. extractor: limits of the feature extractor. rewards: weights. max_seconds: of simulated
+    time. render_mode: "rgb_array" or "human" (extra `render`).
+
+    ## Version History
+    v0: first version.
+
+    ## References
+    Barbret 2021; Weerakoon et al.; Yan et al.; Mes 2021: see CITATION.cff.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {
+        "render_modes": ["rgb_array", "human"],
+        "render_fps": CONTROL_HZ,
+    }
+
+    def __init__(
+        self,
+        robot: str | RobotSpec = "wheelchair",
+        floor_plan: str | FloorPlan = "heidelberg_hallway",
+        observation: str = "semantic",
+        lidar: str | LidarSpec = "tim561",
+        odometry: OdometrySettings = OdometrySettings(),
+        extractor: ExtractorSettings = ExtractorSettings(),
+        rewards: RewardWeights = RewardWeights(),
+        max_seconds: float = 120.0,
+        render_mode: str | None = None,
+    ) -> None:
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise ValueError(f"no render mode {render_mode!r}; there are: rgb_array, human")
+        if not 0 < max_seconds < float("inf"):
+            raise ValueError(f"max_seconds is {max_seconds}; it must be positive and finite")
+        self.robot = robot_spec(robot)
+        self.lidar_spec = lidar_spec(lidar)
+        self.extractor = extractor
+        self.rewards = rewards
+        self.max_steps = round(max_seconds * CONTROL_HZ)
+        self.render_mode = render_mode
+        self.odometry = Odometry(odometry)
+        self._observer = Observer(observation, self.lidar_spec.beams, self.lidar_spec.range_max)
+        self._default_plan = floor_plan
+        self._enter(load_floor_plan(floor_plan))
+        self._scale = np.array(_speed_limits(self.robot))
+        self.action_space = Box(-1.0, 1.0, (self.robot.action_size,), np.float32)
+        self.observation_space = self._observer.space
+        self._started = False
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+        """Begin an episode; see the class for `options`.
+
+        Raises:
+            ValueError: unknown options, a pose that is not free, a command that is not understood
+                (`CommandError`) or cannot be carried out from there (`GroundingError`).
+        """
+        super().reset(seed=seed)
+        options = dict(options or {})
+        unknown = [name for name in options if name not in OPTIONS]
+        if unknown:
+            raise ValueError(f"no option {unknown[0]!r}; there are: {', '.join(OPTIONS)}")
+        floor_plan = load_floor_plan(options.get("floor_plan") or self._default_plan)
+        if floor_plan is not self.floor_plan:
+            self._enter(floor_plan)
+        start = self.task.begin(options, self.np_random)
+        self.world.reset(start)
+        self.odometry.reset(start, self.np_random)
+        self.perception.begin(self.task.verifier.command)
+        self._noise_seed = int(self.np_random.integers(2**62))
+        self._steps, self._started = 0, True
+        self._sense()
+        self._scribe.begin()
+        return self._observation(), self._reset_info(start)
+
+    def step(
+        self, action: ArrayLike
+    ) -> tuple[dict[str, NDArray[Any]], float, bool, bool, dict[str, Any]]:
+        """Drive for one control period.
+
+        Raises:
+            ValueError: the action is not finite or has another shape.
+            RuntimeError: before the first `reset`.
+        """
+        if not self._started:
+            raise RuntimeError("call reset() before step()")
+        self.world.step(self._velocity(action))
+        self.odometry.update(self.world.pose)
+        self._steps += 1
+        self._sense()
+        forward, left, turning = self.world.velocity
+        motion = Motion(
+            self.world.pose,
+            (forward * forward + left * left) ** 0.5,
+            turning,
+            self.world.in_contact,
+            1.0 / CONTROL_HZ,
+        )
+        terms = self.task.step(motion)
+        verifier = self.task.verifier
+        truncated = not verifier.over and self._steps >= self.max_steps
+        if truncated:
+            verifier.out_of_time()
+        if self.render_mode == "human":
+            self.render()
+        info = self._info(terms, verifier.over or truncated)
+        return self._observation(), sum(terms.values()), verifier.over and not truncated, truncated, info
+
+    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+        """The picture, shape (height, width, 3), or a window in "human" mode."""
+        if self.render_mode is None:
+            gym.logger.warn("render() does nothing: give render_mode to gymnasium.make")
+            return None
+        return self._scribe.draw(self, self.render_mode)
+
+    def close(self) -> None:
+        """Close the window, if any."""
+        self._scribe.close()
+
+    @property
+    def believed_pose(self) -> Pose:
+        """Where the robot believes to be, in the odometry frame."""
+        return self.world.pose if self._truth else self.odometry.pose
+
+    @property
+    def seconds(self) -> float:
+        """Simulated time since the start of the episode."""
+        return self._steps / CONTROL_HZ
+
+    def _enter(self, floor_plan: FloorPlan) -> None:
+        """Set everything up that belongs to one floor plan."""
+        self.floor_plan = floor_plan
+        self.world = World(floor_plan, self.robot, CONTROL_HZ)
+        self.task = CommandTask(floor_plan, self.robot, self.rewards)
+        self._scribe = Scribe(floor_plan)
+        self._truth = self._observer.mode == "truth"
+        if self._truth:
+            exact = replace(self.lidar_spec, sigma=0.0, dropout=0.0, systematic=0.0)
+            lidar = Lidar(floor_plan, exact, self.robot.lidar_mount)
+            self.perception: Perception = TruePerception(lidar, self.extractor, floor_plan.scene)
+        else:
+            lidar = Lidar(floor_plan, self.lidar_spec, self.robot.lidar_mount)
+            self.perception = Perception(lidar, self.extractor)
+
+    def _velocity(self, action: ArrayLike) -> Pose:
+        values = np.asarray(action, dtype=np.float64)
+        if values.shape != self.action_space.shape:
+            raise ValueError(
+                f"the action has shape {values.shape}; it must be {self.action_space.shape}"
+            )
+        if not np.isfinite(values).all():
+            raise ValueError(f"the action is {values.tolist()}; it must be finite, in [-1, 1]")
+        scaled = (np.clip(values, -1.0, 1.0) * self._scale).tolist()
+        return (scaled[0], 0.0, scaled[1]) if len(scaled) == 2 else tuple(scaled)
+
+    def _sense(self) -> None:
+        key = (self._noise_seed, 0, self._steps)
+        self.perception.sense(self.world.pose, self.believed_pose, self.world.velocity, key)
+
+    def _observation(self) -> dict[str, NDArray[Any]]:
+        return self._observer.pack(self.perception.row, self.task.verifier.tokens)
+
+    def _reset_info(self, start: Pose) -> dict[str, Any]:
+        verifier = self.task.verifier
+        return {
+            "command": str(verifier.command),
+            "floor_plan": self.floor_plan.name,
+            "robot": self.robot.name,
+            "pose": start,
+            "route": verifier.route,
+            "route_length": verifier.route_length,
+        }
+
+    def _info(self, terms: dict[str, float], over: bool) -> dict[str, Any]:
+        verifier = self.task.verifier
+        info: dict[str, Any] = {
+            "verdicts": verifier.verdicts,
+            "collisions": verifier.collisions,
+            "in_contact": self.world.in_contact,
+            "path_length": verifier.path_length,
+            "reward_terms": terms,
+            "pose": self.world.pose,
+        }
+        if over:
+            info |= {
+                "is_success": verifier.success,
+                "crossed_doors": tuple(verifier.crossed),
+                "route": verifier.route,
+                "route_length": verifier.route_length,
+                "impossible": self.perception.follower.impossible,
+            }
+        return info
+
+
+def _speed_limits(robot: RobotSpec) -> tuple[float, ...]:
+    if robot.holonomic:
+        return robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate
+    return robot.max_speed, robot.max_turn_rate

@@ -1,0 +1,244 @@
+"""The robot's senses: from its pose to features, memory and the goal it makes out.
+
+One compiled call does what is done at every step: cast the beams, add the noise, extract the
+features, write them into the observation and join them with what was seen before.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.commands import Command
+from semnav_env.features.extract import ExtractorSettings
+from semnav_env.features.frames import FloatArray, Pose, compose
+from semnav_env.features.kernels.chain import extract_arrays
+from semnav_env.features.kernels.memory import remember
+from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
+from semnav_env.features.memory import SceneMemory
+from semnav_env.features.scene import Scene
+from semnav_env.grounding.follower import Follower
+from semnav_env.lidar.lidar import Lidar, sense
+from semnav_env.observations import (
+    ROW_SIZE,
+    door_ends,
+    write_features,
+    write_remembered,
+    write_state,
+)
+
+LOOK_EVERY = 0.4
+"""A clause is grounded anew after so many metres, or so many radians, on the way."""
+
+LOOK_AT_LEAST = 15
+"""And after so many steps, if more is known by then."""
+
+
+@njit(cache=True)
+def observe(
+    lidar_world: tuple[float, float, float],
+    lidar_odom: tuple[float, float, float],
+    robot_odom: tuple[float, float, float],
+    mount: tuple[float, float, float],
+    lidar: Any,
+    beams: FloatArray,
+    key: tuple[int, int, int],
+    record: np.ndarray,
+    scratch: Any,
+    ranges: FloatArray,
+    features: Features,
+    remembered: Any,
+    row: NDArray[np.float32],
+) -> None:
+    """Scan, extract, remember and write the observation row (but for goal and odometry).
+
+    Args:
+        lidar_world: true pose of the lidar, world frame.
+        lidar_odom: its pose by odometry.
+        robot_odom: pose of the robot's centre by odometry.
+        mount: pose of the lidar in the robot frame.
+        lidar: `Lidar.arrays`.
+        beams: cosine and sine of each beam, shape (n, 2).
+        key: (seed, episode, step) of the noise.
+        record: `ExtractorSettings.as_record()`.
+        scratch: of the extractor.
+        ranges: written, shape (n,).
+        features: written.
+        remembered: (walls, doors, used) of the memory, updated.
+        row: written.
+    """
+    grid, starts, ends, directions, sensor = lidar
+    x, y, heading = lidar_world
+    seed, episode, step = key
+    sense(
+        x, y, heading, grid, starts, ends, directions, sensor, seed, episode, step, ranges
+    )
+    limits = sensor[0]
+    extract_arrays(
+        ranges,
+        beams,
+        limits.angle_increment,
+        limits.range_min,
+        limits.range_max,
+        record,
+        scratch,
+        features.walls,
+        features.doors,
+        features.corners,
+        features.corridors,
+        features.counts,
+    )
+    write_features(row, features, mount)
+    remember(
+        features.walls,
+        features.doors,
+        features.counts,
+        ranges,
+        limits.angle_min,
+        limits.angle_increment,
+        lidar_odom,
+        remembered,
+    )
+    _, doors, used = remembered
+    write_remembered(row, doors, used[1], robot_odom)
+    for i in range(len(ranges)):
+        measured = ranges[i]
+        valid = limits.range_min <= measured < limits.range_max
+        row[ROW_SIZE + i] = measured if valid else limits.range_max
+
+
+class Perception:
+    """What the robot knows, from its lidar and its odometry alone.
+
+    Args:
+        lidar: on its mount.
+        settings: of the feature extractor.
+
+    Attributes:
+        row: the observation of this step, `ROW_SIZE` values and the scan.
+        features: of this step's scan, lidar frame.
+        ranges: of this step's scan, metres.
+        memory: what was seen so far, odometry frame.
+        follower: how far the command has come, as the robot sees it.
+    """
+
+    def __init__(self, lidar: Lidar, settings: ExtractorSettings) -> None:
+        beams = lidar.spec.beams
+        self.lidar = lidar
+        self.row = np.zeros(ROW_SIZE + beams, dtype=np.float32)
+        self.ranges = np.zeros(beams)
+        self.features = allocate_features()
+        self.memory = SceneMemory()
+        self._beams = np.ascontiguousarray(lidar.spec.directions.T)
+        self._record = settings.as_record()
+        self._scratch = allocate_scratch(beams)
+
+    def begin(self, command: Command) -> None:
+        """Start an episode: forget the last one."""
+        self.memory.clear()
+        self.follower = Follower(command, care=0.5, jamb_margin=0.3)
+        self._started = False
+
+    def sense(
+        self, true_pose: Pose, odometry: Pose, velocity: Pose, key: tuple[int, int, int]
+    ) -> None:
+        """Take a scan and think about it; afterwards `row` is the observation.
+
+        Args:
+            true_pose: of the robot's centre in the world: where the beams start.
+            odometry: the same as the robot believes, in the odometry frame.
+            velocity: forward, left (m/s) and turning (rad/s), robot frame.
+            key: (seed, episode, step) of the noise.
+        """
+        mount = self.lidar.mount
+        observe(
+            compose(true_pose, mount),
+            compose(odometry, mount),
+            odometry,
+            mount,
+            self.lidar.arrays,
+            self._beams,
+            key,
+            self._record,
+            self._scratch,
+            self.ranges,
+            self.features,
+            self.memory.arrays,
+            self.row,
+        )
+        self._think(odometry, math.hypot(velocity[0], velocity[1]), key[2])
+        follower, goal = self.follower, self.follower.goal
+        write_state(
+            self.row,
+            follower.active,
+            odometry,
+            velocity,
+            goal.kind,
+            goal.pose,
+            door_ends(goal),
+            goal.door is not None,
+        )
+
+    def _think(self, odometry: Pose, speed: float, step: int) -> None:
+        """Move on to the next clause or ground this one anew, if there is reason to."""
+        if not self._started:
+            self._started = True
+            self.follower.start(self.scene(), odometry)
+            self._note_look(odometry, step)
+        elif self.follower.advance(self.scene, odometry, speed) or self._should_look(
+            odometry, step
+        ):
+            self.follower.look(self.scene(), odometry)
+            self._note_look(odometry, step)
+
+    def hits(self) -> FloatArray:
+        """Where this step's beams ended, lidar frame, shape (n, 2); NaN without a return."""
+        spec = self.lidar.spec
+        valid = (self.ranges >= spec.range_min) & (self.ranges < spec.range_max)
+        return np.where(valid, self.ranges, np.nan)[:, None] * self._beams
+
+    def scene(self) -> Scene:
+        """What is remembered, in the odometry frame."""
+        return self.memory.scene()
+
+    def _should_look(self, pose: Pose, step: int) -> bool:
+        x, y, heading = self._looked_from
+        moved = abs(pose[0] - x) + abs(pose[1] - y) > LOOK_EVERY
+        turned = abs(math.remainder(pose[2] - heading, math.tau)) > LOOK_EVERY
+        if moved or turned:
+            return True
+        waited = step - self._looked_at >= LOOK_AT_LEAST
+        return waited and self.memory.size != self._looked_on
+
+    def _note_look(self, pose: Pose, step: int) -> None:
+        self._looked_from, self._looked_at, self._looked_on = pose, step, self.memory.size
+
+
+class TruePerception(Perception):
+    """The same interface on the map: for the oracle, and to see what perception costs.
+
+    The caller gives it a lidar without errors and the true pose as odometry, so its odometry
+    frame is the world frame.
+
+    Args:
+        lidar: without noise.
+        settings: of the feature extractor.
+        scene: all walls and doors, world frame.
+    """
+
+    def __init__(self, lidar: Lidar, settings: ExtractorSettings, scene: Scene) -> None:
+        super().__init__(lidar, settings)
+        self._scene = scene
+
+    def begin(self, command: Command) -> None:
+        """Start an episode."""
+        super().begin(command)
+        self.follower.complete = True
+
+    def scene(self) -> Scene:
+        """All there is, in the world frame."""
+        return self._scene

@@ -1,0 +1,116 @@
+"""Writes down what an environment's picture shows, and has it drawn."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.commands.clauses import DoorReference, Follow, GoToDoor
+from semnav_env.features.extract import to_scene
+from semnav_env.features.frames import Point, Pose, compose, points_to_parent, relative
+from semnav_env.features.scene import Scene
+from semnav_env.grounding.doors import doors_along
+from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.goal import Goal
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.perception import Perception
+from semnav_env.rendering.frame import Frame
+from semnav_env.rendering.viewer import Viewer
+from semnav_env.verifier import Verdict, Verifier
+
+if TYPE_CHECKING:
+    from semnav_env.env import SemNavEnv
+
+
+class Scribe:
+    """Makes the pictures of an environment; nothing is drawn or imported before the first one."""
+
+    def __init__(self, floor_plan: FloorPlan) -> None:
+        self._floor_plan = floor_plan
+        self._viewer: Viewer | None = None
+        self._trail: list[Point] = []
+
+    def begin(self) -> None:
+        """Start a new trail."""
+        self._trail = []
+
+    def draw(self, env: SemNavEnv, mode: str) -> NDArray[np.uint8] | None:
+        """The picture, or None in "human" mode, where it goes to a window."""
+        if self._viewer is None:
+            self._viewer = Viewer(self._floor_plan, fps=env.metadata["render_fps"])
+        frame = self.frame(env)
+        if mode == "human":
+            self._viewer.show(frame)
+            return None
+        return self._viewer.draw(frame)
+
+    def close(self) -> None:
+        """Close the window, if any."""
+        if self._viewer is not None:
+            self._viewer.close()
+            self._viewer = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A picture is drawn anew after unpickling; windows do not travel."""
+        return {**self.__dict__, "_viewer": None}
+
+    def frame(self, env: SemNavEnv) -> Frame:
+        """This moment of the episode, world frame."""
+        perception, verifier, pose = env.perception, env.task.verifier, env.world.pose
+        believed = env.believed_pose
+        odometry_frame = compose(pose, relative(believed, (0.0, 0.0, 0.0)))
+        lidar = compose(pose, perception.lidar.mount)
+        remembered = perception.scene()
+        self._trail.append(pose[:2])
+        return Frame(
+            floor_plan=env.floor_plan,
+            robot=env.robot,
+            pose=pose,
+            lidar=lidar[:2],
+            hits=points_to_parent(lidar, perception.hits()),
+            scene=to_scene(perception.features).placed(lidar),
+            remembered=remembered.placed(odometry_frame),
+            door_numbers=door_numbers(remembered, perception.follower),
+            goal=_moved(perception.follower.goal, odometry_frame),
+            trail=np.array(self._trail),
+            route=verifier.route,
+            command=tuple(str(clause) for clause in verifier.command.clauses),
+            active_clause=verifier.follower.active,
+            status=_status(env.seconds, perception, verifier),
+            in_contact=env.world.in_contact,
+        )
+
+
+def door_numbers(scene: Scene, follower: Follower) -> dict[int, int]:
+    """The numbers of a scene's doors as the active clause counts them, by index."""
+    hallway = follower.goal.hallway
+    if hallway is None:
+        return {}
+    clauses = follower.command.clauses
+    clause = clauses[min(follower.active, len(clauses) - 1)]
+    reference: object = None
+    if isinstance(clause, GoToDoor):
+        reference = clause.door
+    elif isinstance(clause, Follow):
+        reference = clause.until
+    side = reference.side if isinstance(reference, DoorReference) else None
+    counted = doors_along(scene, hallway, side)
+    order = {id(item.door): number for number, item in enumerate(counted, start=1)}
+    return {i: order[id(d)] for i, d in enumerate(scene.doors) if id(d) in order}
+
+
+def _moved(goal: Goal, frame: Pose) -> Goal:
+    door = Scene(doors=(goal.door,)).placed(frame).doors[0] if goal.door is not None else None
+    return Goal(goal.kind, compose(frame, goal.pose), door, because=goal.because)
+
+
+def _status(seconds: float, perception: Perception, verifier: Verifier) -> tuple[str, ...]:
+    current = [v for v in verifier.verdicts if v not in (Verdict.DONE, Verdict.PENDING)]
+    verdict = str(current[0]) if current else "done"
+    return (
+        f"t = {seconds:.1f} s   {verdict}",
+        f"understood: {perception.follower.goal.because}",
+        f"collisions: {verifier.collisions}",
+    )

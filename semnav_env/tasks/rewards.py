@@ -1,0 +1,43 @@
+"""Rewards as named terms; the reward of a step is their weighted sum."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+
+@dataclass(frozen=True)
+class RewardWeights:
+    """What each term is worth.
+
+    Attributes:
+        progress: per metre by which the shortest way to the active clause's goal gets shorter.
+        clause: for each clause carried out.
+        success: once, for the whole command.
+        failure: once, for a wrong door, a wrong turn or stopping short.
+        contact: per step in contact.
+        time: per step.
+    """
+
+    progress: float = 1.0
+    clause: float = 2.0
+    success: float = 10.0
+    failure: float = -5.0
+    contact: float = -0.1
+    time: float = -0.01
+
+    def apply(self, terms: RewardTerms) -> dict[str, float]:
+        """Each term times its weight, by name."""
+        values = asdict(terms)
+        return {name: weight * values[name] for name, weight in asdict(self).items()}
+
+
+@dataclass(frozen=True, slots=True)
+class RewardTerms:
+    """One step before weighting; see `RewardWeights` for the meaning of each term."""
+
+    progress: float
+    clause: float
+    success: float
+    failure: float
+    contact: float
+    time: float = 1.0

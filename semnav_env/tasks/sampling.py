@@ -1,0 +1,71 @@
+"""Random commands that make sense where the robot stands."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from semnav_env.commands import (
+    LAST,
+    Approach,
+    Clause,
+    Command,
+    DoorReference,
+    Follow,
+    GoToDoor,
+    Place,
+    PlaceReference,
+    Side,
+    Turn,
+    Turning,
+)
+from semnav_env.features.frames import Pose
+from semnav_env.grounding import GroundingError
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.verifier import plan_goals
+
+TRIES = 50
+"""Commands drawn before a start pose is given up."""
+
+
+def sample_feasible(
+    floor_plan: FloorPlan, start: Pose, rng: np.random.Generator, most_clauses: int = 3
+) -> Command | None:
+    """A random command of one to `most_clauses` clauses that can be carried out from `start`.
+
+    Returns:
+        None if `TRIES` draws found none.
+    """
+    for _ in range(TRIES):
+        command = _draw(rng, most_clauses)
+        try:
+            plan_goals(floor_plan, command, start)
+        except GroundingError:
+            continue
+        return command
+    return None
+
+
+def _draw(rng: np.random.Generator, most_clauses: int) -> Command:
+    last = _last_clause(rng)
+    ways = int(rng.integers(0, most_clauses))
+    return Command((*(_way_clause(rng) for _ in range(ways)), last))
+
+
+def _way_clause(rng: np.random.Generator) -> Clause:
+    turning = (Turning.LEFT, Turning.RIGHT)[rng.integers(2)]
+    place = (Place.INTERSECTION, Place.CORNER)[rng.integers(2)]
+    clauses: tuple[Clause, ...] = (
+        Turn(turning, PlaceReference(place, int(rng.integers(1, 3)))),
+        Turn(turning, PlaceReference(place)),
+        Follow(),
+    )
+    return clauses[rng.integers(len(clauses))]
+
+
+def _last_clause(rng: np.random.Generator) -> Clause:
+    side = (Side.LEFT, Side.RIGHT)[rng.integers(2)]
+    ordinal = (1, 1, 2, 2, 3, 4, LAST)[rng.integers(7)]
+    approach = Approach.TO if rng.random() < 0.15 else Approach.THROUGH
+    if rng.random() < 0.15:
+        return Follow(PlaceReference(Place.END))
+    return GoToDoor(DoorReference(ordinal, side), approach)

@@ -1,0 +1,138 @@
+"""The task: carry out a command. It owns the start, the reward and the end of an episode."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from semnav_env.commands import Command, parse
+from semnav_env.features.frames import Pose, wrap_angle
+from semnav_env.features.hallway import hallway
+from semnav_env.grounding import GroundingError
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.geodesic import Geodesic
+from semnav_env.maps.placement import placement_error, sample_pose
+from semnav_env.robots import RobotSpec
+from semnav_env.tasks.rewards import RewardTerms, RewardWeights
+from semnav_env.tasks.sampling import sample_feasible
+from semnav_env.verifier import Motion, Verifier, plan_goals
+
+START_TRIES = 200
+"""Start poses drawn before a floor plan is found unfit for commands."""
+
+
+@dataclass
+class CommandTask:
+    """Carry out one command per episode.
+
+    Attributes:
+        floor_plan: where.
+        robot: which body must find room.
+        weights: of the reward terms.
+        verifier: of the episode under way.
+    """
+
+    floor_plan: FloorPlan
+    robot: RobotSpec
+    weights: RewardWeights
+    geodesic: Geodesic = field(init=False, repr=False)
+    verifier: Verifier = field(init=False, repr=False)
+    _remaining: float = field(init=False, default=0.0)
+
+    def __post_init__(self) -> None:
+        self.geodesic = Geodesic(self.floor_plan)
+
+    def begin(self, options: dict[str, Any], rng: np.random.Generator) -> Pose:
+        """Choose or check the start pose and the command of an episode.
+
+        Args:
+            options: "command" (text or `Command`) and "pose" (x, y, heading), each optional.
+            rng: for what is not given.
+
+        Returns:
+            The start pose, world frame.
+
+        Raises:
+            ValueError: the pose is not free, or the command is not understood or not feasible.
+        """
+        command, pose = _command(options.get("command")), _pose(options.get("pose"))
+        if pose is not None:
+            error = placement_error(self.floor_plan, self.robot, pose)
+            if error is not None:
+                raise ValueError(f"start pose {pose}: {error}")
+        start, command = self._complete(pose, command, rng)
+        self.verifier = Verifier(self.floor_plan, self.geodesic, command, start)
+        self._remaining = self.verifier.remaining
+        return start
+
+    def step(self, motion: Motion) -> dict[str, float]:
+        """Judge a step; returns the weighted reward terms by name."""
+        was_over = self.verifier.over
+        completed = self.verifier.update(motion)
+        remaining = self.verifier.remaining
+        progress = self._remaining - (0.0 if completed else remaining)
+        self._remaining = remaining
+        over = self.verifier.over and not was_over
+        return self.weights.apply(
+            RewardTerms(
+                progress=progress if math.isfinite(progress) else 0.0,
+                clause=float(completed),
+                success=float(over and self.verifier.success),
+                failure=float(over and not self.verifier.success),
+                contact=float(motion.in_contact),
+            )
+        )
+
+    def _complete(
+        self, pose: Pose | None, command: Command | None, rng: np.random.Generator
+    ) -> tuple[Pose, Command]:
+        if pose is not None and command is not None:
+            return pose, command
+        for _ in range(START_TRIES):
+            start = pose or self._random_start(rng)
+            drawn = command or sample_feasible(self.floor_plan, start, rng)
+            if drawn is not None and (command is None or self._is_feasible(command, start)):
+                return start, drawn
+        raise ValueError(
+            f"{self.floor_plan.name}: no start pose and command found that fit each other "
+            f"(pose {pose or 'free'}, command {str(command) if command else 'free'})"
+        )
+
+    def _is_feasible(self, command: Command, start: Pose) -> bool:
+        try:
+            plan_goals(self.floor_plan, command, start)
+        except GroundingError:
+            return False
+        return True
+
+    def _random_start(self, rng: np.random.Generator) -> Pose:
+        """A free pose in a corridor, looking along it."""
+        corridors = self.floor_plan.corridors
+        region = corridors[rng.integers(len(corridors))] if corridors else None
+        while True:
+            pose = sample_pose(self.floor_plan, self.robot, rng, region)
+            axis = hallway(self.floor_plan.scene, pose).frame[2]
+            start = (*pose[:2], wrap_angle(axis + rng.uniform(-0.2, 0.2)))
+            if placement_error(self.floor_plan, self.robot, start) is None:
+                return start
+
+
+def _command(given: object) -> Command | None:
+    if given is None or isinstance(given, Command):
+        return given
+    if isinstance(given, str):
+        return parse(given)
+    raise ValueError(f"a command is text or a Command, not {type(given).__name__}")
+
+
+def _pose(given: object) -> Pose | None:
+    if given is None:
+        return None
+    try:
+        x, y, heading = (float(value) for value in given)  # type: ignore[attr-defined]
+    except (TypeError, ValueError):
+        raise ValueError(f"a pose is (x, y, heading) in metres and radians, not {given!r}") from None
+    return x, y, heading
