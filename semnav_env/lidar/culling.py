@@ -1,0 +1,130 @@
+"""For every place in a floor plan, the few segments that a lidar standing there can reach."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray
+
+GRID = np.dtype([("x", "f8"), ("y", "f8"), ("cell", "f8"), ("columns", "i8"), ("rows", "i8")])
+"""The lower left corner, the side of a cell in metres, and how many cells: shape (1,)."""
+
+CELL = 2.0
+"""Side of a cell, metres; larger in a plan that would need more than `MOST_CELLS` of them."""
+
+MOST_CELLS = 10_000
+
+
+@dataclass(frozen=True, eq=False)
+class Culling:
+    """Per cell of a grid, the segments within range of any point in the cell.
+
+    The lists are stored one after the other, coordinates apart, so that the ray caster reads
+    memory in order. One more list after the last cell's holds all segments: for a lidar
+    outside the grid.
+
+    Attributes:
+        grid: shape (1,), dtype `GRID`.
+        starts: where each list begins, shape (columns * rows + 2,), int64.
+        ends: rows x1, y1, x2, y2 of the listed segments in metres, shape (4, m).
+    """
+
+    grid: np.ndarray
+    starts: NDArray[np.int64]
+    ends: FloatArray
+
+    @classmethod
+    def of(cls, segments: FloatArray, range_max: float) -> Culling:
+        """Lists for these segments, shape (n, 4): x1, y1, x2, y2 in metres.
+
+        Raises:
+            ValueError: segments of another shape, or not finite.
+        """
+        rows = np.ascontiguousarray(segments, dtype=np.float64)
+        if rows.ndim != 2 or rows.shape[1] != 4 or not np.isfinite(rows).all():
+            raise ValueError(
+                f"segments of shape {rows.shape} must be finite and of shape (n, 4): x1, y1, x2, y2"
+            )
+        grid = _grid(rows)
+        starts = _list_starts(rows, grid, range_max)
+        return cls(grid, starts, _listed_ends(rows, grid, range_max, starts))
+
+
+def _grid(segments: FloatArray) -> np.ndarray:
+    if len(segments) == 0:
+        return np.array([(0.0, 0.0, CELL, 1, 1)], GRID)
+    points = segments.reshape(-1, 2)
+    low, extent = points.min(axis=0), np.ptp(points, axis=0)
+    cell = max(CELL, math.sqrt(float(extent.prod()) / MOST_CELLS), float(extent.max()) / MOST_CELLS)
+    columns, rows = (extent // cell).astype(np.int64) + 1
+    return np.array([(*low, cell, columns, rows)], GRID)
+
+
+@njit(cache=True)
+def cell_of(grid: np.ndarray, x: float, y: float) -> Any:
+    """Which list (int) a lidar at (x, y) needs: its cell's, or the last one outside the grid."""
+    g = grid[0]
+    column, row = (x - g.x) // g.cell, (y - g.y) // g.cell
+    if 0 <= column < g.columns and 0 <= row < g.rows:
+        return int(row) * g.columns + int(column)
+    return g.columns * g.rows
+
+
+@njit(cache=True)
+def _centre(g: Any, cell: int) -> tuple[float, float]:
+    return g.x + (cell % g.columns + 0.5) * g.cell, g.y + (cell // g.columns + 0.5) * g.cell
+
+
+@njit(cache=True)
+def _reach(g: Any, range_max: float) -> Any:
+    """How far from a cell's centre a segment may be, with a margin for rounding."""
+    return range_max + g.cell * math.sqrt(0.5) + 1e-9
+
+
+@njit(cache=True)
+def _reaches(segment: FloatArray, x: float, y: float, reach: float) -> Any:
+    """Whether the segment comes within `reach` of a point."""
+    dx, dy = segment[2] - segment[0], segment[3] - segment[1]
+    to_x, to_y = x - segment[0], y - segment[1]
+    squared = dx * dx + dy * dy
+    along = (to_x * dx + to_y * dy) / squared if squared > 0.0 else 0.0
+    along = min(max(along, 0.0), 1.0)
+    off_x, off_y = to_x - along * dx, to_y - along * dy
+    return off_x * off_x + off_y * off_y <= reach * reach
+
+
+@njit(cache=True)
+def _list_starts(segments: FloatArray, grid: np.ndarray, range_max: float) -> NDArray[np.int64]:
+    g = grid[0]
+    reach = _reach(g, range_max)
+    starts = np.zeros(g.columns * g.rows + 2, np.int64)
+    for i in range(g.columns * g.rows):
+        x, y = _centre(g, i)
+        starts[i + 1] = starts[i]
+        for segment in segments:
+            starts[i + 1] += _reaches(segment, x, y, reach)
+    starts[-1] = starts[-2] + len(segments)
+    return starts
+
+
+@njit(cache=True)
+def _listed_ends(
+    segments: FloatArray, grid: np.ndarray, range_max: float, starts: NDArray[np.int64]
+) -> FloatArray:
+    g = grid[0]
+    reach = _reach(g, range_max)
+    ends = np.empty((4, starts[-1]))
+    place = 0
+    for i in range(len(starts) - 1):
+        x, y = _centre(g, i)
+        for segment in segments:
+            if i == len(starts) - 2 or _reaches(segment, x, y, reach):
+                ends[:, place] = segment
+                place += 1
+    return ends

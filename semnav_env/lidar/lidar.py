@@ -1,0 +1,94 @@
+"""A lidar in a floor plan: from the robot's pose to what the lidar sends."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray, Pose, compose
+from semnav_env.features.scan import Scan
+from semnav_env.lidar.culling import Culling
+from semnav_env.lidar.noise import corrupt
+from semnav_env.lidar.raster import cast
+from semnav_env.lidar.spec import LidarSpec, lidar_spec
+from semnav_env.maps.floor_plan import FloorPlan
+
+Key: TypeAlias = tuple[int, int, int]
+"""(seed, episode, step), each at least 0 and below 2**63; the step counts sweeps."""
+
+
+@njit(cache=True)
+def sense(
+    x: float,
+    y: float,
+    heading: float,
+    grid: np.ndarray,
+    starts: NDArray[np.int64],
+    ends: FloatArray,
+    directions: FloatArray,
+    sensor: np.ndarray,
+    seed: int,
+    episode: int,
+    step: int,
+    out: FloatArray,
+) -> None:
+    """Write measured ranges: `cast`, then `corrupt`; the arguments are theirs."""
+    cast(x, y, heading, grid, starts, ends, directions, sensor, out)
+    corrupt(out, sensor, seed, episode, step)
+
+
+class Lidar:
+    """A lidar on a robot in a floor plan; glass does not stop its beams.
+
+    Args:
+        floor_plan: whose opaque segments the beams meet.
+        spec: a lidar's name or its spec.
+        mount: pose of the lidar in the robot frame.
+
+    Attributes:
+        arrays: (grid, starts, ends, directions, sensor), as `cast` and `sense` take them.
+    """
+
+    def __init__(
+        self,
+        floor_plan: FloorPlan,
+        spec: str | LidarSpec = "tim561",
+        mount: Pose = (0.0, 0.0, 0.0),
+    ) -> None:
+        self.spec = lidar_spec(spec)
+        self.mount = mount
+        culling = Culling.of(floor_plan.opaque_segments, self.spec.range_max)
+        tables = (self.spec.directions, self.spec.sensor)
+        self.arrays = (culling.grid, culling.starts, culling.ends, *tables)
+
+    def ranges(self, robot_pose: Pose, key: Key, out: FloatArray | None = None) -> FloatArray:
+        """What each beam measures from `robot_pose` in the world: metres, shape (beams,).
+
+        Written into `out` if given. -inf is too close, +inf no return (REP 117); never NaN.
+        """
+        out = np.empty(self.spec.beams) if out is None else out
+        x, y, heading = compose(robot_pose, self.mount)
+        sense(x, y, heading, *self.arrays, key[0], key[1], key[2], out)
+        return out
+
+    def exact_ranges(self, robot_pose: Pose) -> FloatArray:
+        """The ranges without any error: metres, shape (beams,), +inf for no return."""
+        out = np.empty(self.spec.beams)
+        x, y, heading = compose(robot_pose, self.mount)
+        cast(x, y, heading, *self.arrays, out)
+        return out
+
+    def scan(self, robot_pose: Pose, key: Key) -> Scan:
+        """`ranges` as a scan in the lidar frame, stamped with the time of sweep `key[2]`."""
+        spec = self.spec
+        return Scan(
+            self.ranges(robot_pose, key),
+            spec.angle_min,
+            spec.angle_increment,
+            spec.range_min,
+            spec.range_max,
+            stamp=key[2] / spec.rate_hz,
+        )
