@@ -7,7 +7,8 @@ from enum import StrEnum
 from functools import cached_property
 
 import numpy as np
-from shapely import Polygon
+from numpy.typing import NDArray
+from shapely import Polygon, STRtree, linestrings
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.scene import Door, Scene, Wall
@@ -70,10 +71,17 @@ class PlanDoor:
 
 @dataclass(frozen=True)
 class Region:
-    """A named area: a room, a corridor or an intersection."""
+    """A named area: a room, a corridor or an intersection.
+
+    Attributes:
+        name: unique among the regions of the plan.
+        polygon: metres.
+        assumed: the source of the plan does not show it.
+    """
 
     name: str
     polygon: Polygon
+    assumed: bool = False
 
 
 @dataclass(frozen=True)
@@ -109,8 +117,24 @@ class FloorPlan:
     @cached_property
     def opaque_segments(self) -> FloatArray:
         """The segments that stop a beam, shape (m, 4): all but glass."""
-        opaque = [s.material is not Material.GLASS for s in self.surfaces for _ in _pairs(s)]
-        return _frozen(self.segments[np.array(opaque, dtype=bool)])
+        opaque = np.array([s.material is not Material.GLASS for s in self.surfaces], dtype=bool)
+        return _frozen(self.segments[opaque[self.owners]])
+
+    @cached_property
+    def owners(self) -> NDArray[np.intp]:
+        """Which surface each row of `segments` belongs to, shape (n,)."""
+        counts = [len(surface.points) - 1 for surface in self.surfaces]
+        return np.repeat(np.arange(len(counts)), counts)
+
+    @cached_property
+    def solids(self) -> STRtree:
+        """Spatial index of `segments`, in the same order, for offline queries."""
+        return STRtree(linestrings(self.segments.reshape(-1, 2, 2)))
+
+    @property
+    def regions(self) -> tuple[Region, ...]:
+        """All rooms, corridors and intersections."""
+        return self.rooms + self.corridors + self.intersections
 
     @cached_property
     def scene(self) -> Scene:
@@ -129,6 +153,18 @@ class FloorPlan:
                 return door
         names = ", ".join(door.name for door in self.doors)
         raise KeyError(f"{self.name} has no door {name!r}; there are: {names}")
+
+    def region(self, name: str) -> Region:
+        """The room, corridor or intersection of that name.
+
+        Raises:
+            KeyError: no such region; lists those there are.
+        """
+        for region in self.regions:
+            if region.name == name:
+                return region
+        names = ", ".join(region.name for region in self.regions)
+        raise KeyError(f"{self.name} has no region {name!r}; there are: {names}")
 
 
 def _pairs(surface: Surface) -> list[tuple[Point, Point]]:

@@ -1,0 +1,143 @@
+"""A floor plan file as a checked JSON document: sizes first, then syntax, then the schema."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any, NoReturn, TypeAlias
+
+from jsonschema import Draft202012Validator, ValidationError
+from rapidfuzz import process
+
+from semnav_env.maps.rules import FloorPlanError
+
+Document: TypeAlias = dict[str, Any]
+
+SCHEMA_FILE = Path(__file__).with_name("floor_plan.schema.json")
+MAX_BYTES = 20_000_000
+MAX_FEATURES = 10_000
+MAX_NUMBERS = 100_000
+
+
+def read_text(path: Path) -> str:
+    """The text of a floor plan file.
+
+    Raises:
+        FloorPlanError: not a readable file, too large or not UTF-8.
+    """
+    try:
+        if path.is_dir():
+            raise FloorPlanError(f"{path}: is a folder; give a .geojson file")
+        if not path.is_file():
+            raise FloorPlanError(f"{path}: no such file; give a .geojson file or a bundled name")
+        size = path.stat().st_size
+        if size > MAX_BYTES:
+            raise FloorPlanError(f"{path}: {size:,} bytes; at most {MAX_BYTES:,} are read")
+        return path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FloorPlanError(f"{path}: byte {error.start} is not UTF-8; save it as UTF-8") from None
+    except OSError as error:
+        raise FloorPlanError(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def parse_document(text: str, where: str) -> Document:
+    """The document in `text`, checked against floor_plan.schema.json.
+
+    Args:
+        text: JSON; NaN and Infinity are refused.
+        where: what to call the text in an error, as a file's name.
+
+    Raises:
+        FloorPlanError: not JSON, too large, or not what the schema asks for.
+    """
+    try:
+        document = json.loads(text, parse_constant=_refuse, parse_int=float)
+        _check_sizes(document)
+        _drop_nulls(document)
+        _check_schema(document)
+    except FloorPlanError as error:
+        raise FloorPlanError(f"{where}: {error}") from None
+    except json.JSONDecodeError as error:
+        place = f"line {error.lineno}, column {error.colno}"
+        raise FloorPlanError(f"{where}: not JSON: {error.msg} at {place}") from None
+    except RecursionError:
+        raise FloorPlanError(f"{where}: nested too deeply; a plan needs eight levels") from None
+    checked: Document = document
+    return checked
+
+
+@cache
+def validator() -> Draft202012Validator:
+    """The compiled schema of floor plans."""
+    return Draft202012Validator(json.loads(SCHEMA_FILE.read_text("utf-8")))
+
+
+def label(document: Document, index: int) -> str:
+    """What to call a feature in an error: its number (from 1), kind and name."""
+    feature = document["features"][index]
+    properties = feature.get("properties") if isinstance(feature, dict) else None
+    words = [str(properties.get(k, ""))[:64] for k in ("kind", "name")] if properties else []
+    called = " ".join(filter(None, words))
+    number = f"feature {index + 1} of {len(document['features'])}"
+    return f"{number} ({called})" if called.isprintable() and called else number
+
+
+def _refuse(literal: str) -> NoReturn:
+    raise FloorPlanError(f"holds {literal}; coordinates are finite numbers")
+
+
+def _check_sizes(document: object) -> None:
+    features = document.get("features") if isinstance(document, dict) else None
+    if isinstance(features, list) and len(features) > MAX_FEATURES:
+        raise FloorPlanError(f"{len(features):,} features; at most {MAX_FEATURES:,} are read")
+    if _numbers(document) > MAX_NUMBERS:
+        raise FloorPlanError(f"more than {MAX_NUMBERS // 2:,} positions; simplify the plan")
+
+
+def _numbers(document: object) -> int:
+    """How many numbers there are; stops counting beyond the limit."""
+    count, todo = 0, [document]
+    while todo and count <= MAX_NUMBERS:
+        value = todo.pop()
+        if isinstance(value, float):
+            count += 1
+        elif isinstance(value, list | dict):
+            todo.extend(value.values() if isinstance(value, dict) else value)
+    return count
+
+
+def _drop_nulls(document: object) -> None:
+    """Drawing programs write every attribute of every feature, most of them null."""
+    features = document.get("features") if isinstance(document, dict) else None
+    for feature in features if isinstance(features, list) else []:
+        if isinstance(feature, dict) and isinstance(feature.get("properties"), dict):
+            kept = {k: v for k, v in feature["properties"].items() if v is not None}
+            feature["properties"] = kept
+
+
+def _check_schema(document: Any) -> None:
+    error = next(validator().iter_errors(document), None)
+    if error is None:
+        return
+    path = list(error.absolute_path)
+    where = ""
+    if path[:1] == ["features"] and len(path) > 1:
+        where, path = f"{label(document, int(path[1]))}: ", path[2:]
+    place = ".".join(map(str, path))
+    raise FloorPlanError(f"{where}{place}{': ' if place else ''}{_explain(error)}")
+
+
+def _explain(error: ValidationError) -> str:
+    found = repr(error.instance)[:80] if error.validator in ("const", "enum", "type") else ""
+    if error.validator == "const":
+        return f"must be {error.validator_value!r}, not {found}"
+    if error.validator == "type":
+        return f"must be of type {error.validator_value}, not {found}"
+    if error.validator == "enum":
+        choices = list(map(str, error.validator_value))
+        near = process.extractOne(str(error.instance)[:80], choices, score_cutoff=60)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        return f"must be one of {', '.join(choices)}, not {found}{hint}"
+    message = str(error.message).replace("\n", " ")
+    return message if len(message) <= 200 else f"{message[:90]} ... {message[-90:]}"

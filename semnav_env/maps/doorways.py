@@ -1,0 +1,77 @@
+"""How far a doorway stands open, read off the leaves that hang in it."""
+
+from __future__ import annotations
+
+import math
+from enum import StrEnum
+
+import shapely
+from shapely import LineString, Point
+
+from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
+
+TOUCH = 0.05
+"""Metres within which two drawn things count as touching."""
+
+NARROWEST_ROBOT = 0.5
+"""Metres of clear width that an open door has at least (SPOT is 0.50 m wide)."""
+
+HALF_OPEN_BELOW = math.radians(75.0)
+"""A leaf at a smaller angle to its opening narrows the way through."""
+
+
+class DoorState(StrEnum):
+    """As in the `state` of a door in a floor plan file."""
+
+    OPEN = "open"
+    HALF_OPEN = "half-open"
+    CLOSED = "closed"
+
+
+def door_state(door: PlanDoor, plan: FloorPlan) -> DoorState:
+    """Whether something solid fills the opening, a leaf narrows it, or neither."""
+    near = _near(door, plan)
+    if _uncovered(door, near) < TOUCH:
+        return DoorState.CLOSED
+    ways = ((door.start, door.end), (door.end, door.start))
+    angles = [_angle(jamb, other, leaf) for jamb, other in ways for leaf in _hung(jamb, near)]
+    return DoorState.HALF_OPEN if min(angles, default=math.pi) < HALF_OPEN_BELOW else DoorState.OPEN
+
+
+def clear_width(door: PlanDoor, plan: FloorPlan) -> float:
+    """Width in metres of what may pass: between the two jambs with the leaves that hang on them.
+
+    A leaf as wide as the door, at an angle a < 90 degrees to it, leaves width * sin(a).
+    """
+    near = _near(door, plan)
+    a, b = (shapely.union_all([Point(j), *_hung(j, near)]) for j in (door.start, door.end))
+    return min(float(a.distance(b)), _uncovered(door, near))
+
+
+def _near(door: PlanDoor, plan: FloorPlan) -> list[Surface]:
+    """The surfaces that touch the opening."""
+    rows = plan.solids.query(LineString((door.start, door.end)), "dwithin", TOUCH)
+    return [plan.surfaces[i] for i in sorted(set(plan.owners[rows].tolist()))]
+
+
+def _uncovered(door: PlanDoor, near: list[Surface]) -> float:
+    """Longest stretch of the opening that no surface lies on or crosses, metres."""
+    opening = LineString((door.start, door.end))
+    solid = shapely.union_all([LineString(surface.points) for surface in near])
+    free = opening.difference(solid.buffer(TOUCH / 2, cap_style="flat"))
+    return max((float(part.length) for part in shapely.get_parts(free)), default=0.0)
+
+
+def _hung(jamb: tuple[float, float], near: list[Surface]) -> list[LineString]:
+    """The leaves that start at the jamb, each directed away from it."""
+    leaves = [surface.points for surface in near if surface.material is Material.LEAF]
+    directed = [points for leaf in leaves for points in (leaf, leaf[::-1])]
+    return [LineString(points) for points in directed if math.dist(points[0], jamb) < TOUCH]
+
+
+def _angle(jamb: tuple[float, float], other: tuple[float, float], leaf: LineString) -> float:
+    """Angle in [0, pi] at a jamb from the other jamb to the tip of a leaf."""
+    tip = leaf.coords[-1]
+    towards_other = math.atan2(other[1] - jamb[1], other[0] - jamb[0])
+    towards_tip = math.atan2(tip[1] - jamb[1], tip[0] - jamb[0])
+    return abs(math.remainder(towards_other - towards_tip, 2.0 * math.pi))

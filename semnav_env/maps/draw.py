@@ -1,0 +1,95 @@
+"""Pictures of floor plans; the only file of the maps that imports matplotlib."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path as Outline
+from shapely import Polygon
+
+from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
+
+COLOURS = {
+    Material.WALL: "black",
+    Material.GLASS: "deepskyblue",
+    Material.LEAF: "saddlebrown",
+    Material.FURNITURE: "grey",
+}
+TINTS = {"rooms": "oldlace", "corridors": "lightsteelblue", "intersections": "plum"}
+LONGEST_SIDE = 12.0
+"""Of a picture, inches."""
+
+
+def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
+    """Draw a plan in metres: walls black, glass blue, leaves brown, furniture grey.
+
+    What is assumed is dashed; open doors are green, closed ones red; regions are tinted.
+
+    Args:
+        plan: the plan.
+        ax: where to draw.
+        names: whether to write the names of doors and regions.
+    """
+    for group, tint in TINTS.items():
+        for region in getattr(plan, group):
+            _draw_region(region, ax, tint, names)
+    for surface in plan.surfaces:
+        _draw_surface(surface, ax)
+    for door in plan.doors:
+        _draw_door(door, ax, names)
+    ax.set_aspect("equal")
+    ax.autoscale_view()
+    ax.set_xlabel("x, m")
+    ax.set_ylabel("y, m")
+
+
+def save_picture(plan: FloorPlan, path: str | Path, dpi: int = 100) -> None:
+    """Write a picture of a plan; the suffix of `path` says the format (png, svg, pdf).
+
+    Raises:
+        ValueError: a suffix that matplotlib does not know; it lists those it does.
+    """
+    west, south, east, north = plan.boundary.bounds
+    inch = LONGEST_SIDE / max(east - west, north - south)
+    figure = Figure(
+        figsize=((east - west) * inch + 1.0, (north - south) * inch + 1.0), layout="constrained"
+    )
+    FigureCanvasAgg(figure)
+    ax = figure.add_subplot()
+    draw_floor_plan(plan, ax)
+    ax.set_title(plan.name)
+    figure.savefig(path, dpi=dpi)
+
+
+def _draw_region(region: Region, ax: Axes, tint: str, names: bool) -> None:
+    ax.add_patch(PathPatch(_outline(region.polygon), facecolor=tint, edgecolor="none", alpha=0.6))
+    if names:
+        at = region.polygon.representative_point()
+        style = "italic" if region.assumed else "normal"
+        ax.text(at.x, at.y, region.name, size=7, style=style, color="dimgrey", ha="center")
+
+
+def _draw_surface(surface: Surface, ax: Axes) -> None:
+    x, y = zip(*surface.points, strict=True)
+    if surface.material is Material.FURNITURE:
+        ax.fill(x, y, facecolor="lightgrey", edgecolor="none")
+    dashes = "--" if surface.assumed else "-"
+    ax.plot(x, y, dashes, color=COLOURS[surface.material], linewidth=1.5)
+
+
+def _draw_door(door: PlanDoor, ax: Axes, names: bool) -> None:
+    colour = "green" if door.open else "red"
+    x, y = zip(door.start, door.end, strict=True)
+    ax.plot(x, y, color=colour, linewidth=3, alpha=0.5, solid_capstyle="butt")
+    if names:
+        place = {"ha": "center", "va": "center", "color": colour, "size": 7}
+        ax.text(*door.midpoint, door.name, **place, weight="bold")
+
+
+def _outline(polygon: Polygon) -> Outline:
+    rings = (polygon.exterior, *polygon.interiors)
+    return Outline.make_compound_path(*(Outline(ring.coords, closed=True) for ring in rings))

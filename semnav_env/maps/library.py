@@ -1,0 +1,57 @@
+"""The floor plans that come with the package, and any other by its path."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from rapidfuzz import process
+
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.reader import read_plan
+from semnav_env.maps.rules import FloorPlanError, check_plan
+
+BUNDLED = Path(__file__).with_name("bundled")
+
+
+def bundled_names() -> tuple[str, ...]:
+    """Names of the floor plans that come with the package, sorted."""
+    return tuple(sorted(path.stem for path in BUNDLED.glob("*.geojson")))
+
+
+def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
+    """The floor plan of that bundled name or at that path; a `FloorPlan` is checked and returned.
+
+    Raises:
+        FloorPlanError: no such plan, which lists those there are; or a file or plan that breaks
+            a rule of docs/floor_plans.md, which says where and what would be right.
+    """
+    if isinstance(plan, FloorPlan):
+        check_plan(plan)
+        return plan
+    if isinstance(plan, str) and plan in bundled_names():
+        return _bundled(plan)
+    if not isinstance(plan, str | Path):
+        raise FloorPlanError(f"a floor plan is a name, a path or a FloorPlan, not {plan!r:.80}")
+    if isinstance(plan, Path) or _is_path(plan):
+        return read_plan(Path(plan))
+    raise FloorPlanError(_unknown(plan))
+
+
+@cache
+def _bundled(name: str) -> FloorPlan:
+    return read_plan(BUNDLED / f"{name}.geojson")
+
+
+def _is_path(text: str) -> bool:
+    """Anything with a suffix or a folder, and files or folders that lie there."""
+    if "\0" in text or len(text) > 4096:
+        return False
+    return "/" in text or bool(Path(text).suffix) or Path(text).exists()
+
+
+def _unknown(name: str) -> str:
+    names = bundled_names()
+    near = process.extractOne(name[:80], names, score_cutoff=60)
+    hint = f"; did you mean {near[0]}?" if near else ""
+    return f"no floor plan named {name[:80]!r}; there are: {', '.join(names)}, or a path{hint}"

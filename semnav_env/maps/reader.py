@@ -1,0 +1,143 @@
+"""From GeoJSON in local metres to a floor plan; docs/floor_plans.md describes the format."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from shapely import Polygon
+
+from semnav_env.features.frames import Point
+from semnav_env.maps.document import Document, label, parse_document, read_text
+from semnav_env.maps.doorways import DoorState, door_state
+from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
+from semnav_env.maps.rules import (
+    FloorPlanError,
+    check_door,
+    check_plan,
+    check_polygon,
+    check_region,
+    check_surface,
+)
+
+Properties: TypeAlias = dict[str, Any]
+Part: TypeAlias = Surface | PlanDoor | Region | Polygon
+
+SOLIDS = frozenset(Material)
+
+
+def read_plan(path: Path) -> FloorPlan:
+    """Read and check one file.
+
+    Raises:
+        FloorPlanError: names the file, the feature, what is wrong and what would be right.
+    """
+    return parse_plan(read_text(path), str(path), path.stem)
+
+
+def parse_plan(text: str, where: str, name: str) -> FloorPlan:
+    """The plan in a GeoJSON text.
+
+    Args:
+        text: the document.
+        where: what to call it in an error.
+        name: the plan's name if the document gives none.
+
+    Raises:
+        FloorPlanError: as `read_plan`.
+    """
+    document = parse_document(text, where)
+    parts: dict[str, list[Any]] = {}
+    for index, feature in enumerate(document["features"]):
+        try:
+            kind = feature["properties"]["kind"]
+            parts.setdefault("solid" if kind in SOLIDS else kind, []).append(_part(feature))
+        except FloorPlanError as error:
+            raise FloorPlanError(f"{where}: {label(document, index)}: {error}") from None
+    try:
+        plan = _assemble(document, parts, name)
+        check_plan(plan)
+        _check_states(document, plan)
+    except FloorPlanError as error:
+        raise FloorPlanError(f"{where}: {error}") from None
+    return plan
+
+
+def _assemble(document: Document, parts: dict[str, list[Any]], name: str) -> FloorPlan:
+    outlines = parts.get("boundary", [])
+    if len(outlines) != 1:
+        raise FloorPlanError(f"{len(outlines)} features of kind boundary; a plan has exactly one")
+    if "solid" not in parts:
+        raise FloorPlanError("nothing solid; a plan has features of kind wall")
+    groups = ("solid", "door", "room", "corridor", "intersection")
+    solids, doors, rooms, corridors, intersections = (tuple(parts.get(g, ())) for g in groups)
+    return FloorPlan(
+        name=document.get("name", name),
+        surfaces=solids,
+        doors=doors,
+        rooms=rooms,
+        corridors=corridors,
+        intersections=intersections,
+        boundary=outlines[0],
+        source=document.get("source", ""),
+    )
+
+
+def _check_states(document: Document, plan: FloorPlan) -> None:
+    """A stated `state` must be the drawn one."""
+    properties = [feature["properties"] for feature in document["features"]]
+    doors = [p for p in properties if p["kind"] == "door" and "state" in p]
+    for stated in doors:
+        drawn = door_state(plan.door(stated["name"]), plan)
+        if drawn != stated["state"]:
+            raise FloorPlanError(
+                f"door {stated['name']!r} is called {stated['state']}, but is drawn {drawn}; "
+                "draw its leaf or change its state"
+            )
+
+
+def _part(feature: dict[str, Any]) -> Part:
+    """What a feature describes, checked."""
+    properties, geometry = feature["properties"], feature["geometry"]
+    if properties["kind"] in SOLIDS:
+        return _surface(properties, geometry)
+    if properties["kind"] == "door":
+        return _door(properties, geometry["coordinates"])
+    polygon = _polygon(geometry["coordinates"])
+    if properties["kind"] == "boundary":
+        check_polygon(polygon, "the boundary")
+        return polygon
+    region = Region(properties["name"], polygon, properties.get("assumed", False))
+    check_region(region)
+    return region
+
+
+def _surface(properties: Properties, geometry: dict[str, Any]) -> Surface:
+    material = Material(properties["kind"])
+    line = geometry["coordinates"]
+    if geometry["type"] == "Polygon":
+        check_polygon(_polygon(line), f"the {material}")
+        line = line[0]
+    surface = Surface(_points(line), material, properties.get("assumed", False))
+    check_surface(surface)
+    return surface
+
+
+def _door(properties: Properties, line: list[list[float]]) -> PlanDoor:
+    start, end = _points(line)
+    is_open = properties.get("state", "open") != DoorState.CLOSED
+    door = PlanDoor(properties["name"], start, end, is_open)
+    check_door(door)
+    return door
+
+
+def _polygon(rings: list[list[list[float]]]) -> Polygon:
+    for ring in rings:
+        if ring[0] != ring[-1]:
+            raise FloorPlanError("a ring is not closed; repeat its first position as its last")
+    shell, *holes = map(_points, rings)
+    return Polygon(shell, holes)
+
+
+def _points(line: list[list[float]]) -> tuple[Point, ...]:
+    return tuple((x, y) for x, y in line)

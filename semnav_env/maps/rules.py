@@ -1,0 +1,168 @@
+"""What must hold for every floor plan, whoever made it."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable
+
+import shapely
+from shapely import LineString, Polygon
+from shapely.validation import explain_validity
+
+from semnav_env.features.frames import Point
+from semnav_env.maps.doorways import (
+    NARROWEST_ROBOT,
+    TOUCH,
+    DoorState,
+    clear_width,
+    door_state,
+)
+from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region, Surface
+
+MAX_EXTENT = 1000.0
+"""Metres from the origin to the farthest coordinate."""
+
+SHORTEST = 0.001
+"""Metres; shorter segments have no direction worth the name."""
+
+
+class FloorPlanError(ValueError):
+    """A floor plan that cannot be used: one line that says where, what and what would be right."""
+
+
+def check_plan(plan: FloorPlan) -> None:
+    """Refuse a plan that breaks a rule of docs/floor_plans.md.
+
+    Raises:
+        FloorPlanError: names the part, what is wrong with it and what would be right.
+    """
+    for surface in plan.surfaces:
+        check_surface(surface)
+    for door in plan.doors:
+        check_door(door)
+    for region in plan.regions:
+        check_region(region)
+    check_polygon(plan.boundary, "the boundary")
+    check_text(plan.name, "the plan's name")
+    _check_encodable(plan.source, "the plan's source")
+    check_together(plan)
+
+
+def check_surface(surface: Surface) -> None:
+    """Finite points, none repeated in a row."""
+    what = f"the {surface.material}"
+    if len(surface.points) < 2:
+        raise FloorPlanError(f"{what} has {len(surface.points)} points; it needs at least two")
+    _check_points(surface.points, what)
+    for a, b in zip(surface.points, surface.points[1:], strict=False):
+        if math.dist(a, b) < SHORTEST:
+            raise FloorPlanError(f"{what} repeats the point {_at(a)}; leave out one of the two")
+
+
+def check_door(door: PlanDoor) -> None:
+    """A printable name and two distinct, finite jambs."""
+    check_text(door.name, "the door's name")
+    _check_points((door.start, door.end), f"door {door.name!r}")
+    if door.width < 2 * TOUCH:
+        raise FloorPlanError(
+            f"door {door.name!r} is {door.width:.2f} m wide; give the two jambs it spans"
+        )
+
+
+def check_region(region: Region) -> None:
+    """A printable name and a valid polygon."""
+    check_text(region.name, "the region's name")
+    check_polygon(region.polygon, f"region {region.name!r}")
+
+
+def check_polygon(polygon: Polygon, what: str) -> None:
+    """Finite, not empty, not crossing itself."""
+    if polygon.is_empty:
+        raise FloorPlanError(f"{what} is empty; give it a ring of at least four positions")
+    for ring in (polygon.exterior, *polygon.interiors):
+        _check_points(ring.coords, what)
+    if not polygon.is_valid:
+        reason = explain_validity(polygon).replace("[", " at (").replace("]", ")")
+        raise FloorPlanError(f"{what} is not a simple polygon: {reason}; order its corners anew")
+    if polygon.area < TOUCH**2:
+        raise FloorPlanError(f"{what} has no area; give its corners in metres")
+
+
+def check_text(text: str, what: str) -> None:
+    """Not empty, not blank at its ends, nothing invisible."""
+    if not text or text != text.strip() or not text.isprintable():
+        raise FloorPlanError(f"{what} is {text!r}; use visible characters, no blanks at the ends")
+
+
+def check_together(plan: FloorPlan) -> None:
+    """What no part can say alone: unique names, doors in walls, everything in the boundary."""
+    _check_unique((door.name for door in plan.doors), "door")
+    _check_unique((region.name for region in plan.regions), "region")
+    inside = plan.boundary.buffer(TOUCH)
+    shapely.prepare(inside)
+    for region in plan.regions:
+        if not inside.covers(region.polygon):
+            raise FloorPlanError(f"region {region.name!r} leaves the boundary; widen the boundary")
+    for door in plan.doors:
+        if not inside.covers(LineString((door.start, door.end))):
+            raise FloorPlanError(f"door {door.name!r} leaves the boundary; widen the boundary")
+        _check_jambs(door, plan)
+        _check_state(door, plan)
+
+
+def _check_jambs(door: PlanDoor, plan: FloorPlan) -> None:
+    for jamb in (door.start, door.end):
+        if not len(plan.solids.query(shapely.Point(jamb), "dwithin", TOUCH)):
+            raise FloorPlanError(
+                f"door {door.name!r} ends at {_at(jamb)}, where nothing solid is; "
+                f"each jamb lies within {TOUCH} m of a wall"
+            )
+
+
+def _check_state(door: PlanDoor, plan: FloorPlan) -> None:
+    drawn = door_state(door, plan)
+    if door.open and drawn is DoorState.CLOSED:
+        raise FloorPlanError(
+            f"door {door.name!r} is open, but something solid fills its opening; "
+            "remove that or call the door closed"
+        )
+    if not door.open and drawn is not DoorState.CLOSED:
+        raise FloorPlanError(
+            f"door {door.name!r} is closed, but nothing solid fills its opening; "
+            f"draw a leaf from {_at(door.start)} to {_at(door.end)}"
+        )
+    clear = clear_width(door, plan)
+    if door.open and clear < NARROWEST_ROBOT:
+        raise FloorPlanError(
+            f"door {door.name!r} is open, but leaves only {clear:.2f} m; "
+            f"leave {NARROWEST_ROBOT} m or close it"
+        )
+
+
+def _check_unique(names: Iterable[str], what: str) -> None:
+    for name, times in Counter(names).items():
+        if times > 1:
+            raise FloorPlanError(f"{times} {what}s are named {name!r}; {what} names are unique")
+
+
+def _check_points(points: Iterable[Point], what: str) -> None:
+    for point in points:
+        if not all(map(math.isfinite, point)):
+            raise FloorPlanError(f"{what} has the point {_at(point)}; coordinates are finite")
+        if max(map(abs, point)) > MAX_EXTENT:
+            raise FloorPlanError(
+                f"{what} has the point {_at(point)}; coordinates are metres, "
+                f"at most {MAX_EXTENT:.0f} from the origin"
+            )
+
+
+def _check_encodable(text: str, what: str) -> None:
+    try:
+        text.encode("utf-8")
+    except UnicodeEncodeError:
+        raise FloorPlanError(f"{what} holds half a character (a lone surrogate)") from None
+
+
+def _at(point: Point) -> str:
+    return f"({point[0]:.3f}, {point[1]:.3f})"
