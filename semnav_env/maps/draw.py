@@ -9,8 +9,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
-from shapely import Polygon
+from shapely import Polygon, union_all
 
+from semnav_env.maps.doorways import TOUCH
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
 
 COLOURS = {
@@ -22,6 +23,8 @@ COLOURS = {
 TINTS = {"rooms": "oldlace", "corridors": "lightsteelblue", "intersections": "plum"}
 LONGEST_SIDE = 12.0
 """Of a picture, inches."""
+NAME_BEHIND = 0.3
+"""From a door to its name, metres."""
 
 
 def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
@@ -36,11 +39,13 @@ def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
     """
     for group, tint in TINTS.items():
         for region in getattr(plan, group):
-            _draw_region(region, ax, tint, names)
+            ax.add_patch(PathPatch(_outline(region.polygon), facecolor=tint, alpha=0.6, lw=0))
     for surface in plan.surfaces:
         _draw_surface(surface, ax)
     for door in plan.doors:
         _draw_door(door, ax, names)
+    for region in plan.regions if names else ():
+        _name_region(region, plan, ax)
     ax.set_aspect("equal")
     ax.autoscale_view()
     ax.set_xlabel("x, m")
@@ -65,12 +70,13 @@ def save_picture(plan: FloorPlan, path: str | Path, dpi: int = 100) -> None:
     figure.savefig(path, dpi=dpi)
 
 
-def _draw_region(region: Region, ax: Axes, tint: str, names: bool) -> None:
-    ax.add_patch(PathPatch(_outline(region.polygon), facecolor=tint, edgecolor="none", alpha=0.6))
-    if names:
-        at = region.polygon.representative_point()
-        style = "italic" if region.assumed else "normal"
-        ax.text(at.x, at.y, region.name, size=7, style=style, color="dimgrey", ha="center")
+def _name_region(region: Region, plan: FloorPlan, ax: Axes) -> None:
+    """Written where no other region lies, if there is such a place."""
+    others = union_all([r.polygon for r in plan.regions if r is not region])
+    own = region.polygon.difference(others)
+    at = (region.polygon if own.area < TOUCH else own).representative_point()
+    style = "italic" if region.assumed else "normal"
+    ax.text(at.x, at.y, region.name, size=7, style=style, color="dimgrey", ha="center")
 
 
 def _draw_surface(surface: Surface, ax: Axes) -> None:
@@ -82,12 +88,15 @@ def _draw_surface(surface: Surface, ax: Axes) -> None:
 
 
 def _draw_door(door: PlanDoor, ax: Axes, names: bool) -> None:
+    """The name stands behind the door, seen from its corridor."""
     colour = "green" if door.open else "red"
-    x, y = zip(door.start, door.end, strict=True)
-    ax.plot(x, y, color=colour, linewidth=3, alpha=0.5, solid_capstyle="butt")
+    (x1, y1), (x2, y2) = door.start, door.end
+    ax.plot((x1, x2), (y1, y2), color=colour, linewidth=3, alpha=0.6, solid_capstyle="butt")
     if names:
-        place = {"ha": "center", "va": "center", "color": colour, "size": 7}
-        ax.text(*door.midpoint, door.name, **place, weight="bold")
+        right = (y2 - y1) / door.width, (x1 - x2) / door.width
+        x, y = (m + NAME_BEHIND * r for m, r in zip(door.midpoint, right, strict=True))
+        side = "center" if abs(right[0]) < 0.7 else "left" if right[0] > 0 else "right"
+        ax.text(x, y, door.name, size=7, weight="bold", color=colour, ha=side, va="center")
 
 
 def _outline(polygon: Polygon) -> Outline:

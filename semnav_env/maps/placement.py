@@ -1,0 +1,112 @@
+"""Where a robot can stand."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import shapely
+from shapely import Polygon
+
+from semnav_env.features.frames import Pose, points_to_parent
+from semnav_env.maps.floor_plan import FloorPlan, Material, Region
+from semnav_env.robots import RobotSpec
+
+TRIES = 2000
+
+
+def footprint(robot: RobotSpec, pose: Pose) -> Polygon:
+    """The rectangle that a robot covers at a pose (its centre and heading), world frame."""
+    x, y = robot.length / 2, robot.width / 2
+    corners = np.array([(x, y), (-x, y), (-x, -y), (x, -y)])
+    return Polygon(points_to_parent(pose, corners))
+
+
+def placement_error(
+    plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float = 0.0
+) -> str | None:
+    """Why a robot cannot stand at a pose, and a pose where it can; None if nothing is wrong.
+
+    Args:
+        plan: the plan.
+        robot: its footprint must lie in the boundary and touch nothing solid.
+        pose: of its centre, world frame.
+        margin: metres to keep free all around it.
+    """
+    if len(pose) != 3 or not all(map(math.isfinite, pose)):
+        return f"the pose is {tuple(pose)}; give finite x and y in metres and heading in radians"
+    problem = _problem(plan, robot, pose, margin)
+    return problem and f"a {robot.name} at {_written(pose)} {problem}{_advice(plan, robot)}"
+
+
+def sample_pose(
+    plan: FloorPlan,
+    robot: RobotSpec,
+    rng: np.random.Generator,
+    region: Region | None = None,
+    margin: float = 0.05,
+) -> Pose:
+    """A random pose, uniform over place and heading, where the robot can stand.
+
+    Args:
+        plan: the plan.
+        robot: what should stand there.
+        rng: source of randomness.
+        region: where its centre should be; any corridor by default.
+        margin: metres to keep free all around it.
+
+    Raises:
+        ValueError: no free pose was found.
+    """
+    area = region.polygon if region else shapely.union_all([r.polygon for r in plan.corridors])
+    if area.is_empty:
+        raise ValueError(f"{plan.name} has no corridor to start in; name a region or a pose")
+    west, south, east, north = area.bounds
+    for _ in range(TRIES):
+        x, y, heading = rng.uniform((west, south, -math.pi), (east, north, math.pi)).tolist()
+        inside = bool(shapely.contains_xy(area, x, y))
+        if inside and _problem(plan, robot, (x, y, heading), margin) is None:
+            return x, y, heading
+    name = region.name if region else "a corridor"
+    raise ValueError(f"a {robot.name} found no free place in {name} of {plan.name}")
+
+
+def _problem(plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float) -> str | None:
+    west, south, east, north = plan.boundary.bounds
+    if not (west <= pose[0] <= east and south <= pose[1] <= north):
+        return f"is outside {plan.name}, which spans x {west} to {east} and y {south} to {north}"
+    body = footprint(robot, pose).buffer(margin, join_style="mitre")
+    if not plan.boundary.covers(body):
+        return f"reaches over the boundary of {plan.name}"
+    hit = _touched(plan, body)
+    return hit and f"overlaps {hit}"
+
+
+def _touched(plan: FloorPlan, body: Polygon) -> str | None:
+    """The first solid thing that a body touches or lies in, and where."""
+    rows = plan.solids.query(body, predicate="intersects")
+    if len(rows):
+        row = int(rows.min())
+        at = plan.solids.geometries[row].intersection(body).representative_point()
+        surface = plan.surfaces[int(plan.owners[row])]
+        return f"{surface.material.value} at ({at.x:.2f}, {at.y:.2f})"
+    for surface in plan.surfaces:
+        closed = len(surface.points) > 3 and surface.points[0] == surface.points[-1]
+        if (
+            closed
+            and surface.material is Material.FURNITURE
+            and Polygon(surface.points).covers(body)
+        ):
+            return f"furniture around ({body.centroid.x:.2f}, {body.centroid.y:.2f})"
+    return None
+
+
+def _advice(plan: FloorPlan, robot: RobotSpec) -> str:
+    try:
+        return f"; {_written(sample_pose(plan, robot, np.random.default_rng(0)))} is free"
+    except ValueError:
+        return ""
+
+
+def _written(pose: Pose) -> str:
+    return "({:.4g}, {:.4g}, {:.4g})".format(*pose)
