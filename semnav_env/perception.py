@@ -195,6 +195,12 @@ class Perception:
             self.follower.look(self.scene(), odometry)
             self._note_look(odometry, step)
 
+    def extraction_arguments(self) -> tuple[Any, ...]:
+        """What `extract_arrays` is called with for this step's scan."""
+        spec = self.lidar.spec
+        limits = (spec.angle_increment, spec.range_min, spec.range_max)
+        return (self.ranges, self._beams, *limits, self._record, self._scratch, *self.features)
+
     def hits(self) -> FloatArray:
         """Where this step's beams ended, lidar frame, shape (n, 2); NaN without a return."""
         spec = self.lidar.spec

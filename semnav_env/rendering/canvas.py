@@ -163,6 +163,8 @@ class Canvas(Sheet):
         self._page = self._pygame.Surface(size, 0, 32)
         self._texts: list[tuple[Any, Point, Any]] = []
         self.width, self.height = PAGE_HEIGHT * size[0] / size[1], PAGE_HEIGHT
+        self.pixel = FINENESS / self.zoom
+        """Units that one final pixel is wide."""
         self._image = functools.lru_cache(512)(self._uncached_image)
 
     def text(

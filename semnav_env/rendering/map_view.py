@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import Point
+from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.rendering import marks, palette
@@ -15,8 +15,8 @@ from semnav_env.rendering.camera import Camera, Viewport
 from semnav_env.rendering.canvas import Canvas
 from semnav_env.rendering.frame import Frame
 
-DRAWN_BEAMS = 9
-"""Every how many beams one is drawn as a line."""
+DRAWN_BEAMS, DRAWN_HITS = 90, 270
+"""About how many of a dense scan are drawn, evenly spaced: more would blur into one another."""
 
 
 def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
@@ -31,7 +31,7 @@ def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
     _draw_lines(canvas, camera, frame)
     _draw_remembered(canvas, camera, frame.remembered)
     if frame.hits is not None:
-        marks.hits(canvas, camera.pixels(frame.hits))
+        marks.hits(canvas, camera.pixels(_thinned(frame.hits, DRAWN_HITS)))
     _draw_seen(canvas, camera, frame.scene)
     draw_body(canvas, camera, frame.robot, frame.pose, frame.in_contact)
     if frame.goal is not None:
@@ -55,7 +55,11 @@ def _draw_beams(canvas: Canvas, camera: Camera, frame: Frame) -> None:
         return
     lidar, ends = camera.pixel(frame.lidar), camera.pixels(frame.hits)
     canvas.polygon(np.vstack((lidar, ends)), palette.FAN)
-    canvas.rays(lidar, ends[::DRAWN_BEAMS], palette.BEAM, 0.6)
+    canvas.rays(lidar, _thinned(ends, DRAWN_BEAMS), palette.BEAM, 0.6)
+
+
+def _thinned(points: FloatArray, drawn: int) -> FloatArray:
+    return points[:: max(1, len(points) // drawn)]
 
 
 def _draw_lines(canvas: Canvas, camera: Camera, frame: Frame) -> None:

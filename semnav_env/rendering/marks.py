@@ -51,7 +51,7 @@ def badge(canvas: Canvas, at: Point, number: int) -> None:
 
 
 def corner(sheet: Sheet, at: Point, kind: CornerKind) -> None:
-    """Outer corners stick out: triangles; inner ones are square; potential ones are hollow."""
+    """Outer corners are triangles, inner ones squares, potential ones hollow."""
     if kind is CornerKind.OUTER:
         sheet.polygon(regular(at, 3, 7.5), palette.WHITE)
         sheet.polygon(regular(at, 3, 5.5), palette.OUTER_CORNER)
@@ -83,7 +83,7 @@ def route(sheet: Sheet, line: ArrayLike) -> None:
 
 def hits(sheet: Sheet, points: ArrayLike) -> None:
     """Where beams ended."""
-    sheet.discs(points, 1.1, palette.HIT)
+    sheet.discs(points, 1.3, palette.HIT)
 
 
 def flag(sheet: Sheet, at: Point, height: float = 24.0) -> None:

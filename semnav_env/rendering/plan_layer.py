@@ -85,8 +85,8 @@ def draw_plan(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
 
 
 def draw_names(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
-    """The names of the regions that are large enough to hold them."""
-    for region in (*plan.rooms, *plan.corridors, *plan.intersections):
+    """The names of the rooms and corridors that are large enough to hold them."""
+    for region in (*plan.rooms, *plan.corridors):
         name = region.name.replace("_", " ")
         x1, _, x2, _ = region.polygon.bounds
         if sheet.text_width(name, 10.5) < 0.8 * camera.scale * (x2 - x1):

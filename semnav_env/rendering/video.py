@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from semnav_env.rendering.colours import Palette
+
 Picture = NDArray[np.uint8]
 
 SAMPLES = 12
@@ -64,10 +66,8 @@ def save_gif(path: str | Path, frames: Sequence[Picture], fps: float, scale: flo
     if fps > FASTEST_GIF:
         raise ValueError(f"fps is {fps}; a GIF shows at most {FASTEST_GIF:g}")
     target = _prepared(path, frames, fps, scale)
-    palette = _shared_palette(frames, scale)
-    images = (
-        _image(frame, scale).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames
-    )
+    palette = Palette.of([_image(frame, scale) for frame in _sampled(frames)])
+    images = (palette.indexed(_image(frame, scale)) for frame in frames)
     first = next(images)
     first.save(
         target,
@@ -75,7 +75,7 @@ def save_gif(path: str | Path, frames: Sequence[Picture], fps: float, scale: flo
         append_images=images,
         duration=_durations(len(frames), fps),
         loop=0,
-        optimize=False,  # would give every frame its own palette
+        optimize=True,  # marks what has not changed since the frame before
         disposal=1,
     )
     return target
@@ -120,14 +120,12 @@ def _image(frame: Picture, scale: float) -> Image.Image:
     if scale == 1:
         return image
     size = max(1, round(image.width * scale)), max(1, round(image.height * scale))
-    return image.resize(size, Image.Resampling.LANCZOS)
+    return image.resize(size, Image.Resampling.HAMMING)
 
 
-def _shared_palette(frames: Sequence[Picture], scale: float) -> Image.Image:
-    """255 colours of frames from the whole film; one is left to mark unchanged pixels."""
+def _sampled(frames: Sequence[Picture]) -> list[Picture]:
     chosen = np.linspace(0, len(frames) - 1, min(SAMPLES, len(frames))).round().astype(int)
-    montage = np.concatenate([np.asarray(_image(frames[index], scale)) for index in chosen])
-    return Image.fromarray(montage).quantize(255, Image.Quantize.MEDIANCUT)
+    return [frames[index] for index in chosen]
 
 
 def _durations(count: int, fps: float) -> list[int]:

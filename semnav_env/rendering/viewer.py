@@ -70,7 +70,7 @@ class Viewer:
     def _paint(self, frame: Frame) -> Any:
         canvas = self._canvas
         bounds = frame.floor_plan.boundary.bounds
-        camera = looking_at(bounds, frame.pose[:2], self._map, 1.0 / canvas.zoom)
+        camera = looking_at(bounds, frame.pose[:2], self._map, canvas.pixel)
         if self._plan.floor_plan is not frame.floor_plan or self._plan.scale != camera.scale:
             self._plan = PlanLayer(frame.floor_plan, camera.scale, canvas.zoom)
         canvas.begin()

@@ -1,0 +1,131 @@
+"""`semnav demo`: one command, one robot, one agent; with a film or a picture of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from tyro.conf import Positional
+
+from semnav_env.agents.base import make_agent
+from semnav_env.env import CONTROL_HZ, SemNavEnv
+from semnav_env.features.frames import Pose
+from semnav_env.scripts.progress import tracked
+
+FRAME_EVERY = 3
+"""Steps between the frames of a film."""
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Let a robot carry out a command.
+
+    Exit code 0 if it got there, 1 if not, 2 if the command makes no sense there.
+
+    Attributes:
+        command: what to say to it.
+        map: a floor plan: a bundled name or a path.
+        robot: wheelchair or spot.
+        agent: scripted, oracle, or the path of a trained agent.
+        pose: where it starts, x,y,heading in metres and radians; drawn from the seed if not given.
+        seed: of everything that is drawn.
+        save: film of it (.gif or .mp4).
+        picture: picture of the end (.png).
+        show: watch it in a window.
+        json: print the outcome as JSON.
+    """
+
+    command: Positional[str]
+    map: str = "heidelberg_hallway"
+    robot: str = "wheelchair"
+    agent: str = "scripted"
+    pose: str | None = None
+    seed: int = 0
+    save: Path | None = None
+    picture: Path | None = None
+    show: bool = False
+    json: bool = False
+
+    def run(self) -> int:
+        """Drive, film and report."""
+        agent = make_agent(self.agent)
+        filmed = self.save is not None or self.picture is not None
+        mode = "human" if self.show else "rgb_array" if filmed else None
+        env = SemNavEnv(self.robot, self.map, observation=agent.observation, render_mode=mode)
+        options: dict[str, Any] = {"command": self.command}
+        if self.pose is not None:
+            options["pose"] = parse_pose(self.pose)
+        observation, start = env.reset(seed=self.seed, options=options)
+        agent.reset({**start, "env": env})
+        frames: list[NDArray[np.uint8]] = []
+        info: dict[str, Any] = {}
+        steps = _drive(env, agent, observation)
+        for step, info in enumerate(
+            tracked(steps, lambda n: f"{n / CONTROL_HZ:.0f} s", lambda: None)
+        ):
+            if filmed and (step % FRAME_EVERY == 0 or "is_success" in info):
+                frames.append(env.render())  # type: ignore[arg-type]
+        env.close()
+        self._save(frames)
+        self._report(start, info, env.seconds)
+        return 0 if info["is_success"] else 1
+
+    def _save(self, frames: list[NDArray[np.uint8]]) -> None:
+        from semnav_env.rendering.video import save_png, save_video
+
+        if self.save is not None:
+            save_video(self.save, frames, CONTROL_HZ / FRAME_EVERY)
+        if self.picture is not None:
+            save_png(self.picture, frames[-1])
+
+    def _report(self, start: dict[str, Any], info: dict[str, Any], seconds: float) -> None:
+        outcome = {
+            "command": start["command"],
+            "floor_plan": start["floor_plan"],
+            "pose": start["pose"],
+            "success": info["is_success"],
+            "verdicts": [str(verdict) for verdict in info["verdicts"]],
+            "crossed_doors": list(info["crossed_doors"]),
+            "collisions": info["collisions"],
+            "seconds": round(seconds, 2),
+            "path_length": round(info["path_length"], 3),
+            "route_length": round(info["route_length"], 3),
+            "files": [str(path) for path in (self.save, self.picture) if path is not None],
+        }
+        if self.json:
+            print(json.dumps(outcome))
+            return
+        verdict = "done" if info["is_success"] else " / ".join(outcome["verdicts"])
+        print(
+            f'"{start["command"]}": {verdict} after {seconds:.1f} s and '
+            f"{info['path_length']:.1f} m, {info['collisions']} collisions"
+        )
+        for path in outcome["files"]:
+            print(f"wrote {path}")
+
+
+def _drive(env: SemNavEnv, agent: Any, observation: Any) -> Iterator[dict[str, Any]]:
+    """The info of every step until the episode ends."""
+    over = False
+    while not over:
+        observation, _, terminated, truncated, info = env.step(agent.act(observation))
+        over = terminated or truncated
+        yield info
+
+
+def parse_pose(text: str) -> Pose:
+    """ "x,y,heading" as three numbers.
+
+    Raises:
+        ValueError: something else.
+    """
+    try:
+        x, y, heading = (float(part) for part in text.split(","))
+    except ValueError:
+        raise ValueError(f"pose {text!r} is not x,y,heading, such as -2.5,-0.3,0.24") from None
+    return x, y, heading

@@ -1,0 +1,58 @@
+"""`semnav ground`: what a command refers to in a floor plan."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+from tyro.conf import Positional
+
+from semnav_env.commands import parse
+from semnav_env.maps import load_floor_plan
+from semnav_env.maps.placement import placement_error
+from semnav_env.robots import robot_spec
+from semnav_env.scripts.demo import parse_pose
+from semnav_env.verifier import plan_goals
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Say what a command refers to in a floor plan, clause by clause.
+
+    Attributes:
+        command: the command.
+        map: a floor plan: a bundled name or a path.
+        pose: where the robot stands, x,y,heading in metres and radians.
+        robot: wheelchair or spot.
+        json: print as JSON.
+    """
+
+    command: Positional[str]
+    pose: str
+    map: str = "heidelberg_hallway"
+    robot: str = "wheelchair"
+    json: bool = False
+
+    def run(self) -> int:
+        """Ground it on the true scene."""
+        floor_plan, pose = load_floor_plan(self.map), parse_pose(self.pose)
+        error = placement_error(floor_plan, robot_spec(self.robot), pose)
+        if error is not None:
+            raise ValueError(f"pose {self.pose}: {error}")
+        goals = plan_goals(floor_plan, parse(self.command), pose)
+        rows = [
+            {
+                "kind": goal.kind.name.lower(),
+                "understood": goal.because,
+                "pose": [round(value, 3) for value in goal.pose],
+                "door": goal.door.name if goal.door is not None else None,
+            }
+            for goal in goals
+        ]
+        if self.json:
+            print(json.dumps(rows))
+        else:
+            for row in rows:
+                door = f"  (door {row['door']})" if row["door"] else ""
+                print(f"{row['kind']:<6}{row['pose']}  {row['understood']}{door}")
+        return 0

@@ -1,0 +1,118 @@
+"""How long the parts of a step take, each as the median of several runs in one process."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from statistics import median
+
+import gymnasium as gym
+import numpy as np
+
+from semnav_env.env import SemNavEnv
+from semnav_env.features.frames import compose
+from semnav_env.features.hallway import hallway
+from semnav_env.features.kernels.chain import extract_arrays
+from semnav_env.lidar.raster import cast
+from semnav_env.perception import Perception
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One part.
+
+    Attributes:
+        name: what was timed.
+        microseconds: median over the runs of the mean of one call.
+        share: of a whole step.
+    """
+
+    name: str
+    microseconds: float
+    share: float
+
+    @property
+    def per_second(self) -> float:
+        """Calls per second."""
+        return 1e6 / self.microseconds
+
+
+def benchmark(
+    floor_plan: str, robot: str, observation: str, runs: int, steps: int
+) -> list[Timing]:
+    """Time the parts of a step and the whole of it, the whole first.
+
+    Args:
+        floor_plan: bundled name or path.
+        robot: name of a body.
+        observation: as in `SemNavEnv`.
+        runs: how often each part is timed; the median counts.
+        steps: calls per run.
+    """
+    env = gym.make("semnav_env:SemNav-v0", robot=robot, floor_plan=floor_plan, observation=observation)
+    bare = env.unwrapped
+    assert isinstance(bare, SemNavEnv)
+    env.reset(seed=0)
+    actions = _smooth_actions(bare, steps)
+    parts: list[tuple[str, Callable[[], None]]] = [
+        ("step (gymnasium.make)", lambda: _drive(env, actions)),
+        ("step (SemNavEnv)", lambda: _drive(bare, actions)),
+        *_kernel_parts(bare, steps),
+    ]
+    for _, part in parts:
+        part()
+    seconds: dict[str, list[float]] = {name: [] for name, _ in parts}
+    for _ in range(runs):
+        for name, part in parts:
+            begin = time.perf_counter()
+            part()
+            seconds[name].append((time.perf_counter() - begin) / steps)
+    whole = median(seconds[parts[0][0]])
+    return [
+        Timing(name, 1e6 * median(seconds[name]), median(seconds[name]) / whole)
+        for name, _ in parts
+    ]
+
+
+def _smooth_actions(env: SemNavEnv, steps: int) -> np.ndarray:
+    """Driving about: slowly changing random actions."""
+    rng = np.random.default_rng(0)
+    drawn = rng.uniform(-1, 1, (steps // 15 + 1, env.robot.action_size)).astype(np.float32)
+    return np.repeat(drawn, 15, axis=0)[:steps]
+
+
+def _drive(env: gym.Env, actions: np.ndarray) -> None:  # type: ignore[type-arg]
+    """Step through the actions; episodes that end are begun anew (the time counts)."""
+    for action in actions:
+        _, _, terminated, truncated, _ = env.step(action)
+        if terminated or truncated:
+            env.reset()
+
+
+def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], None]]]:
+    """The parts of a step by themselves, at the environment's present pose."""
+    perception, pose = Perception(env.perception.lidar, env.extractor), env.world.pose
+    perception.begin(env.task.verifier.command)
+    lidar_pose = compose(pose, env.robot.lidar_mount)
+    velocity = (0.3, 0.0, 0.2)
+    perception.sense(pose, pose, velocity, (0, 0, 0))
+    arrays, out = perception.lidar.arrays, np.empty(env.lidar_spec.beams)
+    extraction = perception.extraction_arguments()
+    scene = env.floor_plan.scene
+
+    def repeat(call: Callable[[int], object], times: int = steps) -> Callable[[], None]:
+        def run() -> None:
+            for i in range(times):
+                call(i)
+
+        return run
+
+    return [
+        ("scan without noise", repeat(lambda i: cast(*lidar_pose, *arrays, out))),
+        ("scan with noise", repeat(lambda i: perception.lidar.ranges(pose, (0, 0, i), out))),
+        ("features", repeat(lambda i: extract_arrays(*extraction))),
+        ("scan, features, memory, goal", repeat(lambda i: perception.sense(pose, pose, velocity, (0, 0, i)))),
+        ("world step", repeat(lambda i: env.world.step(velocity))),
+        ("hallway (a few times a second)", repeat(lambda i: hallway(scene, pose))),
+    ]
