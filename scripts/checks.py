@@ -1,0 +1,144 @@
+"""What `semnav doctor` looks at: the installation, one check each."""
+
+from __future__ import annotations
+
+import os
+import platform
+import re
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+from packaging.requirements import Requirement
+from packaging.specifiers import SpecifierSet
+
+_PACKAGE = "semnav-env"
+
+
+@dataclass(frozen=True)
+class Check:
+    """The outcome of one check.
+
+    Attributes:
+        name: what was looked at.
+        ok: whether it is as it should be.
+        detail: what was found.
+        fix: what to do if it is not ok.
+        needed: whether semnav-env works without it.
+    """
+
+    name: str
+    ok: bool
+    detail: str
+    fix: str = ""
+    needed: bool = True
+
+
+def python_version() -> Check:
+    """Is this Python new enough?"""
+    wanted = metadata.metadata(_PACKAGE)["Requires-Python"]
+    found = platform.python_version()
+    return Check("Python", SpecifierSet(wanted).contains(found), found, f"use Python {wanted}")
+
+
+def requirements() -> list[Check]:
+    """Are the packages that semnav-env needs installed, in versions that it knows?"""
+    return [_requirement(r) for r in _requirements() if r.marker is None]
+
+
+def extras() -> list[Check]:
+    """Which optional parts are installed?"""
+    names = metadata.metadata(_PACKAGE).get_all("Provides-Extra") or []
+    return [_extra(name) for name in names if name != "all"]
+
+
+def single_pygame() -> Check:
+    """Is there only one of the two packages that both install the module pygame?"""
+    there = [name for name in ("pygame", "pygame-ce") if _version(name)]
+    return Check(
+        "one pygame",
+        len(there) < 2,
+        " and ".join(there) or "none installed",
+        "they overwrite each other: pip uninstall pygame pygame-ce, then pip install pygame-ce",
+    )
+
+
+def headless_drawing() -> Check:
+    """Can pictures be drawn where there is no display?
+
+    Tried in a process of its own, for a broken SDL may take its process down.
+    """
+    program = (
+        "from semnav_env.rendering.backend import load_pygame\n"
+        "surface = load_pygame().Surface((8, 8), 0, 32)\n"
+        "surface.fill((255, 0, 0))\n"
+        "assert surface.get_at((4, 4))[:3] == (255, 0, 0)\n"
+    )
+    hidden = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    run = subprocess.run(
+        [sys.executable, "-c", program],
+        env={**hidden, "SDL_VIDEODRIVER": "dummy"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    detail = "works" if run.returncode == 0 else (run.stderr.splitlines() or ["crashed"])[-1]
+    fix = f'pip install "{_PACKAGE}[render]"'
+    return Check("drawing without a display", run.returncode == 0, detail, fix, needed=False)
+
+
+def kernels() -> list[Check]:
+    """Do the compiled kernels work, and are they kept between runs?"""
+    from semnav_env.features import extract
+    from semnav_env.features.kernels.chain import extract_arrays
+    from semnav_env.lidar import Lidar
+    from semnav_env.maps import load_floor_plan
+
+    start = time.perf_counter()
+    pose = (-2.5, -0.3, 0.24)
+    scan = Lidar(load_floor_plan("heidelberg_hallway")).scan(pose, key=(0, 0, 0))
+    walls = len(extract(scan).walls)
+    seconds = time.perf_counter() - start
+    works = Check(
+        "compiled kernels",
+        walls > 0,
+        f"a simulated scan shows {walls} walls; ready after {seconds:.1f} s",
+        "reinstall numba and semnav-env",
+    )
+    return [works, _writable_cache(Path(extract_arrays.stats.cache_path or ""))]
+
+
+def _writable_cache(folder: Path) -> Check:
+    fix = "set NUMBA_CACHE_DIR to a folder that you may write to, or every start compiles anew"
+    ok = folder != Path() and os.access(folder, os.W_OK)
+    return Check("kernel cache", ok, f"{folder} is {'' if ok else 'not '}writable", fix, False)
+
+
+def _requirements() -> list[Requirement]:
+    return [Requirement(text) for text in metadata.requires(_PACKAGE) or []]
+
+
+def _requirement(wanted: Requirement) -> Check:
+    found = _version(wanted.name)
+    ok = found is not None and wanted.specifier.contains(found, prereleases=True)
+    plain = f"{wanted.name}{wanted.specifier}"
+    return Check(wanted.name, ok, found or "not installed", f'pip install "{plain}"')
+
+
+def _extra(name: str) -> Check:
+    pattern = re.compile(rf"""extra == ['"]{re.escape(name)}['"]""")
+    checks = [_requirement(r) for r in _requirements() if pattern.search(str(r.marker))]
+    missing = [check.name for check in checks if not check.ok]
+    detail = f"missing: {', '.join(missing)}" if missing else "installed"
+    fix = f'pip install "{_PACKAGE}[{name}]"'
+    return Check(f"extra {name}", not missing, detail, fix, needed=False)
+
+
+def _version(package: str) -> str | None:
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return None

@@ -1,0 +1,59 @@
+"""`semnav doctor`: check the installation, and say how to mend it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+
+from semnav_env.scripts import checks
+from semnav_env.scripts.checks import Check
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Check the installation, and say how to mend it.
+
+    Exit code 0 if all that is needed works, else 1. Optional parts do not count.
+
+    Attributes:
+        json: print JSON.
+    """
+
+    json: bool = False
+
+    def run(self) -> int:
+        """Run every check and report."""
+        done = list(_examine())
+        if self.json:
+            print(json.dumps([asdict(check) for check in done], indent=1))
+        else:
+            print("\n".join(_line(check) for check in done))
+        return 0 if all(check.ok or not check.needed for check in done) else 1
+
+
+def _examine() -> Iterator[Check]:
+    yield checks.python_version()
+    yield from checks.requirements()
+    yield from checks.extras()
+    yield checks.single_pygame()
+    for name, examine in _TRIALS.items():
+        try:
+            yield from examine()
+        except Exception as error:
+            yield Check(name, False, f"{type(error).__name__}: {error}", _ADVICE)
+
+
+_ADVICE = "set NUMBA_CACHE_DIR to a folder that you may write to, or reinstall semnav-env"
+
+_TRIALS: dict[str, Callable[[], list[Check]]] = {
+    "drawing without a display": lambda: [checks.headless_drawing()],
+    "compiled kernels": checks.kernels,
+}
+"""Checks that run code which may fail in ways of its own."""
+
+
+def _line(check: Check) -> str:
+    mark = "ok" if check.ok else "FAIL" if check.needed else "--"
+    advice = "" if check.ok else f" ({check.fix})"
+    return f"{mark:<5}{check.name:<28}{check.detail}{advice}"

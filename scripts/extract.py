@@ -1,0 +1,92 @@
+"""`semnav extract`: a log of lidar scans into scenes."""
+
+from __future__ import annotations
+
+from contextlib import nullcontext
+from dataclasses import dataclass, field
+from itertools import islice
+from pathlib import Path
+
+from tyro.conf import Positional
+
+from semnav_env.features import ExtractorSettings, Scan, Scene, extract
+from semnav_env.features.plot import check_suffix, save_page
+from semnav_env.features.readers import Geometry, ScanLog, TruncatedLogError, open_log
+from semnav_env.scripts.jsonl import JsonLines
+from semnav_env.scripts.progress import tracked
+from semnav_env.scripts.sampling import EvenSample
+from semnav_env.scripts.scene_report import Tally, document
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Turn a log of lidar scans into walls, doors, corners and corridors.
+
+    Reads CARMEN logs (FLASER and ROBOTLASER1 lines, text or gz). A log that is cut short is
+    processed as far as it goes; the exit code is then 2.
+
+    Attributes:
+        log: the log.
+        out: file for the scenes, one JSON object a line, in the frame of the lidar.
+        plot: picture of some scans with what was found in them (.png, .pdf or .svg).
+        scans: how many scans the picture shows, spread evenly over the log.
+        every: take only each Nth scan.
+        limit: stop after so many scans.
+        range_max: no return at and beyond it, metres.
+        beam_spacing: degrees between beams, for FLASER lines with an unusual number of them.
+        settings: limits of the extractor, metres and radians.
+        json: print the summary as JSON on stdout.
+    """
+
+    log: Positional[Path]
+    out: Path | None = None
+    plot: Path | None = None
+    scans: int = 9
+    every: int = 1
+    limit: int | None = None
+    range_max: float = 50.0
+    beam_spacing: float | None = None
+    settings: ExtractorSettings = field(default_factory=ExtractorSettings)
+    json: bool = False
+
+    def run(self) -> int:
+        """Extract, and say how it went."""
+        self._check()
+        page = EvenSample[tuple[str, Scan, Scene]](self.scans)
+        damage: TruncatedLogError | None = None
+        with open_log(self.log, Geometry(self.range_max, self.beam_spacing)) as log:
+            tally = Tally(log)
+            try:
+                self._extract(log, tally, page)
+            except TruncatedLogError as error:
+                damage = error
+        if self.plot and tally.scenes:
+            self.plot.parent.mkdir(parents=True, exist_ok=True)
+            save_page(self.plot, page.items())
+        print(tally.as_json(damage is None) if self.json else tally.as_text())
+        if damage:
+            raise damage
+        return 0
+
+    def _extract(
+        self, log: ScanLog, tally: Tally, page: EvenSample[tuple[str, Scan, Scene]]
+    ) -> None:
+        stop = None if self.limit is None else (self.limit - 1) * self.every + 1
+        records = islice(log, 0, stop, self.every)
+        with JsonLines(self.out) if self.out else nullcontext() as out:
+            for record in tracked(records, tally.label, lambda: log.fraction):
+                scene = extract(record.scan, self.settings)
+                tally.add(scene)
+                page.offer((f"scan {log.scans}, line {record.line}", record.scan, scene))
+                if out:
+                    out.write(document(record, scene))
+
+    def _check(self) -> None:
+        for name in ("every", "limit", "scans"):
+            value = getattr(self, name)
+            if value is not None and value < 1:
+                raise ValueError(f"--{name} is {value}; it must be at least 1")
+        if self.out and self.out.resolve() == self.log.resolve():
+            raise ValueError(f"--out is the log itself, {self.log}; give another file")
+        if self.plot:
+            check_suffix(self.plot)

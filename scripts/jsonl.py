@@ -1,0 +1,67 @@
+"""JSON Lines files that are never half written."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+
+class JsonLines:
+    """A file of one JSON object a line, in place only once it is whole.
+
+    Lines go to a neighbour named `.part`, each in a single write, and the neighbour takes the
+    file's place at the end, be it by an error or an interruption: finished lines stay, half
+    lines never come to be. Without any line an older file is left as it is.
+
+    Args:
+        path: the file; missing folders are made. What is not a regular file (a pipe, a
+            terminal) is written directly.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path.resolve()
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        if self.path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a folder; give a file", str(path))
+        special = self.path.exists() and not self.path.is_file()
+        self._part = self.path if special else self.path.with_name(self.path.name + ".part")
+        self._file = open(self._part, "wb", buffering=0)  # noqa: SIM115 - closed by __exit__
+        self._lines = 0
+
+    def write(self, document: dict[str, Any]) -> None:
+        """Add a line.
+
+        Raises:
+            ValueError: a number is not finite.
+            OSError: the disk is full.
+        """
+        line = json.dumps(document, allow_nan=False).encode() + b"\n"
+        if (written := self._file.write(line)) != len(line):
+            self._file.truncate(self._file.tell() - written)
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(self.path))
+        self._lines += 1
+
+    def __enter__(self) -> Self:
+        """The open file."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Put the file in its place."""
+        self._file.close()
+        if self._part != self.path:
+            if self._lines or error is None:
+                os.replace(self._part, self.path)
+            else:
+                self._part.unlink()

@@ -1,0 +1,102 @@
+"""The `semnav` command: finds the sub-command and turns its outcome into an exit code.
+
+Exit codes: 0 done; 1 not achieved; 2 bad input, with one line on stderr that names what is wrong
+and what would be right; 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module, metadata
+
+COMMANDS = {
+    "extract": ("extract", "turn a log of lidar scans into walls, doors, corners and corridors"),
+    "map": ("map", "list and show floor plans"),
+    "demo": ("demo", "let a robot carry out a command"),
+    "ground": ("ground", "say what a command refers to in a floor plan"),
+    "evaluate": ("evaluate", "measure an agent on a suite of commands"),
+    "bench": ("bench", "time a step of the environment and its parts"),
+    "doctor": ("doctor", "check the installation, and say how to mend it"),
+}
+"""Sub-command: (module in this package, help). The module's `Arguments` have `run() -> int`."""
+
+BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run `semnav` with these arguments, by default those of the process.
+
+    `--debug` anywhere, or SEMNAV_DEBUG=1 in the environment, shows where an error comes from.
+
+    Returns:
+        The exit code.
+    """
+    words = list(sys.argv[1:] if argv is None else argv)
+    debug = "--debug" in words or os.environ.get("SEMNAV_DEBUG", "0") not in ("", "0")
+    words = [word for word in words if word != "--debug"]
+    try:
+        return _run(words)
+    except KeyboardInterrupt:
+        print("semnav: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
+    except (ValueError, OSError, ImportError) as error:
+        if debug:
+            raise
+        print(f"semnav: {in_one_line(error)}", file=sys.stderr)
+        return BAD_INPUT
+
+
+def in_one_line(error: Exception) -> str:
+    """What an error says, in one line that a user understands."""
+    if isinstance(error, OSError) and error.strerror:
+        where = f" {os.fspath(error.filename)!r}" if error.filename else ""
+        return f"cannot open{where}: {error.strerror}"
+    if isinstance(error, ModuleNotFoundError) and not str(error.name).startswith("semnav_env"):
+        return f"{error.name} is not installed; `semnav doctor` says what to install"
+    lines = str(error).strip().splitlines()
+    return lines[0] if lines else type(error).__name__
+
+
+def _run(words: list[str]) -> int:
+    if not words:
+        raise ValueError(f"no command given; there are: {', '.join(COMMANDS)} (semnav --help)")
+    name, *rest = words
+    if name in ("-h", "--help"):
+        print(_help())
+        return 0
+    if name == "--version":
+        print(f"semnav {metadata.version('semnav-env')}")
+        return 0
+    if name not in COMMANDS:
+        near = difflib.get_close_matches(name, COMMANDS, n=1)
+        hint = f"did you mean {near[0]!r}? " if near else ""
+        raise ValueError(f"no command {name!r}; {hint}there are: {', '.join(COMMANDS)}")
+    from semnav_env.scripts.arguments import Help, parse
+
+    module = import_module(f"semnav_env.scripts.{COMMANDS[name][0]}")
+    try:
+        command = parse(module.Arguments, rest, prog=f"semnav {name}")
+    except Help:
+        return 0
+    return command.run()
+
+
+def _help() -> str:
+    commands = "\n".join(f"  {name:<10}{help}" for name, (_, help) in COMMANDS.items())
+    return (
+        "usage: semnav COMMAND ...\n\nSemantic indoor navigation: see, understand, drive.\n\n"
+        f"commands:\n{commands}\n\n"
+        "`semnav COMMAND --help` tells a command's options; `--debug` shows where an error\n"
+        "comes from; `--version` prints the version.\n"
+        "exit codes: 0 done, 1 not achieved, 2 bad input"
+    )
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,100 @@
+"""What `semnav extract` writes: scenes as JSON, and how the run went."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections import Counter
+from dataclasses import asdict
+from typing import Any
+
+from semnav_env.features import Scene
+from semnav_env.features.readers import LogRecord, ScanLog
+
+_KINDS = ("walls", "doors", "corners", "corridors")
+
+
+def document(record: LogRecord, scene: Scene) -> dict[str, Any]:
+    """A scene as JSON: metres, radians and seconds, in the frame of the lidar.
+
+    `pose` is the lidar's in the frame of the log; a corner's `kind` is 0 outer, 1 inner or
+    2 potential. Lengths are rounded to a tenth of a millimetre.
+    """
+    return {
+        "line": record.line,
+        "stamp": record.stamp,
+        "pose": record.pose,
+        "odometry": record.odometry,
+        "walls": [_rounded(asdict(wall)) for wall in scene.walls],
+        "doors": [
+            _rounded(dict(start=d.start, end=d.end, midpoint=d.midpoint, width=d.width))
+            for d in scene.doors
+        ],
+        "corners": [_rounded(asdict(corner)) for corner in scene.corners],
+        "corridors": [
+            _rounded(dict(start=c.start, end=c.end, midpoint=c.midpoint)) for c in scene.corridors
+        ],
+    }
+
+
+class Tally:
+    """Counts of what a run has found, and how fast.
+
+    Attributes:
+        scenes: how many scans were turned into scenes.
+        found: features by kind.
+    """
+
+    def __init__(self, log: ScanLog) -> None:
+        self.scenes = 0
+        self.found: Counter[str] = Counter()
+        self._log = log
+        self._first = self._last = 0.0
+
+    def add(self, scene: Scene) -> None:
+        """Count a scene."""
+        self.scenes += 1
+        self.found.update({kind: len(getattr(scene, kind)) for kind in _KINDS})
+        self._last = time.perf_counter()
+        self._first = self._first or self._last
+
+    @property
+    def rate(self) -> float | None:
+        """Scans per second, reading and writing included, compiling before the first left out."""
+        elapsed = self._last - self._first
+        return (self.scenes - 1) / elapsed if elapsed > 0 else None
+
+    def label(self, scans: int) -> str:
+        """One phrase for a progress bar."""
+        return f"{scans} scans, {self._log.bad.total()} bad lines"
+
+    def as_text(self) -> str:
+        """The summary for people."""
+        rate = f", {self.rate:.0f} scans per second" if self.rate else ""
+        found = ", ".join(f"{self.found[kind]} {kind}" for kind in _KINDS)
+        lines = [f"{self.scenes} scans{rate}", found, f"{self._log.bad.total()} bad lines"]
+        lines += [
+            f"  {count} x {reason} (first: line {self._log.first_bad[reason]})"
+            for reason, count in self._log.bad.most_common()
+        ]
+        return "\n".join(lines)
+
+    def as_json(self, whole: bool) -> str:
+        """The summary for programs; `whole` says whether the log was read to its end."""
+        return json.dumps(
+            {
+                "scans": self.scenes,
+                "scans_per_second": self.rate,
+                "found": {kind: self.found[kind] for kind in _KINDS},
+                "bad_lines": dict(self._log.bad.most_common()),
+                "log_whole": whole,
+            }
+        )
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, float):
+        return round(value, 4)
+    if isinstance(value, dict):
+        return {key: _rounded(item) for key, item in value.items()}
+    return [_rounded(item) for item in value] if isinstance(value, tuple | list) else value
