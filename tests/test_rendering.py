@@ -336,8 +336,27 @@ def test_a_gif_has_the_frames_and_the_duration_it_was_given(
             gif.seek(index)
             durations.append(gif.info["duration"])
             error = np.abs(np.asarray(gif.convert("RGB"), dtype=float) - frame)
-            assert error.mean() < 3.0
+            assert error.mean() < 0.5
+            assert error.max() < 40.0
     assert sum(durations) == pytest.approx(1000 * len(film) / 15, abs=10)
+
+
+@pytest.mark.parametrize("shades", [1, 255, 100_000])
+def test_a_gif_of_any_number_of_colours_stays_close(tmp_path: Path, shades: int) -> None:
+    noise = np.random.default_rng(0).integers(0, shades, (100, 100))
+    frame = np.stack((noise % 251, noise // 251 % 251, noise % 7), axis=-1).astype(np.uint8)
+    with Image.open(save_gif(tmp_path / "noise.gif", [frame], fps=10)) as gif:
+        error = np.abs(np.asarray(gif.convert("RGB"), dtype=float) - frame)
+    assert error.mean() < (0.5 if shades < 256 else 20.0)
+
+
+def test_equal_frames_of_a_gif_last_as_long_as_they_should(
+    tmp_path: Path, film: list[NDArray[np.uint8]]
+) -> None:
+    path = save_gif(tmp_path / "still.gif", [film[0], film[0], film[1]], fps=10)
+    with Image.open(path) as gif:
+        assert gif.n_frames == 2
+        assert gif.info["duration"] == 200
 
 
 def test_a_film_can_be_saved_smaller(tmp_path: Path, film: list[NDArray[np.uint8]]) -> None:
