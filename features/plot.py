@@ -77,7 +77,7 @@ def save_page(
     for ax in axes[len(scenes) :]:
         ax.set_axis_off()
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=5, fontsize=9)
+    figure.legend(handles, labels, loc="outside lower center", ncols=min(5, 2 * columns), fontsize=9)
     figure.savefig(path, dpi=110)
 
 
@@ -113,7 +113,6 @@ def _draw_doors(ax: Axes, scene: Scene) -> None:
         *_polyline(ends),
         color=_DOOR,
         linewidth=5,
-        alpha=0.8,
         solid_capstyle="butt",
         label="door (width, m)",
     )

@@ -188,6 +188,14 @@ def test_what_is_not_a_log_says_what_would_be(folder, data, message):
         read(path)
 
 
+@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])
+def test_a_geometry_is_positive_and_finite(value):
+    with pytest.raises(ValueError, match="range_max"):
+        Geometry(range_max=value)
+    with pytest.raises(ValueError, match="beam_spacing"):
+        Geometry(beam_spacing=value)
+
+
 def test_an_endless_line_is_passed_over(folder):
     records, log = read(written(folder, [GOOD, "FLASER 180 " + "1 " * 2**20, GOOD]))
     assert [record.line for record in records] == [1, 3]

@@ -40,10 +40,19 @@ class Geometry:
             some logs 50.
         beam_spacing: degrees between the beams of FLASER lines; None to tell it from the number
             of beams, as CARMEN does. The middle beam looks forward.
+
+    Raises:
+        ValueError: a number is not positive and finite.
     """
 
     range_max: float = 50.0
     beam_spacing: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("range_max", "beam_spacing"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < math.inf:
+                raise ValueError(f"{name} is {value}; it must be positive and finite")
 
 
 def parse_flaser(fields: list[bytes], geometry: Geometry) -> tuple[Scan, Pose]:
