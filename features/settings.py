@@ -87,7 +87,7 @@ class ExtractorSettings:
     door_offset_tolerance: float = 0.03
     door_point_tolerance: float = 0.05
     door_wall_gap: float = 0.4
-    door_line_error: float = 0.1
+    door_line_error: float = 0.06
     door_depth: float = 0.3
     door_clear_fraction: float = 0.6
     door_recess: float = 0.2

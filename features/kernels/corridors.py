@@ -97,22 +97,21 @@ def nearest_wall(
     """
     nearest = settings.corridor_probe
     square = math.cos(settings.corridor_angle_tolerance)
+    slack = settings.corridor_wall_slack
     met = False
     for k in range(walls):
         if k in (ending, starting):
             continue
         wall = scratch.pieces[scratch.wall_piece[k]]
-        facing = along_y * wall.along_x - along_x * wall.along_y
         dx, dy = wall.start_x - x, wall.start_y - y
-        reach = (dy * wall.along_x - dx * wall.along_y) / facing if facing != 0.0 else -1.0
-        if reach <= 0.0 or reach > nearest:
+        facing = along_y * wall.along_x - along_x * wall.along_y
+        place = along_x * dy - along_y * dx
+        tilt = abs(facing)
+        place = place if facing > 0.0 else -place
+        if not -slack * tilt <= place <= (wall.length + slack) * tilt:
             continue
-        place = reach * (along_x * wall.along_x + along_y * wall.along_y)
-        place -= dx * wall.along_x + dy * wall.along_y
-        dx, dy = wall.end_x - wall.start_x, wall.end_y - wall.start_y
-        length = math.sqrt(dx * dx + dy * dy)
-        slack = settings.corridor_wall_slack
-        if place >= -slack and place <= length + slack:
+        reach = (dy * wall.along_x - dx * wall.along_y) / facing
+        if 0.0 < reach <= nearest:
             nearest = reach
             met = facing <= -square
     return nearest if met else -1.0

@@ -9,7 +9,6 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
 from semnav_env.features.kernels.lines import offset
 from semnav_env.features.kernels.segmentation import is_return
 
@@ -34,11 +33,11 @@ def find_doors(
     doors: np.ndarray,
 ) -> int:
     """Every pair of jambs, tested; overlapping finds reduced to the best. Returns how many."""
-    starts, ends = find_jambs(pieces, settings, scratch)
+    jambs = find_jambs(pieces, settings, scratch)
     found = 0
-    for i in range(starts):
+    for i in range(jambs):
         start = scratch.start_jambs[i]
-        for j in range(ends):
+        for j in range(i + 1, jambs):
             end = scratch.end_jambs[j]
             if not has_door_width(start, end, increment, settings):
                 continue
@@ -47,40 +46,25 @@ def find_doors(
                 continue
             clear = clear_fraction(ranges, directions, range_min, limit, start, end, settings)
             if clear >= settings.door_clear_fraction:
-                candidate = scratch.candidates[found]
-                candidate.start_x, candidate.start_y = start.x, start.y
-                candidate.end_x, candidate.end_y = end.x, end.y
-                candidate.score = clear - misfit
+                scratch.candidates[found].score = clear - misfit
+                place_jambs(start, end, increment, scratch.candidates[found])
                 found += 1
     return keep_best(found, settings.door_width_min, scratch.candidates, doors)
 
 
 @njit(cache=True, error_model="numpy")
-def find_jambs(pieces: int, settings: Any, scratch: Any) -> tuple[int, int]:
-    """Points at which an opening may start and end; returns how many of each.
-
-    An opening starts where a piece ends. It also starts where a piece that hangs on nothing
-    starts, such as an open leaf whose hinge is seen and the wall before it is not; and the
-    other way round.
-    """
+def find_jambs(pieces: int, settings: Any, scratch: Any) -> int:
+    """An opening may start where a piece ends and end where a piece starts; returns how many."""
     beams = scratch.beams
-    starts = ends = 0
+    count = 0
     for k in range(pieces):
         piece = scratch.pieces[k]
-        if piece.points < settings.jamb_beams:
-            continue
-        first, last = beams[piece.first], beams[piece.last]
-        if piece.flags & (START_BREAK | START_RUPTURE):
-            write_jamb(scratch.start_jambs[starts], piece.start_x, piece.start_y, first, k - 1)
-            starts += 1
-        write_jamb(scratch.start_jambs[starts], piece.end_x, piece.end_y, last, k)
-        write_jamb(scratch.end_jambs[ends], piece.start_x, piece.start_y, first, k)
-        starts += 1
-        ends += 1
-        if piece.flags & (END_BREAK | END_RUPTURE):
-            write_jamb(scratch.end_jambs[ends], piece.end_x, piece.end_y, last, k + 1)
-            ends += 1
-    return starts, ends
+        if piece.points >= settings.jamb_beams:
+            start, end = scratch.start_jambs[count], scratch.end_jambs[count]
+            write_jamb(start, piece.end_x, piece.end_y, beams[piece.last], k)
+            write_jamb(end, piece.start_x, piece.start_y, beams[piece.first], k)
+            count += 1
+    return count
 
 
 @njit(cache=True, error_model="numpy")
@@ -121,6 +105,18 @@ def beam_spacing(x: float, y: float, along_x: float, along_y: float, increment: 
     if square * increment >= across * LONGEST_SPACING:
         return LONGEST_SPACING
     return square * increment / across
+
+
+@njit(cache=True, error_model="numpy")
+def place_jambs(start: Any, end: Any, increment: float, candidate: Any) -> None:
+    """Put the jambs where they are expected: half a beam spacing past the last points seen."""
+    x, y = end.x - start.x, end.y - start.y
+    width = math.sqrt(x * x + y * y)
+    x, y = x / width, y / width
+    shift = 0.5 * beam_spacing(start.x, start.y, x, y, increment)
+    candidate.start_x, candidate.start_y = start.x + shift * x, start.y + shift * y
+    shift = 0.5 * beam_spacing(end.x, end.y, x, y, increment)
+    candidate.end_x, candidate.end_y = end.x - shift * x, end.y - shift * y
 
 
 @njit(cache=True, error_model="numpy")

@@ -41,13 +41,12 @@ def split(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float, s
 @njit(cache=True, error_model="numpy")
 def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float) -> int:
     """The inner point farthest from the chord (Barbret (1.4)), or -1 if all are within limit."""
-    x, y = xs[first], ys[first]
-    dx, dy = xs[last] - x, ys[last] - y
-    offset = dx * y - dy * x
+    dx, dy = xs[last] - xs[first], ys[last] - ys[first]
+    level = dx * ys[first] - dy * xs[first]
     best = limit * math.sqrt(dx * dx + dy * dy)
     found = -1
     for i in range(first + 1, last):
-        distance = abs(dx * ys[i] - dy * xs[i] - offset)
+        distance = abs(dx * ys[i] - dy * xs[i] - level)
         if distance > best:
             best = distance
             found = i

@@ -13,11 +13,13 @@ from semnav_env.features.kernels.layout import CAPACITY, CORNER, CORRIDOR, DOOR,
 PIECE = np.dtype(
     [(name, "f8") for name in ("mean_x", "mean_y", "xx", "xy", "yy", "along_x", "along_y")]
     + [(name, "f8") for name in ("spread", "scatter", "start_x", "start_y", "end_x", "end_y")]
+    + [("length", "f8")]
     + [(name, "i8") for name in ("points", "first", "last", "flags", "wall")]
 )
 """A straight piece of the scan: `mean` and central second-moment sums `xx`, `xy`, `yy` of its
 points, unit direction `along`, sums of squares along (`spread`) and across (`scatter`) the line,
-projected ends, first and last point, `flags` as in `layout`, and its wall's index or -1."""
+projected ends and their distance, first and last point, `flags` as in `layout`, and its wall's
+index or -1."""
 
 CANDIDATE = np.dtype(
     [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y", "score")] + [("state", "i8")]
@@ -25,7 +27,7 @@ CANDIDATE = np.dtype(
 """A possible door; `state` is 0 open, 1 kept, 2 suppressed."""
 
 JAMB = np.dtype([("x", "f8"), ("y", "f8"), ("beam", "i8"), ("piece", "i8")])
-"""A possible jamb: a point, its beam, and the nearest piece that may be the wall it ends."""
+"""A possible jamb: an end of a piece, and the beam that saw it."""
 
 DOOR_CANDIDATES = 128
 

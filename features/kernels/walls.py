@@ -127,7 +127,7 @@ def select_walls(count: int, settings: Any, scratch: Any, walls: np.ndarray) -> 
     for k in range(count):
         piece = scratch.pieces[k]
         length = math.hypot(piece.end_x - piece.start_x, piece.end_y - piece.start_y)
-        piece.wall = -1
+        piece.wall, piece.length = -1, length
         if (
             found == min(len(walls), len(scratch.wall_piece))
             or piece.points < settings.wall_beams
