@@ -268,9 +268,10 @@ def test_a_window_without_a_display_is_refused_with_the_alternative() -> None:
     assert '"rgb_array" needs none' in done.stderr
 
 
-def test_a_missing_pygame_is_named_with_its_extra() -> None:
+def test_a_missing_pygame_is_only_missed_when_drawing_and_named_with_its_extra() -> None:
     code = (
         "import sys; sys.modules['pygame'] = None\n"
+        "import semnav_env.rendering\n"
         "from semnav_env.rendering.backend import load_pygame\nload_pygame()"
     )
     done = run_with_driver(code, "dummy")

@@ -23,7 +23,6 @@ def draw_body(
         _draw_legged(pen, length, width, edge)
     else:
         _draw_wheeled(pen, length, width, robot.axle, edge)
-    pen.arrow(0.04 * length, 0.36 * length, 0.25 * width)
 
 
 class _Pen:
@@ -39,10 +38,10 @@ class _Pen:
         if grow:
             self._sheet.stroke([*outline, outline[0]], colour, 2 * grow)
 
-    def arrow(self, back: float, front: float, half: float) -> None:
+    def arrow(self, back: float, front: float, half: float, colour: palette.Colour) -> None:
         """An arrowhead on the x axis."""
         points = np.array([(front, 0.0), (back, half), (back + 0.35 * half, 0.0), (back, -half)])
-        self._sheet.polygon(self._page(points), palette.WHITE)
+        self._sheet.polygon(self._page(points), colour)
 
     def _page(self, points: FloatArray) -> FloatArray:
         return self._camera.pixels(points_to_parent(self._pose, points))
@@ -60,6 +59,7 @@ def _draw_wheeled(
     for side in (-1, 1):
         pen.slab((axle, side * 0.42 * width), (0.5 * length, 0.12 * width), palette.TYRE)
         pen.slab((0.4 * length, side * 0.38 * width), (0.13 * length, 0.08 * width), palette.TYRE)
+    pen.arrow(0.04 * length, 0.36 * length, 0.25 * width, palette.WHITE)
 
 
 def _draw_legged(pen: _Pen, length: float, width: float, edge: palette.Colour) -> None:
@@ -72,6 +72,7 @@ def _draw_legged(pen: _Pen, length: float, width: float, edge: palette.Colour) -
     for end in (-1, 1):
         for side in (-1, 1):
             pen.slab((end * 0.3 * length, side * 0.4 * width), (0.2 * length, 0.2 * width), edge)
+    pen.arrow(0.02 * length, 0.36 * length, 0.22 * width, palette.TYRE)
 
 
 def rounded_rectangle(centre: Point, size: Point, radius: float) -> FloatArray:

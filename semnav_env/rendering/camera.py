@@ -14,7 +14,7 @@ MARGIN = 0.4
 """Metres left around a plan that is shown whole."""
 
 SPAN = 16.0
-"""Metres across the view where it follows the robot."""
+"""Metres across the shorter side of a view that follows the robot."""
 
 LARGEST_FIT = 1.35
 """A plan up to this many times the span is still shown whole."""
@@ -65,7 +65,7 @@ def looking_at(
     """
     size = bounds[2] - bounds[0] + 2 * MARGIN, bounds[3] - bounds[1] + 2 * MARGIN
     fit = min(view.width / size[0], view.height / size[1])
-    follow = view.width / SPAN
+    follow = min(view.width, view.height) / SPAN
     scale = fit if fit * LARGEST_FIT >= follow else follow
     seen = view.width / scale, view.height / scale
     x, y = (

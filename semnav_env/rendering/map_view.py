@@ -97,7 +97,7 @@ def _draw_goal(canvas: Canvas, camera: Camera, goal: Goal, robot: Point) -> None
     foot = camera.pixel(goal.pose[:2])
     heading = math.cos(goal.pose[2]), -math.sin(goal.pose[2])
     if goal.kind is GoalKind.STOP:
-        canvas.polygon(marks.regular(foot, 8, 11.0, math.pi / 8), palette.GOAL)
+        marks.stop_sign(canvas, foot)
         return
     start, reach = foot, 34.0
     if goal.kind is GoalKind.PASS and goal.door is not None:

@@ -97,6 +97,16 @@ def flag(sheet: Sheet, at: Point, height: float = 24.0) -> None:
     sheet.discs([at], 2.6, palette.GOAL)
 
 
+def stop_sign(sheet: Sheet, at: Point, height: float = 30.0) -> None:
+    """Where to stand still; `at` is the foot of the pole."""
+    top = at[0], at[1] - height
+    sheet.stroke([at, top], palette.WHITE, 4.5)
+    sheet.stroke([at, top], palette.INK, 2.0)
+    for radius, colour in ((11.5, palette.WHITE), (10.0, palette.GOAL)):
+        sheet.polygon(regular(top, 8, radius, math.pi / 8), colour)
+    sheet.stroke([(top[0] - 5.0, top[1]), (top[0] + 5.0, top[1])], palette.WHITE, 3.0)
+
+
 def arrow(sheet: Sheet, start: Point, end: Point, colour: palette.Colour) -> None:
     """A straight arrow."""
     (x1, y1), (x2, y2) = start, end
