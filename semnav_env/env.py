@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any, ClassVar
 
@@ -124,7 +125,7 @@ class SemNavEnv(gym.Env[dict[str, NDArray[Any]], NDArray[np.float32]]):
         self._observer = Observer(observation, self.lidar_spec.beams, self.lidar_spec.range_max)
         self._default_plan = floor_plan
         self._enter(load_floor_plan(floor_plan))
-        self._scale = np.array(_speed_limits(self.robot))
+        self._scale = _speed_limits(self.robot)
         self.action_space = Box(-1.0, 1.0, (self.robot.action_size,), np.float32)
         self.observation_space = self._observer.space
         self._started = False
@@ -226,15 +227,15 @@ class SemNavEnv(gym.Env[dict[str, NDArray[Any]], NDArray[np.float32]]):
             self.perception = Perception(lidar, self.extractor)
 
     def _velocity(self, action: ArrayLike) -> Pose:
-        values = np.asarray(action, dtype=np.float64)
-        if values.shape != self.action_space.shape:
-            raise ValueError(
-                f"the action has shape {values.shape}; it must be {self.action_space.shape}"
-            )
-        if not np.isfinite(values).all():
-            raise ValueError(f"the action is {values.tolist()}; it must be finite, in [-1, 1]")
-        scaled = (np.clip(values, -1.0, 1.0) * self._scale).tolist()
-        return (scaled[0], 0.0, scaled[1]) if len(scaled) == 2 else tuple(scaled)
+        """The action as (forward, left, turn) in SI units."""
+        shape = np.shape(action)
+        if shape != self.action_space.shape:
+            raise ValueError(f"the action has shape {shape}; it must be {self.action_space.shape}")
+        values = np.asarray(action, dtype=np.float64).tolist()
+        if not all(map(math.isfinite, values)):
+            raise ValueError(f"the action is {values}; it must be finite, in [-1, 1]")
+        scaled = [max(-1.0, min(1.0, v)) * s for v, s in zip(values, self._scale, strict=True)]
+        return (scaled[0], 0.0, scaled[1]) if len(scaled) == 2 else (scaled[0], scaled[1], scaled[2])
 
     def _sense(self) -> None:
         key = (self._noise_seed, 0, self._steps)

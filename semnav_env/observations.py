@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import accumulate
+from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box, Dict
@@ -115,12 +116,10 @@ class Observer:
         self.mode = mode
         self.beams = beams
         self.range_max = range_max
-        self._entries = [
-            (entry.name, _STARTS[entry.name], _STARTS[entry.name] + entry.size, entry.shape)
-            for entry in ENTRIES
-            if entry.name in MODES[mode]
-        ]
-        self.with_scan = "scan" in MODES[mode]
+        self._dtype = np.dtype(
+            [(e.name, np.float32, e.shape) for e in ENTRIES] + [("scan", np.float32, (beams,))]
+        )
+        self._names = [name for name in MODES[mode] if name != "command"]
 
     @property
     def space(self) -> Dict:
@@ -134,20 +133,16 @@ class Observer:
 
     def pack(
         self, row: NDArray[np.float32], tokens: NDArray[np.int64]
-    ) -> dict[str, NDArray[np.float32] | NDArray[np.int64]]:
+    ) -> dict[str, NDArray[Any]]:
         """The observation as fresh arrays.
 
         Args:
             row: `ROW_SIZE` values and, behind them, the scan; shape (ROW_SIZE + beams,).
             tokens: of the command.
         """
-        fresh = row.copy()
-        packed: dict[str, NDArray[np.float32] | NDArray[np.int64]] = {
-            name: fresh[start:stop].reshape(shape) for name, start, stop, shape in self._entries
-        }
+        fresh = row.copy().view(self._dtype)[0]
+        packed = {name: fresh[name] for name in self._names}
         packed["command"] = tokens.copy()
-        if self.with_scan:
-            packed["scan"] = fresh[ROW_SIZE:]
         return packed
 
 

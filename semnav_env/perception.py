@@ -37,6 +37,9 @@ LOOK_EVERY = 0.4
 LOOK_AT_LEAST = 15
 """And after so many steps, if more is known by then."""
 
+FIRST_SCANS = 3
+"""After so many scans the first features count, see `SceneMemory`."""
+
 
 @njit(cache=True)
 def observe(
@@ -177,7 +180,7 @@ class Perception:
             follower.active,
             odometry,
             velocity,
-            goal.kind,
+            goal.kind.value,  # numba is slow to recognise an enum
             goal.pose,
             door_ends(goal),
             goal.door is not None,
@@ -217,8 +220,10 @@ class Perception:
         turned = abs(math.remainder(pose[2] - heading, math.tau)) > LOOK_EVERY
         if moved or turned:
             return True
-        waited = step - self._looked_at >= LOOK_AT_LEAST
-        return waited and self.memory.size != self._looked_on
+        if step - self._looked_at < LOOK_AT_LEAST and step != FIRST_SCANS:
+            return False
+        self._looked_at = step
+        return self.memory.size != self._looked_on
 
     def _note_look(self, pose: Pose, step: int) -> None:
         self._looked_from, self._looked_at, self._looked_on = pose, step, self.memory.size

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
+from typing import NamedTuple
 
 
 @dataclass(frozen=True)
@@ -27,12 +28,17 @@ class RewardWeights:
 
     def apply(self, terms: RewardTerms) -> dict[str, float]:
         """Each term times its weight, by name."""
-        values = asdict(terms)
-        return {name: weight * values[name] for name, weight in asdict(self).items()}
+        return {
+            "progress": self.progress * terms.progress,
+            "clause": self.clause * terms.clause,
+            "success": self.success * terms.success,
+            "failure": self.failure * terms.failure,
+            "contact": self.contact * terms.contact,
+            "time": self.time,
+        }
 
 
-@dataclass(frozen=True, slots=True)
-class RewardTerms:
+class RewardTerms(NamedTuple):
     """One step before weighting; see `RewardWeights` for the meaning of each term."""
 
     progress: float
@@ -40,4 +46,3 @@ class RewardTerms:
     success: float
     failure: float
     contact: float
-    time: float = 1.0
