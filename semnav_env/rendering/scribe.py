@@ -15,7 +15,6 @@ from semnav_env.grounding.doors import doors_along
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.perception import Perception
 from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.viewer import Viewer
 from semnav_env.verifier import Verdict, Verifier
@@ -78,7 +77,7 @@ class Scribe:
             route=verifier.route,
             command=tuple(str(clause) for clause in verifier.command.clauses),
             active_clause=verifier.follower.active,
-            status=_status(env.seconds, perception, verifier),
+            status=_status(env.seconds, verifier),
             in_contact=env.world.in_contact,
         )
 
@@ -106,11 +105,10 @@ def _moved(goal: Goal, frame: Pose) -> Goal:
     return Goal(goal.kind, compose(frame, goal.pose), door, because=goal.because)
 
 
-def _status(seconds: float, perception: Perception, verifier: Verifier) -> tuple[str, ...]:
+def _status(seconds: float, verifier: Verifier) -> tuple[str, ...]:
     current = [v for v in verifier.verdicts if v not in (Verdict.DONE, Verdict.PENDING)]
     verdict = str(current[0]) if current else "done"
     return (
         f"t = {seconds:.1f} s   {verdict}",
-        f"understood: {perception.follower.goal.because}",
         f"collisions: {verifier.collisions}",
     )
