@@ -1,4 +1,4 @@
-"""What a plan's maker should know: leaks, unreachable doors and rooms; `semnav map check`."""
+"""What a maker of plans should know: leaks, and doors and rooms that no robot can reach."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from semnav_env.maps.floor_plan import FloorPlan, Region
 from semnav_env.maps.rules import FloorPlanError, check_plan
 
 WHEELCHAIR_WIDTH = 0.65
-LINE = 0.005
+LINE = 0.0005
 """Half the thickness, in metres, that walls get to tell the spaces between them apart."""
 
 

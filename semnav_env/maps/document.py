@@ -30,7 +30,8 @@ def read_text(path: Path) -> str:
         if path.is_dir():
             raise FloorPlanError(f"{path}: is a folder; give a .geojson file")
         if not path.is_file():
-            raise FloorPlanError(f"{path}: no such file; give a .geojson file or a bundled name")
+            problem = "is not a regular file" if path.exists() else "no such file"
+            raise FloorPlanError(f"{path}: {problem}; give a .geojson file or a bundled name")
         size = path.stat().st_size
         if size > MAX_BYTES:
             raise FloorPlanError(f"{path}: {size:,} bytes; at most {MAX_BYTES:,} are read")
@@ -77,10 +78,11 @@ def label(document: Document, index: int) -> str:
     """What to call a feature in an error: its number (from 1), kind and name."""
     feature = document["features"][index]
     properties = feature.get("properties") if isinstance(feature, dict) else None
-    words = [str(properties.get(k, ""))[:64] for k in ("kind", "name")] if properties else []
-    called = " ".join(filter(None, words))
+    stated = properties if isinstance(properties, dict) else {}
+    words = [stated[key] for key in ("kind", "name") if isinstance(stated.get(key), str)]
+    called = " ".join(words)
     number = f"feature {index + 1} of {len(document['features'])}"
-    return f"{number} ({called})" if called.isprintable() and called else number
+    return f"{number} ({called[:80]})" if called and called.isprintable() else number
 
 
 def _refuse(literal: str) -> NoReturn:
@@ -129,15 +131,29 @@ def _check_schema(document: Any) -> None:
 
 
 def _explain(error: ValidationError) -> str:
-    found = repr(error.instance)[:80] if error.validator in ("const", "enum", "type") else ""
-    if error.validator == "const":
-        return f"must be {error.validator_value!r}, not {found}"
-    if error.validator == "type":
-        return f"must be of type {error.validator_value}, not {found}"
-    if error.validator == "enum":
-        choices = list(map(str, error.validator_value))
-        near = process.extractOne(str(error.instance)[:80], choices, score_cutoff=60)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
-        return f"must be one of {', '.join(choices)}, not {found}{hint}"
-    message = str(error.message).replace("\n", " ")
-    return message if len(message) <= 200 else f"{message[:90]} ... {message[-90:]}"
+    """What is wrong and what would be right, in one line."""
+    asked, given = error.validator_value, error.instance
+    match error.validator:
+        case "const":
+            return f"must be {asked!r}, not {_short(given)}"
+        case "type":
+            return f"must be of type {asked}, not {_short(given)}"
+        case "enum":
+            near = process.extractOne(str(given)[:80], asked, score_cutoff=60)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            return f"must be one of {', '.join(asked)}, not {_short(given)}{hint}"
+        case "required":
+            return f"lacks {', '.join(repr(name) for name in asked if name not in given)}"
+        case "additionalProperties":
+            known = error.schema["properties"]
+            unknown = ", ".join(_short(name) for name in given if name not in known)
+            return f"has {unknown[:80]}; only {', '.join(known)} are known"
+        case "minItems" | "minLength":
+            return f"{_short(given)} has a length of {len(given)}; at least {asked} are needed"
+        case _:
+            return f"{_short(given)} has a length of {len(given)}; at most {asked} are allowed"
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:50]} ..."

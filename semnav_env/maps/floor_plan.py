@@ -123,7 +123,7 @@ class FloorPlan:
     @cached_property
     def owners(self) -> NDArray[np.intp]:
         """Which surface each row of `segments` belongs to, shape (n,)."""
-        counts = [len(surface.points) - 1 for surface in self.surfaces]
+        counts = np.array([len(surface.points) - 1 for surface in self.surfaces], dtype=np.intp)
         return np.repeat(np.arange(len(counts)), counts)
 
     @cached_property

@@ -11,6 +11,7 @@ from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.reader import read_plan
 from semnav_env.maps.rules import FloorPlanError, check_plan
 
+LONGEST_PATH = 4096
 BUNDLED = Path(__file__).with_name("bundled")
 
 
@@ -44,10 +45,10 @@ def _bundled(name: str) -> FloorPlan:
 
 
 def _is_path(text: str) -> bool:
-    """Anything with a suffix or a folder, and files or folders that lie there."""
-    if "\0" in text or len(text) > 4096:
+    """Anything with a folder or a suffix, and what lies in this folder under that name."""
+    if len(text) > LONGEST_PATH or not set(text).isdisjoint("\0\n\r"):
         return False
-    return "/" in text or bool(Path(text).suffix) or Path(text).exists()
+    return "/" in text or bool(Path(text).suffix) or text in map(str, Path().iterdir())
 
 
 def _unknown(name: str) -> str:

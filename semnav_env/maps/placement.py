@@ -87,7 +87,7 @@ def _touched(plan: FloorPlan, body: Polygon) -> str | None:
     rows = plan.solids.query(body, predicate="intersects")
     if len(rows):
         row = int(rows.min())
-        at = plan.solids.geometries[row].intersection(body).representative_point()
+        at = plan.solids.geometries[row].intersection(body).centroid
         surface = plan.surfaces[int(plan.owners[row])]
         return f"{surface.material.value} at ({at.x:.2f}, {at.y:.2f})"
     for surface in plan.surfaces:

@@ -86,12 +86,12 @@ def _assemble(document: Document, parts: dict[str, list[Any]], name: str) -> Flo
 def _check_states(document: Document, plan: FloorPlan) -> None:
     """A stated `state` must be the drawn one."""
     properties = [feature["properties"] for feature in document["features"]]
-    doors = [p for p in properties if p["kind"] == "door" and "state" in p]
-    for stated in doors:
-        drawn = door_state(plan.door(stated["name"]), plan)
-        if drawn != stated["state"]:
+    stated = [p.get("state") for p in properties if p["kind"] == "door"]
+    for door, state in zip(plan.doors, stated, strict=True):
+        drawn = door_state(door, plan)
+        if state not in (None, drawn):
             raise FloorPlanError(
-                f"door {stated['name']!r} is called {stated['state']}, but is drawn {drawn}; "
+                f"door {door.name!r} is called {state}, but is drawn {drawn}; "
                 "draw its leaf or change its state"
             )
 
