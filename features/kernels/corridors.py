@@ -12,6 +12,9 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.corners import INNER, OUTER
 from semnav_env.features.kernels.segmentation import is_return
 
+END_ON = 0.1
+"""Sine of the angle below which a probe passes along a wall instead of meeting it."""
+
 
 @njit(cache=True, error_model="numpy")
 def find_corridors(
@@ -97,7 +100,6 @@ def nearest_wall(
     """
     nearest = settings.corridor_probe
     square = math.cos(settings.corridor_angle_tolerance)
-    slack = settings.corridor_wall_slack
     met = False
     for k in range(walls):
         if k in (ending, starting):
@@ -108,7 +110,8 @@ def nearest_wall(
         place = along_x * dy - along_y * dx
         tilt = abs(facing)
         place = place if facing > 0.0 else -place
-        if not -slack * tilt <= place <= (wall.length + slack) * tilt:
+        slack = settings.corridor_wall_slack if tilt >= square else 0.0
+        if tilt < END_ON or not -slack * tilt <= place <= (wall.length + slack) * tilt:
             continue
         reach = (dy * wall.along_x - dx * wall.along_y) / facing
         if 0.0 < reach <= nearest:
@@ -122,7 +125,7 @@ def is_in_reach(entry: Any, settings: Any) -> bool:
     """Whether the corridor is wide enough and its midpoint neither too near nor too far."""
     width = math.hypot(entry.end_x - entry.start_x, entry.end_y - entry.start_y)
     away = 0.5 * math.hypot(entry.start_x + entry.end_x, entry.start_y + entry.end_y)
-    return (
+    return bool(
         width >= 2.0 * settings.corridor_half_width
         and away >= settings.corridor_distance_min
         and away <= settings.corridor_distance_max

@@ -94,7 +94,7 @@ def has_door_width(start: Any, end: Any, increment: float, settings: Any) -> boo
     x, y = x / width, y / width
     width -= beam_spacing(start.x, start.y, x, y, increment)
     width -= beam_spacing(end.x, end.y, x, y, increment)
-    return width <= widest
+    return bool(width <= widest)
 
 
 @njit(cache=True, error_model="numpy")
@@ -185,7 +185,7 @@ def line_deviation(piece: Any, x: float, y: float, sigma: float) -> float:
     prediction of a straight-line regression.
     """
     along = piece.along_x * (x - piece.mean_x) + piece.along_y * (y - piece.mean_y)
-    return sigma * math.sqrt(1.0 / piece.points + along * along / piece.spread)
+    return float(sigma * math.sqrt(1.0 / piece.points + along * along / piece.spread))
 
 
 @njit(cache=True, error_model="numpy")
@@ -226,7 +226,7 @@ def clear_fraction(
     beams_through = last - first + 1
     if deep < settings.door_deep_fraction * beams_through:
         return 0.0
-    return clear / beams_through
+    return float(clear / beams_through)
 
 
 @njit(cache=True, error_model="numpy")

@@ -136,4 +136,4 @@ def fit(xs: FloatArray, ys: FloatArray, piece: Any) -> None:
 @njit(cache=True, error_model="numpy")
 def offset(piece: Any, x: float, y: float) -> float:
     """Signed distance of a point from a piece's line, metres; positive on its left."""
-    return piece.along_x * (y - piece.mean_y) - piece.along_y * (x - piece.mean_x)
+    return float(piece.along_x * (y - piece.mean_y) - piece.along_y * (x - piece.mean_x))

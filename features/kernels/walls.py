@@ -86,7 +86,7 @@ def joint_scatter(a: Any, b: Any) -> float:
     xx = a.xx + b.xx + weight * dx * dx
     xy = a.xy + b.xy + weight * dx * dy
     yy = a.yy + b.yy + weight * dy * dy
-    return 0.5 * (xx + yy - math.sqrt((xx - yy) ** 2 + 4.0 * xy * xy))
+    return float(0.5 * (xx + yy - math.sqrt((xx - yy) ** 2 + 4.0 * xy * xy)))
 
 
 @njit(cache=True, error_model="numpy")
@@ -97,7 +97,7 @@ def is_one_line(a: Any, b: Any, settings: Any) -> bool:
         return False
     allowed = MERGE_CHI_SQUARE * settings.sigma**2
     allowed += min(a.points, b.points) * settings.merge_offset**2
-    return joint_scatter(a, b) - a.scatter - b.scatter <= allowed
+    return bool(joint_scatter(a, b) - a.scatter - b.scatter <= allowed)
 
 
 @njit(cache=True, error_model="numpy")

@@ -1,0 +1,75 @@
+"""The beams of a scan: which returned, and where they ended."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.scan import Scan
+from semnav_env.features.settings import ExtractorSettings
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """At most one full turn of a scan.
+
+    Attributes:
+        ranges: metres, shape (n,).
+        directions: unit vectors of the beams, shape (n, 2).
+        returned: which beams have a usable return, shape (n,).
+        increment: angle between beams, radians.
+        angle_min: direction of beam 0, radians.
+    """
+
+    ranges: FloatArray
+    directions: FloatArray
+    returned: NDArray[np.bool_]
+    increment: float
+    angle_min: float
+
+    @classmethod
+    def of(cls, scan: Scan, settings: ExtractorSettings) -> Sweep:
+        """The usable part of a scan; a range beyond `rupture_range` is no return (2.1)."""
+        turn = math.floor(2.0 * math.pi / scan.angle_increment * (1.0 + 1e-9)) + 1
+        ranges = scan.ranges[:turn]
+        angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+        directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+        returned = scan.valid[:turn] & (ranges > 0.0) & (ranges < settings.rupture_range)
+        return cls(ranges, directions, returned, scan.angle_increment, scan.angle_min)
+
+    def points(self, beams: list[int]) -> FloatArray:
+        """Where beams ended (1.2), shape (k, 2)."""
+        return self.ranges[beams, None] * self.directions[beams]
+
+    def connected_groups(self, settings: ExtractorSettings) -> list[list[int]]:
+        """Beams that returned, cut at ruptures and adaptive breakpoints."""
+        groups: list[list[int]] = []
+        for beam in map(int, np.flatnonzero(self.returned)):
+            if groups and self._joined(groups[-1][-1], beam, settings):
+                groups[-1].append(beam)
+            else:
+                groups.append([beam])
+        return groups
+
+    def _joined(self, before: int, beam: int, settings: ExtractorSettings) -> bool:
+        step = beam - before
+        if step > settings.dropout_beams + 1:
+            return False
+        nearer = min(self.ranges[before], self.ranges[beam])
+        reach = nearer * _breakpoint_factor(step * self.increment, settings.breakpoint_angle)
+        reach += 3.0 * settings.sigma
+        if step > 1:
+            reach = min(reach, settings.merge_gap)
+        first, second = self.points([before, beam])
+        return bool(np.linalg.norm(second - first) <= reach)
+
+
+def _breakpoint_factor(angle: float, breakpoint_angle: float) -> float:
+    """Barbret (2.3), with lambda at least twice the angle between the beams."""
+    if angle >= math.pi / 4:
+        return 0.0
+    return math.sin(angle) / math.sin(max(breakpoint_angle, 2.0 * angle) - angle)

@@ -1,0 +1,160 @@
+"""Straight pieces of a scan, and which of them are walls."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.walls import MERGE_CHI_SQUARE
+from semnav_env.features.reference.sweep import Sweep
+from semnav_env.features.settings import ExtractorSettings
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Points on one line and their total least squares fit; flags as in `Wall`."""
+
+    beams: list[int]
+    points: FloatArray
+    start_rupture: bool = False
+    end_rupture: bool = False
+    start_break: bool = False
+    end_break: bool = False
+
+    @cached_property
+    def mean(self) -> FloatArray:
+        """Mean of the points, shape (2,)."""
+        return np.asarray(self.points.mean(axis=0))
+
+    @cached_property
+    def _moments(self) -> tuple[FloatArray, FloatArray]:
+        centred = self.points - self.mean
+        return np.linalg.eigh(centred.T @ centred)
+
+    @property
+    def spread(self) -> float:
+        """Sum of squared distances from the mean along the line."""
+        return float(self._moments[0][1])
+
+    @property
+    def scatter(self) -> float:
+        """Sum of squared distances to the line."""
+        return max(float(self._moments[0][0]), 0.0)
+
+    @cached_property
+    def along(self) -> FloatArray:
+        """Unit direction from the first point to the last, the scanner on its left."""
+        axis = self._moments[1][:, 1]
+        return axis if axis @ (self.points[-1] - self.points[0]) >= 0 else -axis
+
+    @property
+    def start(self) -> FloatArray:
+        """Projection of the first point on the line."""
+        return self._projected(self.points[0])
+
+    @property
+    def end(self) -> FloatArray:
+        """Projection of the last point on the line."""
+        return self._projected(self.points[-1])
+
+    @property
+    def length(self) -> float:
+        """Metres."""
+        return float(np.linalg.norm(self.end - self.start))
+
+    def _projected(self, point: FloatArray) -> FloatArray:
+        return self.mean + ((point - self.mean) @ self.along) * self.along
+
+    def offset(self, point: FloatArray) -> float:
+        """Signed distance of a point from the line, positive on the left."""
+        dx, dy = point - self.mean
+        return float(self.along[0] * dy - self.along[1] * dx)
+
+    def deviation(self, point: FloatArray, sigma: float) -> float:
+        """Standard deviation of the line beside a point, as in a straight-line regression."""
+        along = (point - self.mean) @ self.along
+        return float(sigma * np.sqrt(1.0 / len(self.beams) + along**2 / self.spread))
+
+
+def find_pieces(sweep: Sweep, settings: ExtractorSettings) -> list[Piece]:
+    """Every straight piece of two points or more, in beam order, joined where one line."""
+    pieces: list[Piece] = []
+    for group in sweep.connected_groups(settings):
+        for beams in _straight_runs(sweep, group, settings.split_distance):
+            piece = _flagged(sweep, group, beams)
+            if pieces and _is_one_line(pieces[-1], piece, settings):
+                pieces[-1] = _joined(pieces[-1], piece)
+            else:
+                pieces.append(piece)
+    return pieces
+
+
+def is_wall(piece: Piece, settings: ExtractorSettings) -> bool:
+    """Whether a piece is long and dense enough."""
+    return len(piece.beams) >= settings.wall_beams and piece.length >= settings.wall_length
+
+
+def _cuts(points: FloatArray, first: int, last: int, limit: float) -> list[int]:
+    """Iterative end-point fit: where points first to last are cut (Barbret section 2.4.4)."""
+    dx, dy = points[last] - points[first]
+    inner = points[first + 1 : last] - points[first]
+    distances = np.abs(dx * inner[:, 1] - dy * inner[:, 0])
+    if len(inner) == 0 or distances.max() <= limit * np.hypot(dx, dy):
+        return []
+    cut = first + 1 + int(distances.argmax())
+    return [*_cuts(points, first, cut, limit), cut, *_cuts(points, cut, last, limit)]
+
+
+def _straight_runs(sweep: Sweep, group: list[int], limit: float) -> list[list[int]]:
+    """Beams of each straight run; a cut belongs to the neighbour whose line is nearer."""
+    points = sweep.points(group)
+    cuts = [-1, *_cuts(points, 0, len(group) - 1, limit), len(group)]
+    runs = [range(a + 1, b) for a, b in itertools.pairwise(cuts) if b - a > 2]
+    result = [[group[i] for i in run] for run in runs]
+    for k, (run, following) in enumerate(itertools.pairwise(runs)):
+        if following.start - run.stop == 1:
+            cut = group[run.stop]
+            before, after = (Piece(r, sweep.points(r)) for r in result[k : k + 2])
+            point = sweep.points([cut])[0]
+            if abs(before.offset(point)) <= abs(after.offset(point)):
+                result[k].append(cut)
+            else:
+                result[k + 1].insert(0, cut)
+    return result
+
+
+def _flagged(sweep: Sweep, group: list[int], beams: list[int]) -> Piece:
+    before, after = beams[0] - 1, beams[-1] + 1
+    starts = beams[0] == group[0] and before >= 0
+    ends = beams[-1] == group[-1] and after < len(sweep.ranges)
+    return Piece(
+        beams,
+        sweep.points(beams),
+        start_rupture=bool(starts and not sweep.returned[before]),
+        end_rupture=bool(ends and not sweep.returned[after]),
+        start_break=bool(starts and sweep.returned[before]),
+        end_break=bool(ends and sweep.returned[after]),
+    )
+
+
+def _is_one_line(a: Piece, b: Piece, settings: ExtractorSettings) -> bool:
+    if np.linalg.norm(b.start - a.end) > settings.merge_gap:
+        return False
+    allowed = MERGE_CHI_SQUARE * settings.sigma**2
+    allowed += min(len(a.beams), len(b.beams)) * settings.merge_offset**2
+    return _joined(a, b).scatter - a.scatter - b.scatter <= allowed
+
+
+def _joined(a: Piece, b: Piece) -> Piece:
+    return Piece(
+        a.beams + b.beams,
+        np.concatenate((a.points, b.points)),
+        start_rupture=a.start_rupture,
+        end_rupture=b.end_rupture,
+        start_break=a.start_break,
+        end_break=b.end_break,
+    )
