@@ -1,0 +1,153 @@
+"""What the folders may know of each other."""
+
+import ast
+import sys
+import tomllib
+from dataclasses import dataclass
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+LAYERS = ("features", "semnav_env", "agents", "scripts")
+INSTALLED = {
+    layer: "semnav_env" if layer == "semnav_env" else f"semnav_env.{layer}" for layer in LAYERS
+}
+
+
+@dataclass(frozen=True)
+class Module:
+    name: str
+    layer: str
+    path: Path
+    tree: ast.Module
+
+    @property
+    def place(self):
+        return self.path.relative_to(ROOT).as_posix()
+
+
+def source_files(layer):
+    links = [path for path in (ROOT / layer).iterdir() if path.is_symlink()]
+    files = (ROOT / layer).rglob("*.py")
+    return sorted(p for p in files if not any(p.is_relative_to(link) for link in links))
+
+
+def module_name(layer, path):
+    parts = path.relative_to(ROOT / layer).with_suffix("").parts
+    return ".".join((INSTALLED[layer], *(part for part in parts if part != "__init__")))
+
+
+MODULES = {
+    module.name: module
+    for layer in LAYERS
+    for path in source_files(layer)
+    for module in [Module(module_name(layer, path), layer, path, ast.parse(path.read_text()))]
+}
+
+
+def imported(module):
+    """Names of all that a module imports, wherever in it: (module, name in it or None)."""
+    for node in ast.walk(module.tree):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, None) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{module.place}:{node.lineno}: a relative import"
+            yield from ((node.module, alias.name) for alias in node.names)
+
+
+def dependencies(module):
+    """Our own modules that a module imports."""
+    for name, member in imported(module):
+        inner = f"{name}.{member}"
+        if inner in MODULES or name in MODULES:
+            yield MODULES[inner if inner in MODULES else name]
+
+
+def importers(package):
+    return {
+        m.place for m in MODULES.values() if package in {n.split(".")[0] for n, _ in imported(m)}
+    }
+
+
+def test_there_is_something_to_look_at():
+    assert {module.layer for module in MODULES.values()} == set(LAYERS)
+    assert "semnav_env.features.scan" in {d.name for m in MODULES.values() for d in dependencies(m)}
+
+
+def test_imports_only_point_down():
+    upwards = [
+        f"{module.place} imports {other.place}"
+        for module in MODULES.values()
+        for other in dependencies(module)
+        if LAYERS.index(other.layer) > LAYERS.index(module.layer)
+    ]
+    assert upwards == []
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_a_folder_has_no_import_cycle(layer):
+    inside = [module for module in MODULES.values() if module.layer == layer]
+    graph = {m.name: {d.name for d in dependencies(m) if d.layer == layer} for m in inside}
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(" <- ".join(error.args[1]))
+
+
+def test_modules_are_imported_by_their_installed_names():
+    """`import features` would load every module a second time."""
+    unknown = [
+        f"{module.place} imports {name}"
+        for module in MODULES.values()
+        for name, _ in imported(module)
+        if name.split(".")[0] in LAYERS and name not in MODULES
+    ]
+    assert unknown == []
+
+
+def test_features_need_numpy_and_numba_only():
+    known = {"numpy", "numba", "semnav_env", *sys.stdlib_module_names}
+    for module in MODULES.values():
+        if module.layer == "features":
+            others = {name.split(".")[0] for name, _ in imported(module)} - known
+            assert others <= ({"matplotlib"} if module.place == "features/plot.py" else set())
+
+
+def test_the_simulator_and_the_pictures_each_have_one_door():
+    assert importers("pymunk") == {"semnav_env/world.py"}
+    assert importers("pygame") == {"semnav_env/rendering/backend.py"}
+
+
+def test_only_agents_learn():
+    for package in ("stable_baselines3", "sb3_contrib", "torch", "safetensors"):
+        assert all(place.startswith("agents/") for place in importers(package)), package
+
+
+def test_only_the_lidar_makes_a_scan_from_a_floor_plan():
+    makers = {
+        module.place
+        for module in MODULES.values()
+        for node in ast.walk(module.tree)
+        if isinstance(node, ast.Call)
+        and getattr(node.func, "attr", getattr(node.func, "id", "")) == "Scan"
+    }
+    assert {place for place in makers if not place.startswith("features/")} == {
+        "semnav_env/lidar/lidar.py"
+    }
+
+
+def test_every_package_is_listed_for_installation():
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
+    folders = {(layer, path.parent) for layer in LAYERS for path in source_files(layer)}
+    for _, folder in folders:
+        assert (folder / "__init__.py").exists(), f"{folder.relative_to(ROOT)} lacks an __init__.py"
+    assert set(settings["packages"]) == {
+        module_name(layer, folder / "__init__.py") for layer, folder in folders
+    }
+
+
+def test_no_module_is_a_drawer_for_odds_and_ends():
+    drawers = {"utils", "util", "helpers", "helper", "misc", "common"}
+    assert not [m.place for m in MODULES.values() if drawers & set(m.name.split("."))]
