@@ -10,7 +10,7 @@ from typing import Any
 import pymunk
 from shapely import Polygon
 
-from semnav_env.features.frames import Point, Pose, to_parent, wrap_angle
+from semnav_env.features.frames import Point, Pose, compose, to_parent
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 
@@ -86,6 +86,7 @@ class World:
         self._start, self._journal = start, array("d")
         self._impulses: list[float] = []
         self._build(start)
+        self._settle()
 
     def step(self, velocity: tuple[float, float, float]) -> None:
         """Drive for one control period.
@@ -103,22 +104,20 @@ class World:
         self._require_reset()
         self._journal.extend(command)
         self._impulses = []
-        self._drive(*self._approach(command))
+        self._drive(command)
+        self._settle()
 
     @property
     def pose(self) -> Pose:
         """Of the footprint's centre, world frame; the heading is in [-pi, pi]."""
         self._require_reset()
-        axle, heading = self._body.position, self._body.angle
-        ahead = -self.robot.axle
-        x, y = axle.x + ahead * math.cos(heading), axle.y + ahead * math.sin(heading)
-        return x, y, wrap_angle(heading)
+        return self._pose
 
     @property
     def velocity(self) -> tuple[float, float, float]:
         """Of the footprint's centre, robot frame: forward, left (m/s) and turn (rad/s)."""
         self._require_reset()
-        forward, left, turn = self._axle_velocity()
+        forward, left, turn = self._axle_velocity
         return forward, left - self.robot.axle * turn, turn
 
     @property
@@ -188,36 +187,49 @@ class World:
     def _touch(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         self._impulses.append(arbiter.total_impulse.length)
 
-    def _approach(self, command: tuple[float, float, float]) -> tuple[float, float, float]:
-        """The velocity to demand: from the actual one towards the command, within the limits."""
-        robot = self.robot
-        forward, left, turn = self._axle_velocity()
-        change = robot.max_acceleration / self.control_hz
-        turn_change = robot.max_turn_acceleration / self.control_hz
-        left = left if robot.holonomic else 0.0
-        return (
-            forward + _cut(_cut(command[0], robot.max_speed) - forward, change),
-            left + _cut(_cut(command[1], robot.max_sideways_speed) - left, change),
-            turn + _cut(_cut(command[2], robot.max_turn_rate) - turn, turn_change),
-        )
+    def _drive(self, command: tuple[float, float, float]) -> None:
+        """Approach the commanded velocity evenly over one control period.
 
-    def _drive(self, forward: float, left: float, turn: float) -> None:
-        """Hold a velocity for one control period."""
+        A substep of Pymunk moves the body with the velocity it has and then finds the next one.
+        So the velocity is demanded in the heading that the robot will have half a substep later
+        than that; this makes arcs exact to second order.
+        """
         body, control, space, dt = self._body, self._control, self._space, self._dt
-        control.angular_velocity = turn
+        (forward, left, turn), (more_forward, more_left, more_turn) = self._ramp(command)
         for _ in range(self.substeps):
-            # The heading at the middle of the substep makes arcs exact to second order.
-            heading = body.angle + 0.5 * turn * dt
-            c, s = math.cos(heading), math.sin(heading)
+            middle = body.angle + turn * dt
+            forward, left, turn = forward + more_forward, left + more_left, turn + more_turn
+            middle += 0.5 * turn * dt
+            c, s = math.cos(middle), math.sin(middle)
             control.velocity = (c * forward - s * left, s * forward + c * left)
+            control.angular_velocity = turn
             space.step(dt)
 
-    def _axle_velocity(self) -> tuple[float, float, float]:
-        """Of the axle, in the heading that the robot had in the middle of the last substep."""
-        velocity, turn = self._body.velocity, self._body.angular_velocity
-        heading = self._body.angle - 0.5 * turn * self._dt
-        x, y, c, s = *velocity, math.cos(heading), math.sin(heading)
-        return c * x + s * y, c * y - s * x, turn
+    def _ramp(
+        self, command: tuple[float, float, float]
+    ) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """The velocity to start from, the actual one, and by how much to change it a substep."""
+        robot, dt, steps = self.robot, self._dt, self.substeps
+        forward, left, turn = self._axle_velocity
+        left = left if robot.holonomic else 0.0
+        change, turn_change = robot.max_acceleration * dt, robot.max_turn_acceleration * dt
+        return (forward, left, turn), (
+            _cut((_cut(command[0], robot.max_speed) - forward) / steps, change),
+            _cut((_cut(command[1], robot.max_sideways_speed) - left) / steps, change),
+            _cut((_cut(command[2], robot.max_turn_rate) - turn) / steps, turn_change),
+        )
+
+    def _settle(self) -> None:
+        """Read where the body is and how fast its axle moves.
+
+        The velocity is in the heading that the robot will have in half a substep.
+        """
+        body = self._body
+        (x, y), heading, turn = body.position, body.angle, body.angular_velocity
+        self._pose = compose((x, y, heading), (-self.robot.axle, 0.0, 0.0))
+        (vx, vy), middle = body.velocity, heading + 0.5 * turn * self._dt
+        c, s = math.cos(middle), math.sin(middle)
+        self._axle_velocity = c * vx + s * vy, c * vy - s * vx, turn
 
     def __getstate__(self) -> dict[str, Any]:
         kept = ("floor_plan", "robot", "control_hz", "substeps", "_dt", "_start", "_journal")

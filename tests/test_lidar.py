@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.features.frames import Pose, compose
@@ -58,6 +58,7 @@ def test_a_spec_with_an_impossible_number_names_it(name: str, value: float) -> N
 
 
 @given(coordinates, st.tuples(st.floats(-0.5, 0.5), st.floats(-0.3, 0.3), st.floats(-3, 3)))
+@settings(deadline=None)
 def test_a_mounted_lidar_sees_what_one_at_its_place_sees(robot: Pose, mount: Pose) -> None:
     plan = empty_hall()
     mounted = Lidar(plan, TIM561, mount).ranges(robot, KEY)

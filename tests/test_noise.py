@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.features.frames import FloatArray
@@ -27,6 +27,7 @@ def measured(ranges: FloatArray, spec: LidarSpec, key: tuple[int, int, int] = KE
     st.floats(0, 1),
     st.integers(0, 2**63 - 1),
 )
+@settings(deadline=None)
 def test_measured_ranges_are_valid_or_infinite_and_never_nan(
     ranges: list[float], sigma: float, dropout: float, seed: int
 ) -> None:

@@ -95,6 +95,7 @@ def test_no_beam_slips_between_walls_that_share_a_corner(
 
 
 @given(st.floats(-9, 0), headings, st.floats(-4, 4))
+@settings(deadline=None)
 def test_a_wall_is_seen_exactly_however_near_it_is(
     exponent: float, heading: float, x: float
 ) -> None:
@@ -111,6 +112,7 @@ def test_a_wall_is_seen_exactly_however_near_it_is(
 
 
 @given(st.integers(-400, 400), headings)
+@settings(deadline=None)
 def test_turning_by_whole_beams_shifts_the_ranges(beams: int, heading: float) -> None:
     segments = furnished_hall().opaque_segments
     turned = ranges_of(segments, (4.5, 3.3, heading + beams * AROUND.angle_increment), AROUND)
@@ -120,7 +122,7 @@ def test_turning_by_whole_beams_shifts_the_ranges(beams: int, heading: float) ->
 
 @pytest.mark.parametrize("angle_min", [-math.pi, -2.0, 0.0, 1e-5, 3.0, math.pi])
 @given(headings)
-@settings(max_examples=15)
+@settings(max_examples=15, deadline=None)
 def test_beams_may_begin_in_any_direction(angle_min: float, heading: float) -> None:
     spec = replace(ROUNDABOUT, angle_min=angle_min)
     segments, pose = empty_hall().segments, (3.1, 2.2, heading)
@@ -138,6 +140,7 @@ def test_very_fine_and_very_few_beams_are_exact() -> None:
 
 
 @given(st.integers(0, 2**32))
+@settings(deadline=None)
 def test_neither_order_nor_direction_of_segments_matters(seed: int) -> None:
     rng = np.random.default_rng(seed)
     segments = furnished_hall().opaque_segments
@@ -149,6 +152,7 @@ def test_neither_order_nor_direction_of_segments_matters(seed: int) -> None:
 
 
 @given(headings)
+@settings(deadline=None)
 def test_mirroring_the_plan_mirrors_the_ranges(heading: float) -> None:
     spec = replace(TIM561, angle_min=-405 * TIM561.angle_increment)
     segments = furnished_hall().opaque_segments
