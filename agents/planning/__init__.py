@@ -1,0 +1,1 @@
+"""Footprint-aware local planning, path following and the memory of near obstacles."""

@@ -1,0 +1,139 @@
+"""Short connections of two poses: turn, drive, turn; and arc, line, arc."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from semnav_env.agents.planning.collision import Body, Field
+from semnav_env.agents.planning.motion import (
+    Costs,
+    Margin,
+    Triple,
+    change_cost,
+    curvature,
+    duration,
+    kind_of,
+    moved,
+    steering_cost,
+    sweep,
+)
+from semnav_env.features.frames import FloatArray
+
+TINY_TURN = 1e-3
+"""Radians; smaller turns are left out of a connection."""
+
+TINY_STEP = 5e-3
+"""Metres; between closer positions a connection only turns."""
+
+
+@njit(cache=True)
+def wrapped(angle: float) -> float:
+    """The same angle in (-pi, pi]."""
+    return math.pi - (math.pi - angle) % (2.0 * math.pi)
+
+
+@njit(cache=True)
+def connection(start: Triple, end: Triple, backwards: bool) -> FloatArray:
+    """The three moves from one axle pose to another, shape (3, 3); zero rows are no moves."""
+    moves = np.zeros((3, 3))
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    distance = math.hypot(dx, dy)
+    heading = start[2]
+    if distance > TINY_STEP:
+        turn = wrapped(math.atan2(dy, dx) + (math.pi if backwards else 0.0) - heading)
+        moves[0, 2] = turn if abs(turn) > TINY_TURN else 0.0
+        moves[1, 0] = -distance if backwards else distance
+        heading += turn
+    last = wrapped(end[2] - heading)
+    moves[2, 2] = last if abs(last) > TINY_TURN else 0.0
+    return moves
+
+
+@njit(cache=True)
+def smooth_connection(
+    start: Triple, end: Triple, radius: float, first: float, last: float
+) -> FloatArray:
+    """Arc, line and arc forward from one axle pose to another, shape (3, 3).
+
+    `first` and `last` are +1 for an arc to the left and -1 for one to the right. The line is the
+    common tangent of both circles (L. Dubins, American Journal of Mathematics 79, 1957).
+
+    Returns:
+        an empty array where the circles have no such tangent.
+    """
+    x = end[0] - start[0] + radius * (first * math.sin(start[2]) - last * math.sin(end[2]))
+    y = end[1] - start[1] + radius * (last * math.cos(end[2]) - first * math.cos(start[2]))
+    squared = x * x + y * y
+    offset = 0.0 if first == last else 2.0 * radius
+    if squared <= offset * offset:
+        return np.empty((0, 3))
+    heading = math.atan2(y, x) + first * math.asin(offset / math.sqrt(squared))
+    begin, finish = _arc_angle(start[2], heading, first), _arc_angle(heading, end[2], last)
+    moves = np.zeros((3, 3))
+    moves[0] = radius * abs(begin), 0.0, begin
+    moves[1, 0] = math.sqrt(squared - offset * offset)
+    moves[2] = radius * abs(finish), 0.0, finish
+    return moves
+
+
+@njit(cache=True)
+def _arc_angle(begin: float, end: float, side: float) -> float:
+    angle = (side * (end - begin)) % (2.0 * math.pi)
+    return 0.0 if angle > 2.0 * math.pi - TINY_TURN else side * angle
+
+
+@njit(cache=True)
+def cost_of_moves(
+    field: Field,
+    body: Body,
+    start: Triple,
+    moves: FloatArray,
+    before: int,
+    margin: Margin,
+    costs: Costs,
+    limit: float,
+) -> float:
+    """Cost of driving the moves, shape (M, 3), in seconds; infinite on collision or past `limit`.
+
+    `before` is the kind of motion that comes first; free-space time is checked against the limit
+    before anything is swept.
+    """
+    least, kind = 0.0, before
+    for k in range(len(moves)):
+        move = (moves[k, 0], moves[k, 1], moves[k, 2])
+        if is_move(move):
+            least += change_cost(kind, kind_of(move), costs) + duration(move, costs)
+            kind = kind_of(move)
+    if least >= limit:
+        return math.inf
+    cost, kind, pose, bend = 0.0, before, start, math.nan
+    for k in range(len(moves)):
+        move = (moves[k, 0], moves[k, 1], moves[k, 2])
+        if is_move(move):
+            cost += change_cost(kind, kind_of(move), costs)
+            cost += sweep(field, body, pose, move, margin, costs)
+            if cost >= limit:
+                return math.inf
+            cost += steering_cost(bend, curvature(move), costs)
+            bend, kind = curvature(move), kind_of(move)
+            pose = moved(pose[0], pose[1], pose[2], move)
+    return cost
+
+
+@njit(cache=True)
+def is_move(move: Triple) -> bool:
+    """Whether the move moves at all."""
+    return move[0] != 0.0 or move[1] != 0.0 or move[2] != 0.0
+
+
+@njit(cache=True)
+def last_kind(moves: FloatArray, kind: int) -> int:
+    """The kind of the last move that moves; `kind` if none does."""
+    for k in range(len(moves)):
+        move = (moves[k, 0], moves[k, 1], moves[k, 2])
+        if is_move(move):
+            kind = kind_of(move)
+    return kind

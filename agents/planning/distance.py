@@ -1,0 +1,76 @@
+"""The exact Euclidean distance transform of a square grid.
+
+P. Felzenszwalb, D. Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8
+(2012): the lower envelope of parabolas, once along the rows and once along the columns.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray
+
+FAR = 1e12
+"""Squared cells; stands for "no marked cell" and stays finite in differences."""
+
+
+@njit(cache=True)
+def distance_to_marked(marked: NDArray[np.bool_], cell: float) -> NDArray[np.float32]:
+    """Distance from each cell's centre to the nearest marked cell's centre, metres, (n, n)."""
+    n = marked.shape[0]
+    squared = np.empty((n, n))
+    place, edge = np.empty(n, dtype=np.int64), np.empty(n + 1)
+    _along_columns(marked, squared)
+    row = np.empty(n)
+    distance = np.empty((n, n), dtype=np.float32)
+    for j in range(n):
+        row[:] = squared[j]
+        _lower_envelope(row, place, edge, squared[j])
+        for i in range(n):
+            distance[j, i] = cell * np.sqrt(squared[j, i]) if squared[j, i] < FAR / 2 else np.inf
+    return distance
+
+
+@njit(cache=True)
+def _along_columns(marked: NDArray[np.bool_], squared: FloatArray) -> None:
+    """Squared distance to the nearest marked cell of the same column: two sweeps."""
+    n = marked.shape[0]
+    steps = np.full(n, 1e6)
+    for j in range(n):
+        for i in range(n):
+            steps[i] = 0.0 if marked[j, i] else steps[i] + 1.0
+            squared[j, i] = steps[i]
+    steps[:] = 1e6
+    for j in range(n - 1, -1, -1):
+        for i in range(n):
+            steps[i] = 0.0 if marked[j, i] else steps[i] + 1.0
+            squared[j, i] = min(squared[j, i], steps[i]) ** 2
+
+
+@njit(cache=True)
+def _lower_envelope(
+    values: FloatArray, place: NDArray[np.int64], edge: FloatArray, out: FloatArray
+) -> None:
+    """Minimum over q of values[q] + (i - q)^2 for every i."""
+    n = len(values)
+    k = 0
+    place[0], edge[0], edge[1] = 0, -np.inf, np.inf
+    for q in range(1, n):
+        crossing = _crossing(values, q, place[k])
+        while crossing <= edge[k]:
+            k -= 1
+            crossing = _crossing(values, q, place[k])
+        k += 1
+        place[k], edge[k], edge[k + 1] = q, crossing, np.inf
+    k = 0
+    for i in range(n):
+        while edge[k + 1] < i:
+            k += 1
+        out[i] = (i - place[k]) ** 2 + values[place[k]]
+
+
+@njit(cache=True)
+def _crossing(values: FloatArray, q: int, p: int) -> float:
+    return float(((values[q] + q * q) - (values[p] + p * p)) / (2.0 * (q - p)))

@@ -1,0 +1,117 @@
+"""Planning, checking and following joined: what an agent calls at every step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from semnav_env.agents.planning.follower import Progress, Steering, follow
+from semnav_env.agents.planning.path import Path
+from semnav_env.agents.planning.planner import PlannerSettings, Target, is_free, plan
+from semnav_env.agents.planning.track import FollowerSettings, Track
+from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.robots import RobotSpec
+
+STOP = Steering(0.0, 0.0, 0.0, Progress())
+
+
+@dataclass
+class Driver:
+    """Drives one robot to targets, planning again when that is needed.
+
+    It plans again when the target moves, an obstacle lies on the path, the robot is off it, or
+    the path was only a part of the way and is nearly driven.
+
+    Attributes:
+        robot: footprint and limits.
+        planner: the planner's settings.
+        follower: the follower's settings.
+        check_every: steps between two looks whether the path is still free.
+        retry_after: steps to stand still where no way leads on.
+    """
+
+    robot: RobotSpec
+    planner: PlannerSettings = field(default_factory=PlannerSettings)
+    follower: FollowerSettings = field(default_factory=FollowerSettings)
+    check_every: int = 3
+    retry_after: int = 8
+
+    def __post_init__(self) -> None:
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget path and target."""
+        self.path: Path | None = None
+        self.plans = 0
+        self._track: Track | None = None
+        self._target: Target | None = None
+        self._progress = Progress()
+        self._step = self._wait = 0
+
+    def drive(
+        self,
+        points: FloatArray,
+        target: Target,
+        pose: Pose,
+        velocity: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    ) -> Steering:
+        """The velocities for this step; `done` once the target is reached.
+
+        Args:
+            points: obstacle points, metres, shape (N, 2).
+            target: where to go, in the frame of the points.
+            pose: the centre's pose in that frame.
+            velocity: (forward, left, turn) now, m/s and rad/s.
+        """
+        self._step += 1
+        self._wait -= 1
+        if self._must_plan(points, target, pose):
+            if self._wait > 0:
+                return STOP
+            self._plan(points, target, pose)
+        assert self._track is not None
+        steering = follow(self._track, self._progress, pose, velocity)
+        self._progress = steering.progress
+        if steering.deviation > self.follower.lost:
+            self._track = None
+            return STOP
+        return steering
+
+    def _must_plan(self, points: FloatArray, target: Target, pose: Pose) -> bool:
+        if self._track is None or self._target is None or self.path is None:
+            return True
+        if _apart(self._target, target):
+            return True
+        if not self.path.complete and self._remaining() < 1.0:
+            return True
+        return self._step % self.check_every == 0 and not self._free(points)
+
+    def _plan(self, points: FloatArray, target: Target, pose: Pose) -> None:
+        self.path = plan(points, pose, target, self.robot, self.planner)
+        self.plans += 1
+        self._target, self._progress = target, Progress()
+        self._track = Track(self.path, self.robot, self.follower)
+        if not self.path.complete:
+            self._wait = self.retry_after
+
+    def _remaining(self) -> float:
+        assert self._track is not None
+        return float(self._track.distance[-1] - self._track.distance[self._progress.sample])
+
+    def _free(self, points: FloatArray) -> bool:
+        """Whether the next 2.5 m of the path are free, with a little less than its margin."""
+        assert self.path is not None
+        assert self._track is not None
+        first = self._progress.sample + 2
+        distance = self._track.distance
+        upto = int(np.searchsorted(distance, distance[self._progress.sample] + 2.5)) + 1
+        margin = max(-0.03, 0.5 * self.path.margin - 0.02)
+        return is_free(points, self.path.poses[first:upto], self.robot, margin)
+
+
+def _apart(a: Target, b: Target) -> bool:
+    turned = abs(math.remainder(a.pose[2] - b.pose[2], 2 * math.pi))
+    heading_matters = b.heading_tolerance is not None and turned > 0.5 * b.heading_tolerance
+    return math.dist(a.pose[:2], b.pose[:2]) > 0.5 * b.position_tolerance or heading_matters

@@ -1,0 +1,109 @@
+"""The coarse way to a target, as if the robot were a disc as wide as itself."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.agents.planning.collision import Body, Field
+from semnav_env.agents.planning.heuristic import (
+    STEP,
+    coarse_cell,
+    descent,
+    room_grid,
+    seconds_at,
+    seconds_to,
+)
+from semnav_env.agents.planning.lanes import close_gaps
+from semnav_env.agents.planning.motion import Costs
+from semnav_env.features.frames import FloatArray, Point
+
+ROUNDS = 4
+"""How often a way is looked for again after a gap on it has proved too narrow."""
+
+
+@dataclass(frozen=True, eq=False)
+class Guidance:
+    """The coarse way and the time it takes from everywhere.
+
+    Attributes:
+        place: where it leads, metres: the target, or what stands in for it.
+        exact: whether `place` is the target.
+        reachable: whether the target, or the window's edge towards it, can be reached.
+        time: seconds to `place` from every cell.
+        room: of `heuristic.room_grid`, with gaps that are too narrow closed.
+        way: cells (j, i) from the start, shape (M, 2).
+        margin: metres, what the room was measured for.
+    """
+
+    place: Point
+    exact: bool
+    reachable: bool
+    time: FloatArray
+    room: FloatArray
+    way: NDArray[np.int64]
+    margin: float
+
+
+def guidance_to(
+    target: Point, start: Point, field: Field, body: Body, margin: float, costs: Costs
+) -> Guidance:
+    """The coarse way from the start to the target, or else towards it.
+
+    A target outside the window is replaced by the place on the window's edge from which it is
+    nearest by way of free space; one that is cut off, by the reachable place nearest to it.
+    """
+    room = room_grid(field, body, margin)
+    sources, first = _sources(field, room, target, costs)
+    time = seconds_to(sources, first, room, costs)
+    way = descent(time, *coarse_cell(field, *start))
+    for _ in range(ROUNDS):
+        if not close_gaps(field, body, room, way, margin):
+            break
+        time = seconds_to(sources, first, room, costs)
+        way = descent(time, *coarse_cell(field, *start))
+    reachable = math.isfinite(seconds_at(field, time, *start))
+    if reachable and len(sources) == 1:
+        return Guidance(target, True, True, time, room, way, margin)
+    place = (
+        _centre(field, *way[-1].tolist())
+        if reachable
+        else _nearest(field, room, start, target, costs)
+    )
+    cell = np.array([coarse_cell(field, *place)])
+    time = seconds_to(cell, np.zeros(1), room, costs)
+    way = descent(time, *coarse_cell(field, *start))
+    return Guidance(place, False, reachable, time, room, way, margin)
+
+
+def _sources(
+    field: Field, room: FloatArray, target: Point, costs: Costs
+) -> tuple[NDArray[np.int64], FloatArray]:
+    """The target's cell; or all free cells on the edge, with the time beyond as the crow flies."""
+    n = len(room)
+    j, i = coarse_cell(field, *target)
+    if 0 <= j < n and 0 <= i < n:
+        return np.array([(j, i)]), np.zeros(1)
+    edge = np.zeros((n, n), dtype=bool)
+    edge[[1, -2], 1:-1] = edge[1:-1, [1, -2]] = True
+    cells = np.argwhere(edge & (room >= 0))
+    x, y = field.x + (cells[:, 1] + 0.5) * STEP, field.y + (cells[:, 0] + 0.5) * STEP
+    return cells, np.hypot(x - target[0], y - target[1]) / costs.speed
+
+
+def _nearest(field: Field, room: FloatArray, start: Point, target: Point, costs: Costs) -> Point:
+    """The reachable place nearest to the target."""
+    time = seconds_to(np.array([coarse_cell(field, *start)]), np.zeros(1), room, costs)
+    j, i = np.indices(room.shape)
+    distance = np.hypot(
+        field.x + (i + 0.5) * STEP - target[0], field.y + (j + 0.5) * STEP - target[1]
+    )
+    best = int(np.argmin(np.where(np.isfinite(time), distance, np.inf)))
+    return _centre(field, *divmod(best, len(room)))
+
+
+def _centre(field: Field, j: int, i: int) -> Point:
+    return field.x + (i + 0.5) * STEP, field.y + (j + 0.5) * STEP

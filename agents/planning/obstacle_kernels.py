@@ -1,0 +1,203 @@
+"""Kernels of the obstacle memory.
+
+A centre averages the hits nearest to it, so that a wall becomes one row of centres whose noise
+across the wall averages out; a fixed grid would cut the noise in two where it straddles cells.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.agents.planning.motion import Triple
+from semnav_env.features.frames import FloatArray
+
+CENTRES = np.dtype(
+    [
+        ("x", "f8"),
+        ("y", "f8"),
+        ("hits", "f8"),
+        ("scan", "f8"),
+        ("travel", "f8"),
+        ("turned", "f8"),
+    ]
+)
+"""A centre: position in metres, hits, and when it was last hit."""
+
+VOXEL = 0.05
+"""Metres."""
+
+SIDE = 256
+"""Voxels along one side of the table, which wraps around: 12.8 m."""
+
+
+@njit(cache=True)
+def slot(x: float, y: float) -> tuple[int, int]:
+    """Place of a point in the wrapped table."""
+    return math.floor(y / VOXEL) % SIDE, math.floor(x / VOXEL) % SIDE
+
+
+@njit(cache=True)
+def forget(
+    centres: NDArray[Any],
+    count: int,
+    pose: Triple,
+    ranges: FloatArray,
+    directions: FloatArray,
+    range_max: float,
+    now: Triple,
+    ages: Triple,
+    radius: float,
+    through: float,
+) -> tuple[int, NDArray[np.int32]]:
+    """Drop centres that are old, far or seen through; join those that share a voxel.
+
+    Returns:
+        how many are left, in front of the array, and the table from voxels to them (-1: none).
+    """
+    table = np.full((SIDE, SIDE), -1, dtype=np.int32)
+    kept = 0
+    for k in range(count):
+        centre = centres[k]
+        old = (
+            now[0] - centre.scan > ages[0]
+            or now[1] - centre.travel > ages[1]
+            or now[2] - centre.turned > ages[2]
+        )
+        if old or math.hypot(centre.x - pose[0], centre.y - pose[1]) > radius + 0.2:
+            continue
+        if seen_through(pose, centre.x, centre.y, ranges, directions, range_max, through):
+            centre.hits = 0.5 * min(centre.hits, 40.0)
+            if centre.hits < 1.0:
+                continue
+        j, i = slot(centre.x, centre.y)
+        if table[j, i] >= 0:
+            join(centres[table[j, i]], centre)
+        else:
+            table[j, i] = kept
+            centres[kept] = centre
+            kept += 1
+    return kept, table
+
+
+@njit(cache=True)
+def join(into: NDArray[Any], other: NDArray[Any]) -> None:
+    """Make one centre of two, weighted by their hits."""
+    share = other.hits / (into.hits + other.hits)
+    into.x += share * (other.x - into.x)
+    into.y += share * (other.y - into.y)
+    into.hits += other.hits
+    into.scan = max(into.scan, other.scan)
+    into.travel = max(into.travel, other.travel)
+    into.turned = max(into.turned, other.turned)
+
+
+@njit(cache=True)
+def seen_through(
+    pose: Triple,
+    x: float,
+    y: float,
+    ranges: FloatArray,
+    directions: FloatArray,
+    range_max: float,
+    through: float,
+) -> bool:
+    """Whether the three beams nearest to a point all return from well behind it."""
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    dx, dy = x - pose[0], y - pose[1]
+    px, py = c * dx + s * dy, c * dy - s * dx
+    ux, uy = directions[0]
+    increment = math.atan2(
+        ux * directions[1, 1] - uy * directions[1, 0], ux * directions[1, 0] + uy * directions[1, 1]
+    )
+    angle = math.atan2(ux * py - uy * px, ux * px + uy * py) % (2.0 * math.pi)
+    beam = round(angle / increment)
+    if beam < 1 or beam > len(ranges) - 2:
+        return False
+    distance = math.hypot(px, py) + through
+    least = min(ranges[beam - 1], ranges[beam], ranges[beam + 1])
+    most = max(ranges[beam - 1], ranges[beam], ranges[beam + 1])
+    return bool(least > distance and most < range_max)
+
+
+@njit(cache=True)
+def add_hits(
+    centres: NDArray[Any],
+    count: int,
+    table: NDArray[np.int32],
+    pose: Triple,
+    ranges: FloatArray,
+    directions: FloatArray,
+    range_max: float,
+    now: Triple,
+    radius: float,
+    merge: float,
+    window: int,
+) -> int:
+    """Refine the nearest centre with each hit, or make a new one; returns how many there are."""
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    reach = min(radius, range_max)
+    for k in range(len(ranges)):
+        if not 0.05 < ranges[k] < reach:
+            continue
+        px, py = ranges[k] * directions[k, 0], ranges[k] * directions[k, 1]
+        x, y = pose[0] + c * px - s * py, pose[1] + s * px + c * py
+        near = nearest(centres, table, x, y, merge)
+        if near < 0:
+            j, i = slot(x, y)
+            if count >= len(centres) or table[j, i] >= 0:
+                continue
+            near = count
+            table[j, i] = near
+            centres[near].x, centres[near].y, centres[near].hits = x, y, 0.0
+            count += 1
+        centre = centres[near]
+        centre.hits += 1.0
+        weight = 1.0 / min(centre.hits, window)
+        centre.x += weight * (x - centre.x)
+        centre.y += weight * (y - centre.y)
+        centre.scan, centre.travel, centre.turned = now
+    return count
+
+
+@njit(cache=True)
+def nearest(
+    centres: NDArray[Any], table: NDArray[np.int32], x: float, y: float, within: float
+) -> int:
+    """The centre nearest to a point among the voxels around it, or -1."""
+    j, i = slot(x, y)
+    best, least = -1, within * within
+    for b in range(j - 1, j + 2):
+        for a in range(i - 1, i + 2):
+            k = table[b % SIDE, a % SIDE]
+            if k >= 0:
+                squared = (centres[k].x - x) ** 2 + (centres[k].y - y) ** 2
+                if squared < least:
+                    best, least = k, squared
+    return best
+
+
+@njit(cache=True)
+def select(centres: NDArray[Any], sure: int, share: float) -> FloatArray:
+    """Positions of the centres that were hit often enough, also next to their neighbours."""
+    table = np.zeros((SIDE, SIDE))
+    for k in range(len(centres)):
+        j, i = slot(centres[k].x, centres[k].y)
+        table[j, i] = max(table[j, i], centres[k].hits)
+    points = np.empty((len(centres), 2))
+    n = 0
+    for k in range(len(centres)):
+        centre = centres[k]
+        j, i = slot(centre.x, centre.y)
+        most = 0.0
+        for b in range(j - 1, j + 2):
+            for a in range(i - 1, i + 2):
+                most = max(most, table[b % SIDE, a % SIDE])
+        if centre.hits >= sure and centre.hits >= share * most:
+            points[n, 0], points[n, 1] = centre.x, centre.y
+            n += 1
+    return points[:n]

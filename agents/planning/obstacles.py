@@ -1,0 +1,154 @@
+"""Where obstacles near the robot are, remembered from lidar scans in the odometry frame."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from semnav_env.agents.planning.obstacle_kernels import (
+    CENTRES,
+    add_hits,
+    forget,
+    select,
+)
+from semnav_env.features.frames import FloatArray, Pose
+
+
+@dataclass(frozen=True)
+class MemorySettings:
+    """How long and how finely obstacles are remembered.
+
+    Attributes:
+        radius: metres around the lidar beyond which hits are neither taken nor kept.
+        merge: metres; a hit closer to a remembered centre than this refines it.
+        window: hits over which a centre's position is averaged.
+        travel: metres driven since it was last hit after which a centre is forgotten.
+        turned: radians turned since then, in all, after which it is forgotten.
+        scans: scans since then after which it is forgotten.
+        through: metres by which a beam must pass behind a centre to count against it.
+        sure: hits before a centre counts as an obstacle.
+        share: a centre with less than this share of the hits of one beside it is noise.
+        capacity: centres; further ones are dropped.
+    """
+
+    radius: float = 6.0
+    merge: float = 0.05
+    window: int = 40
+    travel: float = 8.0
+    turned: float = 10.0
+    scans: int = 600
+    through: float = 0.15
+    sure: int = 2
+    share: float = 0.05
+    capacity: int = 8192
+
+
+class ObstacleMemory:
+    """Centres of the hits of recent scans, at most one in each voxel of 5 cm.
+
+    What a beam now passes through is cleared; what is out of view is kept until the robot has
+    driven or turned so far that its odometry cannot vouch for it.
+    """
+
+    def __init__(self, settings: MemorySettings | None = None) -> None:
+        self.settings = settings or MemorySettings()
+        self._centres = np.zeros(self.settings.capacity, dtype=CENTRES)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget everything."""
+        self._count = 0
+        self._scan = 0
+        self._travel = self._turned = 0.0
+        self._pose: Pose | None = None
+
+    def update(
+        self, lidar_pose_in_odom: Pose, ranges: ArrayLike, directions: FloatArray, range_max: float
+    ) -> None:
+        """Take in one scan.
+
+        Args:
+            lidar_pose_in_odom: metres and radians.
+            ranges: metres, shape (n,); what is not within (0.05, range_max) is no return.
+            directions: unit vectors of the beams in the lidar frame, evenly spaced
+                counter-clockwise, shape (n, 2).
+            range_max: metres.
+
+        Raises:
+            ValueError: ranges and directions of different lengths, or a pose that is not finite.
+        """
+        distances = np.ascontiguousarray(ranges, dtype=np.float64)
+        if distances.ndim != 1 or directions.shape != (len(distances), 2):
+            raise ValueError(
+                f"ranges have shape {distances.shape} and directions {directions.shape}; "
+                "they must be (n,) and (n, 2)"
+            )
+        if not all(math.isfinite(value) for value in lidar_pose_in_odom):
+            raise ValueError(f"lidar_pose_in_odom is {lidar_pose_in_odom}; it must be finite")
+        if len(distances) < 3:
+            return
+        self._advance(lidar_pose_in_odom)
+        s = self.settings
+        now = (float(self._scan), self._travel, self._turned)
+        ages = (float(s.scans), s.travel, s.turned)
+        pose = lidar_pose_in_odom
+        self._count, table = forget(
+            self._centres,
+            self._count,
+            pose,
+            distances,
+            directions,
+            range_max,
+            now,
+            ages,
+            s.radius,
+            s.through,
+        )
+        self._count = add_hits(
+            self._centres,
+            self._count,
+            table,
+            pose,
+            distances,
+            directions,
+            range_max,
+            now,
+            s.radius,
+            s.merge,
+            s.window,
+        )
+
+    def points(self) -> FloatArray:
+        """The obstacles, metres in the odometry frame, shape (N, 2)."""
+        chosen: FloatArray = select(
+            self._centres[: self._count], self.settings.sure, self.settings.share
+        )
+        return chosen
+
+    def _advance(self, pose: Pose) -> None:
+        if self._pose is not None:
+            self._travel += math.dist(pose[:2], self._pose[:2])
+            self._turned += abs(math.remainder(pose[2] - self._pose[2], 2 * math.pi))
+        self._pose = pose
+        self._scan += 1
+
+
+def points_of_segments(segments: FloatArray, spacing: float = 0.02) -> FloatArray:
+    """Points on line segments, both ends included, at most `spacing` metres apart.
+
+    Args:
+        segments: x1, y1, x2, y2 in metres, shape (n, 4).
+        spacing: metres.
+
+    Returns:
+        shape (N, 2).
+    """
+    if not len(segments):
+        return np.empty((0, 2))
+    lengths = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
+    counts = np.maximum(2, np.ceil(lengths / spacing).astype(int) + 1)
+    rows = zip(segments, counts, strict=True)
+    return np.concatenate([np.linspace(row[:2], row[2:], count) for row, count in rows])

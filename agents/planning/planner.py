@@ -1,0 +1,229 @@
+"""A path for a rectangular robot among obstacle points."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from semnav_env.agents.planning.collision import Body, Field, body_of, field_of, is_clear
+from semnav_env.agents.planning.free import all_clear, rooms
+from semnav_env.agents.planning.guidance import Guidance, guidance_to
+from semnav_env.agents.planning.lanes import lane_anchors
+from semnav_env.agents.planning.motion import Costs, Margin, Triple
+from semnav_env.agents.planning.path import Path, sample
+from semnav_env.agents.planning.search import Aim, Problem, search
+from semnav_env.agents.planning.shorten import merged, rounded, shortened
+from semnav_env.features.frames import FloatArray, Pose, compose
+from semnav_env.robots import RobotSpec
+
+
+@dataclass(frozen=True)
+class Target:
+    """Where the robot's centre should come to be.
+
+    Attributes:
+        pose: (x, y, heading) in the frame of the obstacle points.
+        position_tolerance: metres.
+        heading_tolerance: radians; None where any heading will do.
+    """
+
+    pose: Pose
+    position_tolerance: float = 0.10
+    heading_tolerance: float | None = 0.10
+
+
+@dataclass(frozen=True)
+class PlannerSettings:
+    """Limits and prices of the planner.
+
+    Attributes:
+        margins: gaps to keep on every side, metres, tried in this order until a path is found.
+        half_window: half the side of the square around the start that is planned in, metres.
+        speed: m/s that a straight line counts with.
+        turn_rate: rad/s that a turn on the spot counts with.
+        reverse: factor on the time of backward motion.
+        stop: seconds that each change between turning, forward and backward motion costs.
+        steering: seconds that each change of curvature by 1/m costs.
+        room: metres of clearance that are worth seeking.
+        crowding: how much more a second counts where there is no clearance.
+        efforts: (greed, states) of the searches tried in turn: how much the time still to go
+            outweighs the time so far, and how many states may be looked at.
+    """
+
+    margins: tuple[float, ...] = (0.06, 0.03, 0.0)
+    half_window: float = 7.0
+    speed: float = 1.0
+    turn_rate: float = 0.8
+    reverse: float = 3.0
+    stop: float = 0.4
+    steering: float = 0.1
+    room: float = 0.25
+    crowding: float = 3.0
+    efforts: tuple[tuple[float, int], ...] = ((2.0, 500), (5.0, 3000))
+
+
+def plan(
+    points: ArrayLike,
+    start: Pose,
+    target: Target,
+    robot: RobotSpec,
+    settings: PlannerSettings | None = None,
+) -> Path:
+    """A path from a pose of the centre to a target; what is not an obstacle point counts as free.
+
+    Args:
+        points: obstacle points, metres, shape (N, 2); those that are not finite are left out.
+        start: the centre's pose, in the frame of the points.
+        target: where to go; if it lies outside the window or cannot be reached, the path leads to
+            the free place from which it looks nearest, and is not `complete`.
+        robot: gives the footprint and the axle.
+        settings: None for the defaults.
+
+    Raises:
+        ValueError: points of another shape, a pose that is not finite, or settings without
+            margins or efforts.
+    """
+    settings = settings or PlannerSettings()
+    if not settings.margins or not settings.efforts:
+        raise ValueError("settings need at least one of `margins` and one of `efforts`")
+    _check_pose("start", start)
+    _check_pose("target", target.pose)
+    body, axle = body_of(robot), compose(start, (robot.axle, 0.0, 0.0))
+    field = field_of(
+        _without_impossible(_checked_points(points), axle, body), start[:2], settings.half_window
+    )
+    costs = _costs(robot, settings)
+    best: Path | None = None
+    for margin in settings.margins:
+        guidance = guidance_to(target.pose[:2], start[:2], field, body, margin, costs)
+        if guidance.reachable or margin == settings.margins[-1]:
+            path = _search(field, body, start, target, robot, settings, guidance)
+            if path.complete or (guidance.reachable and not guidance.exact):
+                return path
+            best = _nearer(best, path, target)
+    assert best is not None
+    return best
+
+
+def is_free(points: ArrayLike, poses: FloatArray, robot: RobotSpec, margin: float = 0.0) -> bool:
+    """Whether the footprint, grown by the margin, holds none of the points at any of the poses.
+
+    Args:
+        points: obstacle points, metres, shape (N, 2).
+        poses: poses of the centre, shape (M, 3).
+        robot: gives the footprint.
+        margin: metres.
+    """
+    return bool(all_clear(_checked_points(points), poses, robot.length, robot.width, margin))
+
+
+def _search(
+    field: Field,
+    body: Body,
+    start: Pose,
+    target: Target,
+    robot: RobotSpec,
+    settings: PlannerSettings,
+    guidance: Guidance,
+) -> Path:
+    axle, full = compose(start, (robot.axle, 0.0, 0.0)), guidance.margin
+    costs = _costs(robot, settings)
+    margin = Margin(full, _start_room(field, body, axle, full), 0.03, axle[0], axle[1])
+    anchors = lane_anchors(field, body, guidance.room, guidance.way, settings.room + 0.1, full)
+    problem = Problem(
+        field,
+        body,
+        _aim(target, guidance, robot),
+        guidance.time,
+        primitives(robot),
+        margin,
+        costs,
+        0.0,
+    )
+    expansions = 0
+    for greed, limit in settings.efforts:
+        moves, found, count = search(problem._replace(greed=greed), axle, anchors, limit)
+        expansions += int(count)
+        if found:
+            break
+    hurried = costs._replace(stop=0.25 * costs.stop)
+    moves = shortened(field, body, axle, merged(moves), margin, hurried)
+    moves = rounded(field, body, axle, moves, margin, costs)
+    room = rooms(field, body, sample(axle, moves)[0])
+    return Path(start, moves, robot.axle, bool(found and guidance.exact), full, room, expansions)
+
+
+def _aim(target: Target, guidance: Guidance, robot: RobotSpec) -> Aim:
+    x, y = guidance.place
+    if not guidance.exact:
+        return Aim(x, y, 0.0, max(0.3, target.position_tolerance), 0.0, True, robot.axle)
+    tolerance = target.heading_tolerance
+    near, free = target.position_tolerance, tolerance is None
+    return Aim(x, y, target.pose[2], near, tolerance or 0.0, free, robot.axle)
+
+
+def _nearer(a: Path | None, b: Path, target: Target) -> Path:
+    """Path `b` if it ends clearly nearer to the target, else `a`."""
+    if a is None:
+        return b
+    place = target.pose[:2]
+    return b if math.dist(b.end[:2], place) < math.dist(a.end[:2], place) - 0.2 else a
+
+
+def primitives(robot: RobotSpec) -> FloatArray:
+    """The moves that the search is made of: (forward, left, turn), shape (P, 3)."""
+    eighth, small = math.radians(15.0), math.radians(7.5)
+    moves = [(0.2, 0.0, turn) for turn in (0.0, small, -small, eighth, -eighth)]
+    moves += [(-0.2, 0.0, turn) for turn in (0.0, eighth, -eighth)]
+    moves += [(0.0, 0.0, turn) for turn in (eighth, -eighth)]
+    if robot.holonomic:
+        moves += [(0.0, left, 0.0) for left in (0.15, -0.15)]
+    return np.array(moves)
+
+
+def _costs(robot: RobotSpec, settings: PlannerSettings) -> Costs:
+    return Costs(
+        min(settings.speed, robot.max_speed),
+        settings.reverse,
+        0.7 * robot.max_sideways_speed,
+        min(settings.turn_rate, robot.max_turn_rate),
+        settings.stop,
+        settings.steering,
+        settings.room,
+        settings.crowding,
+    )
+
+
+def _start_room(field: Field, body: Body, axle: Triple, full: float) -> float:
+    """The largest margin, up to `full`, that is free where the robot stands, less a little."""
+    margin = full
+    while margin > -0.06 and not is_clear(field, body, *axle, margin):
+        margin -= 0.005
+    return margin if margin == full else margin - 0.005
+
+
+def _without_impossible(points: FloatArray, axle: Pose, body: Body) -> FloatArray:
+    """The points without those well inside the robot, which must be noise or drift."""
+    c, s = math.cos(axle[2]), math.sin(axle[2])
+    dx, dy = points[:, 0] - axle[0], points[:, 1] - axle[1]
+    forward, left = c * dx + s * dy, c * dy - s * dx
+    inside = (forward < body.front - 0.05) & (forward > 0.05 - body.rear)
+    inside &= np.abs(left) < body.half_width - 0.05
+    return points[~inside]
+
+
+def _checked_points(points: ArrayLike) -> FloatArray:
+    array = np.asarray(points, dtype=np.float64)
+    if array.size == 0:
+        return np.empty((0, 2))
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ValueError(f"points have shape {array.shape}; obstacle points have shape (N, 2)")
+    return array[np.isfinite(array).all(axis=1)]
+
+
+def _check_pose(name: str, pose: Pose) -> None:
+    if len(pose) != 3 or not all(math.isfinite(value) for value in pose):
+        raise ValueError(f"{name} is {pose}; a pose is three finite numbers (x, y, heading)")

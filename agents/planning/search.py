@@ -1,0 +1,294 @@
+"""Hybrid A*: continuous poses, one kept for each bin of position and heading.
+
+D. Dolgov, S. Thrun, M. Montemerlo, J. Diebel, Path Planning for Autonomous Vehicles in Unknown
+Semi-structured Environments, IJRR 29 (2010), with a connection "turn, drive, turn" in place of
+the Reeds-Shepp curves, since these robots turn on the spot, and with anchors: poses that the
+search may be connected to exactly (the target, and lanes through narrow places).
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.agents.planning.collision import Body, Field
+from semnav_env.agents.planning.connect import connection, cost_of_moves, last_kind, wrapped
+from semnav_env.agents.planning.heuristic import seconds_at
+from semnav_env.agents.planning.motion import (
+    STILL,
+    Costs,
+    Margin,
+    Triple,
+    change_cost,
+    curvature,
+    duration,
+    kind_of,
+    moved,
+    steering_cost,
+    sweep,
+)
+from semnav_env.features.frames import FloatArray
+
+POSITION_BIN = 0.1
+"""Metres."""
+
+HEADING_BINS = 48
+"""Bins of heading in a full turn."""
+
+ANCHOR_REACH = 3.0
+"""Metres; farther anchors are not connected to."""
+
+
+class Aim(NamedTuple):
+    """Where the robot's centre is to go.
+
+    Attributes:
+        x: metres.
+        y: metres.
+        heading: radians; any if `any_heading`.
+        position_tolerance: metres.
+        heading_tolerance: radians.
+        any_heading: whether the heading does not matter.
+        axle: x of the axle in the robot frame, metres.
+    """
+
+    x: float
+    y: float
+    heading: float
+    position_tolerance: float
+    heading_tolerance: float
+    any_heading: bool
+    axle: float
+
+
+class Problem(NamedTuple):
+    """What does not change during a search.
+
+    Attributes:
+        field: the obstacles.
+        body: the footprint.
+        aim: where to go.
+        time: seconds to the aim from every cell, of `heuristic.seconds_to`.
+        primitives: moves, (P, 3).
+        margin: gap to keep.
+        costs: prices.
+        greed: weight of the time still to go; above 1 the search is faster, the path longer.
+    """
+
+    field: Field
+    body: Body
+    aim: Aim
+    time: FloatArray
+    primitives: FloatArray
+    margin: Margin
+    costs: Costs
+    greed: float
+
+
+class Tree(NamedTuple):
+    """The search tree. Node 0 is the start, node 1 the exact target, then come the anchors.
+
+    Attributes:
+        pose: axle poses, (N, 3).
+        cost: seconds from the start, (N,).
+        parent: (N,).
+        move: the primitive that leads here, or FORWARDS or BACKWARDS for a connection, (N,).
+        kind: last kind of motion, (N,).
+        bend: last curvature if a primitive came last, else NaN, (N,).
+        done: whether the node was expanded, (N,).
+        bins: node of each bin, or -1, (y, x, heading).
+        used: how many nodes there are, (1,).
+    """
+
+    pose: FloatArray
+    cost: FloatArray
+    parent: NDArray[np.int64]
+    move: NDArray[np.int64]
+    kind: NDArray[np.int64]
+    bend: FloatArray
+    done: NDArray[np.bool_]
+    bins: NDArray[np.int32]
+    used: NDArray[np.int64]
+
+
+FORWARDS, BACKWARDS = -1, -2
+"""Values of `Tree.move` for connections."""
+
+TARGET = 1
+"""The node of the exact target."""
+
+
+@njit(cache=True)
+def seconds_left(problem: Problem, pose: Triple) -> float:
+    """The heuristic at an axle pose."""
+    axle = problem.aim.axle
+    x, y = pose[0] - axle * math.cos(pose[2]), pose[1] - axle * math.sin(pose[2])
+    return seconds_at(problem.field, problem.time, x, y)
+
+
+@njit(cache=True)
+def arrived(aim: Aim, pose: Triple) -> bool:
+    """Whether an axle pose meets the aim's tolerances."""
+    x, y = pose[0] - aim.axle * math.cos(pose[2]), pose[1] - aim.axle * math.sin(pose[2])
+    if math.hypot(aim.x - x, aim.y - y) > aim.position_tolerance:
+        return False
+    return aim.any_heading or abs(wrapped(aim.heading - pose[2])) <= aim.heading_tolerance
+
+
+@njit(cache=True)
+def target_from(aim: Aim, pose: Triple) -> Triple:
+    """The axle pose to connect to; one that is approached straight on if the heading is free."""
+    heading = aim.heading
+    if aim.any_heading:
+        heading = math.atan2(aim.y - pose[1], aim.x - pose[0])
+    return aim.x + aim.axle * math.cos(heading), aim.y + aim.axle * math.sin(heading), heading
+
+
+@njit(cache=True)
+def new_tree(start: Triple, anchors: FloatArray, capacity: int, cells: int) -> Tree:
+    """A tree of the start alone, with room for `capacity` nodes."""
+    tree = Tree(
+        np.zeros((capacity, 3)),
+        np.full(capacity, np.inf),
+        np.full(capacity, -1, dtype=np.int64),
+        np.zeros(capacity, dtype=np.int64),
+        np.full(capacity, STILL, dtype=np.int64),
+        np.full(capacity, np.nan),
+        np.zeros(capacity, dtype=np.bool_),
+        np.full((cells, cells, HEADING_BINS), -1, dtype=np.int32),
+        np.array([2 + len(anchors)]),
+    )
+    tree.pose[0] = start
+    tree.pose[2 : 2 + len(anchors)] = anchors
+    tree.cost[0] = 0.0
+    return tree
+
+
+@njit(cache=True)
+def pose_of(tree: Tree, node: int) -> Triple:
+    """The node's axle pose."""
+    return tree.pose[node, 0], tree.pose[node, 1], tree.pose[node, 2]
+
+
+@njit(cache=True)
+def connect(
+    problem: Problem, tree: Tree, heap: list[tuple[float, int]], node: int, end: Triple, to: int
+) -> None:
+    """Reach the node `to` at pose `end` by turn, drive, turn, where that is cheaper and free."""
+    limit = tree.cost[to] - tree.cost[node]
+    for backwards in (False, True):
+        moves = connection(pose_of(tree, node), end, backwards)
+        cost = cost_of_moves(
+            problem.field,
+            problem.body,
+            pose_of(tree, node),
+            moves,
+            tree.kind[node],
+            problem.margin,
+            problem.costs,
+            limit,
+        )
+        if cost < limit:
+            limit = cost
+            tree.pose[to] = end
+            tree.parent[to], tree.cost[to] = node, tree.cost[node] + cost
+            tree.move[to] = BACKWARDS if backwards else FORWARDS
+            tree.kind[to] = last_kind(moves, tree.kind[node])
+            left = 0.0 if to == TARGET else problem.greed * seconds_left(problem, end)
+            heapq.heappush(heap, (tree.cost[to] + left, to))
+
+
+@njit(cache=True)
+def step(problem: Problem, tree: Tree, heap: list[tuple[float, int]], node: int) -> None:
+    """Add what the primitives lead to."""
+    field, costs = problem.field, problem.costs
+    pose = pose_of(tree, node)
+    cells = tree.bins.shape[0]
+    for k in range(len(problem.primitives)):
+        move = (problem.primitives[k, 0], problem.primitives[k, 1], problem.primitives[k, 2])
+        x, y, heading = moved(pose[0], pose[1], pose[2], move)
+        i, j = math.floor((x - field.x) / POSITION_BIN), math.floor((y - field.y) / POSITION_BIN)
+        if not (0 <= i < cells and 0 <= j < cells) or tree.used[0] >= len(tree.cost):
+            continue
+        angle = math.floor(heading / (2.0 * math.pi) * HEADING_BINS) % HEADING_BINS
+        there = tree.bins[j, i, angle]
+        cost = tree.cost[node] + change_cost(tree.kind[node], kind_of(move), costs)
+        cost += steering_cost(tree.bend[node], curvature(move), costs)
+        if there >= 0 and (tree.done[there] or cost + duration(move, costs) >= tree.cost[there]):
+            continue
+        cost += sweep(field, problem.body, pose, move, problem.margin, costs)
+        left = seconds_left(problem, (x, y, heading))
+        if cost == math.inf or left == math.inf or (there >= 0 and cost >= tree.cost[there]):
+            continue
+        if there < 0:
+            there = tree.used[0]
+            tree.used[0] += 1
+            tree.bins[j, i, angle] = there
+        tree.pose[there] = x, y, heading
+        tree.cost[there], tree.parent[there] = cost, node
+        tree.move[there], tree.kind[there], tree.bend[there] = k, kind_of(move), curvature(move)
+        heapq.heappush(heap, (cost + problem.greed * left, there))
+
+
+@njit(cache=True)
+def search(
+    problem: Problem, start: Triple, anchors: FloatArray, max_expansions: int
+) -> tuple[FloatArray, bool, int]:
+    """The moves from an axle pose to the aim.
+
+    Returns:
+        moves, shape (M, 3); whether they reach the aim (else they lead to the pose from which
+        least time is left); how many nodes were expanded.
+    """
+    cells = math.ceil(problem.field.distance.shape[0] * 0.05 / POSITION_BIN)
+    capacity = 2 + len(anchors) + max_expansions * 8
+    tree = new_tree(start, anchors, capacity, cells)
+    heap = [(0.0, 0)]
+    expanded, best, least = 0, 0, seconds_left(problem, start)
+    while heap and expanded < max_expansions:
+        _, node = heapq.heappop(heap)
+        if tree.done[node]:
+            continue
+        tree.done[node] = True
+        expanded += 1
+        pose = pose_of(tree, node)
+        if node == TARGET or arrived(problem.aim, pose):
+            return moves_to(problem, tree, node), True, expanded
+        left = seconds_left(problem, pose)
+        if left < least:
+            best, least = node, left
+        connect(problem, tree, heap, node, target_from(problem.aim, pose), TARGET)
+        if node < 2 + len(anchors) or expanded % 4 == 0:
+            for k in range(2, 2 + len(anchors)):
+                end = pose_of(tree, k)
+                if (
+                    not tree.done[k]
+                    and math.hypot(end[0] - pose[0], end[1] - pose[1]) < ANCHOR_REACH
+                ):
+                    connect(problem, tree, heap, node, end, k)
+        step(problem, tree, heap, node)
+    return moves_to(problem, tree, best), False, expanded
+
+
+@njit(cache=True)
+def moves_to(problem: Problem, tree: Tree, node: int) -> FloatArray:
+    """The moves from the start to a node, shape (M, 3)."""
+    chain = [node]
+    while tree.parent[chain[-1]] >= 0:
+        chain.append(tree.parent[chain[-1]])
+    moves = np.zeros((3 * len(chain), 3))
+    n = 0
+    for at in chain[-2::-1]:
+        if tree.move[at] >= 0:
+            moves[n] = problem.primitives[tree.move[at]]
+            n += 1
+        else:
+            start = pose_of(tree, tree.parent[at])
+            moves[n : n + 3] = connection(start, pose_of(tree, at), tree.move[at] == BACKWARDS)
+            n += 3
+    return moves[:n]
