@@ -61,7 +61,7 @@ class Arguments:
         if self.pose is not None:
             options["pose"] = parse_pose(self.pose)
         observation, start = env.reset(seed=self.seed, options=options)
-        agent.reset({**start, "env": env})
+        agent.reset(start)
         frames: list[NDArray[np.uint8]] = []
         info: dict[str, Any] = {}
         steps = _drive(env, agent, observation)
@@ -86,7 +86,7 @@ class Arguments:
     def _report(self, start: dict[str, Any], info: dict[str, Any], seconds: float) -> None:
         outcome = {
             "command": start["command"],
-            "floor_plan": start["floor_plan"],
+            "floor_plan": start["floor_plan"].name,
             "pose": start["pose"],
             "success": info["is_success"],
             "verdicts": [str(verdict) for verdict in info["verdicts"]],

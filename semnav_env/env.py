@@ -248,8 +248,9 @@ class SemNavEnv(gym.Env[dict[str, NDArray[Any]], NDArray[np.float32]]):
         verifier = self.task.verifier
         return {
             "command": str(verifier.command),
-            "floor_plan": self.floor_plan.name,
-            "robot": self.robot.name,
+            "floor_plan": self.floor_plan,
+            "robot_spec": self.robot,
+            "lidar_spec": self.lidar_spec,
             "pose": start,
             "route": verifier.route,
             "route_length": verifier.route_length,

@@ -73,7 +73,7 @@ def run_episode(env: SemNavEnv, agent: Any, trial: Trial, seed: int) -> Result:
     env.reset(seed=seed, options={"floor_plan": trial.floor_plan})
     options["pose"] = scattered(trial, env.floor_plan, env.robot, np.random.default_rng(seed))
     observation, info = env.reset(seed=seed, options=options)
-    agent.reset({**info, "env": env})
+    agent.reset(info)
     over = False
     while not over:
         observation, _, terminated, truncated, info = env.step(agent.act(observation))

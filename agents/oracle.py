@@ -1,0 +1,33 @@
+"""The oracle: knows the floor plan and where it is; what can be reached, it reaches."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.agents.base import Observation
+from semnav_env.agents.pilot import Pilot
+from semnav_env.agents.planning.obstacles import points_of_segments
+from semnav_env.agents.scripted import read_odometry
+from semnav_env.observations import SeenGoal
+
+
+class OracleAgent:
+    """Drives to the true goal around everything that is solid in the plan, glass included.
+
+    Its observation is the truth, so odometry is the true pose in the world.
+    """
+
+    observation = "truth"
+
+    def reset(self, info: dict[str, Any]) -> None:
+        """Begin an episode in the floor plan of `info`."""
+        self._pilot = Pilot(info["robot_spec"])
+        self._points = points_of_segments(info["floor_plan"].segments)
+
+    def act(self, observation: Observation) -> NDArray[np.float32]:
+        """The next action."""
+        pose, velocity = read_odometry(observation)
+        return self._pilot.act(self._points, SeenGoal.read(observation["goal"]), pose, velocity)

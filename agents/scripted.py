@@ -1,0 +1,50 @@
+"""The scripted agent: sees only the observation, so only what a robot would see."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.agents.base import Observation
+from semnav_env.agents.pilot import Pilot
+from semnav_env.agents.planning.obstacles import ObstacleMemory
+from semnav_env.features.frames import Pose, compose
+from semnav_env.lidar.spec import LidarSpec
+from semnav_env.observations import SeenGoal
+
+
+class ScriptedAgent:
+    """Drives to the goal that the robot makes out, around what its lidar has hit.
+
+    Goal, odometry and scan come from the observation; body and lidar from `reset`.
+    """
+
+    observation = "all"
+
+    def __init__(self) -> None:
+        self._obstacles = ObstacleMemory()
+
+    def reset(self, info: dict[str, Any]) -> None:
+        """Begin an episode with the body and the lidar that `info` names."""
+        self._pilot = Pilot(info["robot_spec"])
+        self._lidar: LidarSpec = info["lidar_spec"]
+        self._beams = np.ascontiguousarray(self._lidar.directions.T)
+        self._obstacles.reset()
+
+    def act(self, observation: Observation) -> NDArray[np.float32]:
+        """The next action."""
+        pose, velocity = read_odometry(observation)
+        mount = self._pilot.robot.lidar_mount
+        ranges, limit = observation["scan"], self._lidar.range_max
+        self._obstacles.update(compose(pose, mount), ranges, self._beams, limit)
+        goal = SeenGoal.read(observation["goal"])
+        return self._pilot.act(self._obstacles.points(), goal, pose, velocity)
+
+
+def read_odometry(observation: Observation) -> tuple[Pose, Pose]:
+    """Pose and velocity from the "odometry" entry of an observation."""
+    x, y, cosine, sine, forward, left, turn = (float(v) for v in observation["odometry"])
+    return (x, y, math.atan2(sine, cosine)), (forward, left, turn)
