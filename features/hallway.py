@@ -1,9 +1,8 @@
 """The hallway around a pose: its axis, its sides, its openings and its end.
 
-Commands speak of hallways, so this is where walls become places. The scene is probed by a ray
-every `SPACING` metres to the left and to the right of the hallway's axis, as a person would look
-along both sides; what the rays meet first is the hallway's side. Works on perceived (remembered)
-and true scenes alike.
+Commands speak of hallways, so this is where walls become places. The scene is probed by rays to
+the left and to the right of the hallway's axis, as a person would look along both sides; what the
+rays meet first is the hallway's side. Works on perceived (remembered) and true scenes alike.
 """
 
 from __future__ import annotations
@@ -14,41 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.features.frames import (
-    FloatArray,
-    Point,
-    Pose,
-    points_to_local,
-    to_local,
-    to_parent,
-    wrap_angle,
-)
-from semnav_env.features.kernels.hallway import dominant_heading, leads_out, probe, stepped_back
+from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
+from semnav_env.features.kernels.hallway import BEHIND, SPACING, first_gap, stands_in, survey
 from semnav_env.features.scene import Door, Scene, Wall
 
-SPACING = 0.1
-"""Distance between probes along the axis, metres."""
-
-BEHIND, AHEAD = 2.0, 40.0
-"""How far the sides are probed behind and ahead of the pose, metres."""
-
-REACH = 6.0
-"""Length of a probe to the side, metres."""
-
-OPENING_WIDTH = 1.35
-"""A gap wider than this is an opening, a narrower one a doorway, metres."""
-
-OPENING_DEPTH = 1.5
-"""An opening is at least this deep; less is a recess, metres."""
-
-SIDE_STEP = 0.8
-"""A side may step back this far and still be the same side, metres."""
-
-BODY_WIDTH = 0.7
-"""A hallway ends where no lane of this width goes on, metres."""
-
-LANE = 0.1
-"""Distance between the probes along the axis that look for the end, metres."""
+GOES_ON = 1.2
+"""A hallway goes on behind a junction if it is longer than this there, metres."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +68,11 @@ class Junction:
         return sum(side.centre for side in self.openings) / len(self.openings)
 
     @property
+    def far(self) -> float:
+        """Where it ends along the axis, metres."""
+        return max(side.far for side in self.openings)
+
+    @property
     def is_corner(self) -> bool:
         """A bend: one way on, and not straight ahead."""
         return not self.ahead and len(self.openings) == 1
@@ -109,8 +84,10 @@ class Hallway:
 
     Attributes:
         frame: the axis: a pose on its centre line beside the pose asked for, looking along it.
-        left: distance from the axis to the left side at each probe, shape (n,), inf if none seen.
+        left: distance from the axis to the left side at each probe, shape (n,); inf where it is
+            not seen, has a gap or an opening, and behind the end.
         right: the same to the right.
+        half_width: usual distance from the axis to the sides, metres.
         end: where the hallway ends along the axis, metres; inf if that is not seen.
         junctions: in order along the axis, those behind the pose included.
     """
@@ -118,6 +95,7 @@ class Hallway:
     frame: Pose
     left: FloatArray
     right: FloatArray
+    half_width: float
     end: float
     junctions: tuple[Junction, ...]
 
@@ -130,24 +108,24 @@ class Hallway:
         x, y = to_parent(self.frame, (along, offset))
         return x, y, wrap_angle(self.frame[2] + turn)
 
+    def side_at(self, left: bool, along: float) -> float:
+        """Distance from the axis to a side, metres; inf where there is none."""
+        side, probe = self.left if left else self.right, _probe(along)
+        return float(side[probe]) if 0 <= probe < len(side) else math.inf
+
     def unseen(self, left: bool, start: float, stop: float, longer_than: float = 0.6) -> float:
-        """Where along [start, stop] the first stretch begins of whose side nothing is seen.
+        """Where along [start, stop] the first stretch begins that may hide a door.
 
-        Openings count as seen. Returns inf if there is none longer than `longer_than` metres.
+        That is one without a side, longer than `longer_than` metres, that is no opening either.
+        Returns inf if there is none.
         """
-        side = self.left if left else self.right
-        run = 0.0
-        for i in range(max(0, _probe(start)), min(len(side), _probe(stop))):
-            along = i * SPACING - BEHIND
-            known = math.isfinite(side[i]) or self._opening_at(left, along)
-            run = 0.0 if known else run + SPACING
-            if run > longer_than:
-                return along - run + SPACING
-        return math.inf
-
-    def _opening_at(self, left: bool, along: float) -> bool:
-        sides = (j.left if left else j.right for j in self.junctions)
-        return any(o is not None and o.near - 0.2 <= along <= o.far + 0.2 for o in sides)
+        side = (self.left if left else self.right).copy()
+        for junction in self.junctions:
+            opening = junction.left if left else junction.right
+            if opening is not None:
+                side[max(0, _probe(opening.near - 0.2)) : _probe(opening.far + 0.2)] = 0.0
+        gap = first_gap(side, _probe(start), _probe(stop), round(longer_than / SPACING))
+        return math.inf if gap < 0 else gap * SPACING - BEHIND
 
 
 def _probe(along: float) -> int:
@@ -158,76 +136,32 @@ def hallway(scene: Scene, pose: Pose) -> Hallway:
     """The hallway that a robot at `pose` looks along, in the scene's frame.
 
     Args:
-        scene: walls and doors; doors close their gaps here, for they are no openings.
-        pose: where and which way, in the scene's frame; the axis is the dominant direction of
-            the walls around within 45 degrees of the heading.
+        scene: walls and doors. Doors close their gaps here, for they are no openings; but not
+            one that the robot stands in, looking through it.
+        pose: where and which way, in the scene's frame; the axis is the direction, within 45
+            degrees of the heading, that most of the wall in view runs along.
     """
-    walls = _segments(scene.walls)
-    solid = np.concatenate((walls, _segments(scene.doors)))
-    frame = (*pose[:2], dominant_heading(walls, *pose))
-    frame = _centred(frame, *_profiles(_in_frame(solid, frame)))
-    local, local_walls = _in_frame(solid, frame), _in_frame(walls, frame)
-    left, right = _profiles(local)
-    end = _end(local, _median(left), _median(right))
-    openings = [
-        *_openings(left, local_walls, True, end),
-        *_openings(right, local_walls * (1, -1, 1, -1), False, end),
-    ]
-    return Hallway(frame, left, right, end, _junctions(openings, end))
+    seen = survey(_ends(scene.walls), _ends(scene.doors), *pose)
+    openings = [Opening(*opening) for opening in seen.openings]
+    return Hallway(
+        (seen.x, seen.y, wrap_angle(seen.heading)),
+        seen.left,
+        seen.right,
+        seen.half_width,
+        seen.end,
+        _junctions(openings, seen.end),
+    )
 
 
-def _segments(items: Iterable[Wall | Door]) -> FloatArray:
-    return np.array([(*i.start, *i.end) for i in items], dtype=np.float64).reshape(-1, 4)
+def doorway_at(scene: Scene, pose: Pose) -> Door | None:
+    """The door that a robot at `pose` stands in, looking through it; None if it does not."""
+    doors = zip(scene.doors, _ends(scene.doors), strict=True)
+    return next((door for door, ends in doors if stands_in(ends, *pose)), None)
 
 
-def _in_frame(segments: FloatArray, frame: Pose) -> FloatArray:
-    return points_to_local(frame, segments.reshape(-1, 2, 2)).reshape(-1, 4)
-
-
-def _profiles(local: FloatArray) -> tuple[FloatArray, FloatArray]:
-    left, right = probe(local, -BEHIND, SPACING, round((AHEAD + BEHIND) / SPACING))
-    left[left > REACH] = math.inf
-    right[right > REACH] = math.inf
-    return left, right
-
-
-def _median(side: FloatArray) -> float:
-    """The usual distance of a side within a few metres; `REACH` where nothing is seen."""
-    near = side[: _probe(8.0)]
-    near = near[np.isfinite(near)]
-    return float(np.median(near)) if len(near) else REACH
-
-
-def _centred(frame: Pose, left: FloatArray, right: FloatArray) -> Pose:
-    """The axis moved to the middle, where both sides are seen."""
-    distances = _median(left), _median(right)
-    shift = 0.0 if max(distances) >= REACH else (distances[0] - distances[1]) / 2
-    return (*to_parent(frame, (0.0, shift)), frame[2])
-
-
-def _end(local: FloatArray, left: float, right: float) -> float:
-    """The farthest that any lane as wide as a body goes on, metres."""
-    lanes = max(1, int((left + right) / LANE) - 1)
-    swapped = np.ascontiguousarray(local[:, [1, 0, 3, 2]])
-    ahead, _ = probe(swapped, LANE - right, LANE, lanes)
-    width = min(lanes, round(BODY_WIDTH / LANE))
-    return float(np.lib.stride_tricks.sliding_window_view(ahead, width).min(axis=1).max())
-
-
-def _openings(side: FloatArray, walls: FloatArray, left: bool, end: float) -> list[Opening]:
-    """The stretches where a side steps back, if a wall leads out of one of their edges."""
-    found = []
-    for first, last, offset in stepped_back(side, SIDE_STEP, _median(side)):
-        near, far = first * SPACING - BEHIND, last * SPACING - BEHIND
-        far = min(far, end)
-        seen = leads_out(walls, far, offset) or leads_out(walls, near, offset)
-        if far - near >= OPENING_WIDTH and seen and _is_deep(side[first:last], offset):
-            found.append(Opening(left, near, far, offset))
-    return found
-
-
-def _is_deep(stretch: FloatArray, offset: float) -> bool:
-    return bool(np.median(stretch) > offset + OPENING_DEPTH)
+def _ends(items: Iterable[Wall | Door]) -> FloatArray:
+    flat = [value for item in items for point in (item.start, item.end) for value in point]
+    return np.array(flat, dtype=np.float64).reshape(-1, 4)
 
 
 def _junctions(openings: list[Opening], end: float) -> tuple[Junction, ...]:
@@ -239,6 +173,11 @@ def _junctions(openings: list[Opening], end: float) -> tuple[Junction, ...]:
         facing = next((r for r in rights if min(r.far, left.far) > max(r.near, left.near)), None)
         if facing is not None:
             rights.remove(facing)
-        junctions.append(Junction(left, facing, left.far < end - 0.5))
-    junctions += [Junction(None, right, right.far < end - 0.5) for right in rights]
+        junctions.append(_junction(left, facing, end))
+    junctions += [_junction(None, right, end) for right in rights]
     return tuple(sorted(junctions, key=lambda junction: junction.centre))
+
+
+def _junction(left: Opening | None, right: Opening | None, end: float) -> Junction:
+    far = max(opening.far for opening in (left, right) if opening is not None)
+    return Junction(left, right, far < end - GOES_ON)

@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.memory import REMEMBERED, remember
+from semnav_env.features.kernels.memory import LEAST_HITS, REMEMBERED, counting, remember
 from semnav_env.features.scene import Door, Scene, Wall
 
 MAX_WALLS, MAX_DOORS = 512, 64
+"""When so many are remembered, a new one replaces the one that was seen least."""
 
 
 class SceneMemory:
@@ -57,25 +58,18 @@ class SceneMemory:
     @property
     def size(self) -> tuple[int, int]:
         """How many walls and doors count."""
-        return len(self.wall_entries), len(self.door_entries)
-
-    @property
-    def door_entries(self) -> NDArray[np.void]:
-        """The doors that count, `REMEMBERED`, in the order of their first sighting."""
-        doors = self._doors[: self._used[1]]
-        return doors[(doors["hits"] >= 3) & (doors["misses"] * 2 <= doors["hits"])]
-
-    @property
-    def wall_entries(self) -> NDArray[np.void]:
-        """The walls that count, `REMEMBERED`, in the order of their first sighting."""
-        walls = self._walls[: self._used[0]]
-        return walls[walls["hits"] >= 2]
+        return len(self._counting(0)), len(self._counting(1))
 
     def scene(self) -> Scene:
-        """The remembered walls and doors that count, in the memory's frame."""
-        walls = [Wall((a, b), (c, d)) for a, b, c, d, *_ in self.wall_entries.tolist()]
+        """The walls and doors that count, in the memory's frame, in the order first seen."""
+        walls = [Wall((a, b), (c, d)) for a, b, c, d, *_ in self._counting(0).tolist()]
         doors = [
             Door((a, b), (c, d), sightings=hits)
-            for a, b, c, d, hits, _ in self.door_entries.tolist()
+            for a, b, c, d, hits, _ in self._counting(1).tolist()
         ]
         return Scene(tuple(walls), tuple(doors))
+
+    def _counting(self, kind: int) -> NDArray[np.void]:
+        """The entries that count (`kind` 0: walls, 1: doors)."""
+        entries = (self._walls, self._doors)[kind][: self._used[kind]]
+        return entries[counting(entries, LEAST_HITS[kind])]

@@ -1,136 +1,282 @@
-"""Numba kernels that look along the sides of a hallway."""
+"""Numba kernels that look along the sides of a hallway.
+
+`survey` puts an axis through the hallway and probes it by rays across the axis, one every
+`SPACING` metres, and by lanes along it, one every `LANE` metres. In the frame of the axis x runs
+along the hallway and y to its left; the pose asked for lies at x = 0.
+"""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.heading import prevailing_heading
+
+SPACING = 0.1
+"""Distance between the probes of the sides along the axis, metres."""
+
+BEHIND, AHEAD = 2.0, 40.0
+"""How far the sides are probed behind and ahead of the pose, metres."""
+
+PROBES = round((BEHIND + AHEAD) / SPACING) + 1
+USUAL_PROBES = round(10.0 / SPACING)
+"""The hallway's usual width is that of the first so many probes."""
+
+REACH = 6.0
+"""A side farther than this is none, metres."""
+
+RECESS = 1.5
+"""A side may step back this far and still be the side, metres; farther is an opening or a gap."""
+
+RECENT = 2.0
+"""A side steps back from the farthest that it lay within this stretch before, metres."""
+
+OPENING_WIDTH = 1.35
+"""Where a side steps back for longer than this it may be an opening, metres; shorter, a doorway."""
+
+LEAF = 1.2
+"""Longer than any door leaf, metres: so far a wall leads out at an edge of an opening."""
+
+BODY_WIDTH = 0.7
+"""A hallway ends where no way of this width goes on, metres."""
+
+LANE = 0.1
+"""Distance between the lanes, metres."""
+
+ALONG = math.sin(math.radians(15.0))
+"""A wall nearer to the axis in direction runs along the hallway and does not end it."""
+
+DOORWAY = 0.5
+"""Nearer than this to a door that lies across the way, one stands in the doorway, metres."""
+
+Openings: TypeAlias = list[tuple[bool, float, float, float]]
+"""For each opening: on the left?, near and far edge along the axis, distance of its side."""
 
 
-@njit(cache=True)
-def dominant_heading(walls: FloatArray, x: float, y: float, heading: float) -> float:
-    """The direction that most metres of wall run along, within 45 degrees of `heading`.
+class Survey(NamedTuple):
+    """What `survey` finds; see `semnav_env.features.hallway.Hallway`.
 
-    Args:
-        walls: shape (n, 4), metres; those farther than 8 m from (x, y) do not count.
-        x: where to look from, metres.
+    Attributes:
+        x: of the axis's origin.
         y: the same.
-        heading: radians.
-
-    Returns:
-        Radians; `heading` itself where no wall runs along it.
+        heading: of the axis, radians.
+        left: distance of the left side at each probe, inf where there is none, shape (PROBES,).
+        right: the same to the right.
+        half_width: usual distance of the sides, metres.
+        end: where the hallway ends, metres.
+        openings: of both sides.
     """
-    bins = 45
-    weight = np.zeros(bins)
-    offset = np.zeros(len(walls))
-    length = np.zeros(len(walls))
-    for i in range(len(walls)):
-        dx, dy = walls[i, 2] - walls[i, 0], walls[i, 3] - walls[i, 1]
-        length[i] = math.hypot(dx, dy)
-        along = ((x - walls[i, 0]) * dx + (y - walls[i, 1]) * dy) / max(length[i] ** 2, 1e-9)
-        along = min(max(along, 0.0), 1.0)
-        if math.hypot(walls[i, 0] + along * dx - x, walls[i, 1] + along * dy - y) > 8.0:
-            length[i] = 0.0
-        turn = math.atan2(dy, dx) - heading
-        offset[i] = turn - math.pi * math.floor(turn / math.pi + 0.5)
-        k = int((offset[i] / (math.pi / 2) + 0.5) * bins)
-        if 0 <= k < bins:
-            weight[k] += length[i]
-    best, most = -1, 0.0
-    for k in range(bins):
-        near = weight[k] + (weight[k - 1] if k > 0 else 0.0)
-        near += weight[k + 1] if k + 1 < bins else 0.0
-        if near > most:
-            best, most = k, near
-    if best < 0:
-        return heading
-    centre = ((best + 0.5) / bins - 0.5) * (math.pi / 2)
-    total, mean = 0.0, 0.0
-    for i in range(len(walls)):
-        if abs(offset[i] - centre) < math.radians(5.0):
-            total += length[i]
-            mean += length[i] * offset[i]
-    return heading + (mean / total if total > 0.0 else 0.0)
+
+    x: float
+    y: float
+    heading: float
+    left: FloatArray
+    right: FloatArray
+    half_width: float
+    end: float
+    openings: Openings
 
 
 @njit(cache=True)
-def probe(
-    segments: FloatArray, start: float, spacing: float, count: int
-) -> tuple[FloatArray, FloatArray]:
-    """How far rays across the x axis go to the left (+y) and to the right (-y).
+def survey(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: float) -> Survey:
+    """Look along the hallway that a robot at (x, y, heading) stands in.
 
     Args:
-        segments: shape (n, 4) in the frame of the axis, metres.
-        start: x of the first ray.
-        spacing: between rays.
-        count: number of rays.
-
-    Returns:
-        Two arrays of shape (count,), metres, infinite where a ray meets nothing.
+        walls: shape (n, 4), metres.
+        doors: shape (m, 4); they close their gaps, but for one that the robot stands in.
+        x: of the robot, metres.
+        y: the same.
+        heading: of the robot, radians.
     """
-    left = np.full(count, np.inf)
-    right = np.full(count, np.inf)
+    solid = _solid(walls, doors, x, y, heading)
+    heading = prevailing_heading(solid, len(walls), x, y, heading)
+    local = _in_frame(solid, x, y, heading)
+    left, right = _usual(local, 1.0), _usual(local, -1.0)
+    if left < REACH and right < REACH:
+        shift = 0.5 * (left - right)
+        x, y = x - math.sin(heading) * shift, y + math.cos(heading) * shift
+        local[:, 1] -= shift
+        local[:, 3] -= shift
+        left, right = _usual(local, 1.0), _usual(local, -1.0)
+    end = _end(local, left, right)
+    openings = [(True, 0.0, 0.0, 0.0) for _ in range(0)]
+    left_side = _side(local, len(walls), 1.0, left, end, openings)
+    right_side = _side(local, len(walls), -1.0, right, end, openings)
+    return Survey(x, y, heading, left_side, right_side, 0.5 * (left + right), end, openings)
+
+
+@njit(cache=True)
+def first_gap(side: FloatArray, start: int, stop: int, longer_than: int) -> int:
+    """Where more than `longer_than` infinite values in a row first begin; -1 if nowhere."""
+    run = 0
+    for k in range(max(start, 0), min(stop, len(side))):
+        run = run + 1 if math.isinf(side[k]) else 0
+        if run > longer_than:
+            return k - run + 1
+    return -1
+
+
+@njit(cache=True)
+def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
+    """Whether a robot at (x, y, heading) stands in a doorway, shape (4,), to pass through it."""
+    dx, dy = door[2] - door[0], door[3] - door[1]
+    length = max(math.hypot(dx, dy), 1e-9)
+    along = ((x - door[0]) * dx + (y - door[1]) * dy) / length
+    beside = ((x - door[0]) * dy - (y - door[1]) * dx) / length
+    across = abs(math.cos(heading) * dx + math.sin(heading) * dy) < math.sqrt(0.5) * length
+    return bool(across and 0.0 < along < length and abs(beside) < DOORWAY)
+
+
+@njit(cache=True)
+def _solid(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: float) -> FloatArray:
+    """The walls, then the doors that the robot does not stand in."""
+    solid = np.empty((len(walls) + len(doors), 4))
+    solid[: len(walls)] = walls
+    count = len(walls)
+    for i in range(len(doors)):
+        if not stands_in(doors[i], x, y, heading):
+            solid[count] = doors[i]
+            count += 1
+    return solid[:count]
+
+
+@njit(cache=True)
+def _in_frame(segments: FloatArray, x: float, y: float, heading: float) -> FloatArray:
+    c, s = math.cos(heading), math.sin(heading)
+    local = np.empty_like(segments)
     for i in range(len(segments)):
-        x1, y1, x2, y2 = segments[i, 0], segments[i, 1], segments[i, 2], segments[i, 3]
-        if x2 < x1:
-            x1, y1, x2, y2 = x2, y2, x1, y1
-        first = max(0, math.ceil((x1 - start) / spacing))
-        last = min(count - 1, math.floor((x2 - start) / spacing))
-        if x2 - x1 < 1e-9:
+        for k in (0, 2):
+            dx, dy = segments[i, k] - x, segments[i, k + 1] - y
+            local[i, k], local[i, k + 1] = c * dx + s * dy, c * dy - s * dx
+    return local
+
+
+@njit(cache=True)
+def _probe(local: FloatArray, sign: float, count: int) -> FloatArray:
+    """How far the first `count` rays from the axis to one side go (`sign` 1: left, -1: right)."""
+    side = np.full(count, np.inf)
+    for i in range(len(local)):
+        x1, y1, x2, y2 = local[i, 0], sign * local[i, 1], local[i, 2], sign * local[i, 3]
+        if max(y1, y2) < 0.0 or abs(x2 - x1) < 1e-9:
             continue
         slope = (y2 - y1) / (x2 - x1)
-        for k in range(first, last + 1):
-            y = y1 + slope * (start + k * spacing - x1)
-            if y >= 0.0:
-                left[k] = min(left[k], y)
-            else:
-                right[k] = min(right[k], -y)
-    return left, right
+        first = math.ceil((min(x1, x2) + BEHIND) / SPACING)
+        last = math.floor((max(x1, x2) + BEHIND) / SPACING)
+        for k in range(max(first, 0), min(last, count - 1) + 1):
+            distance = y1 + slope * (k * SPACING - BEHIND - x1)
+            if 0.0 <= distance < side[k] and distance <= REACH:
+                side[k] = distance
+    return side
 
 
 @njit(cache=True)
-def stepped_back(side: FloatArray, step: float, usual: float) -> list[tuple[int, int, float]]:
-    """The runs of probes where a side lies more than `step` behind where it was before.
+def _usual(local: FloatArray, sign: float) -> float:
+    """The median distance of a side within a few metres; `REACH` where nothing is seen."""
+    side = _probe(local, sign, USUAL_PROBES)
+    seen = side[np.isfinite(side)]
+    return np.median(seen) if len(seen) > 0 else REACH
+
+
+@njit(cache=True)
+def _end(local: FloatArray, left: float, right: float) -> float:
+    """The farthest that any way as wide as a body goes on between the sides, metres."""
+    lanes = _lanes(local, LANE - right, max(1, int((left + right) / LANE) - 1))
+    width = min(len(lanes), round(BODY_WIDTH / LANE))
+    farthest = 0.0
+    for first in range(len(lanes) - width + 1):
+        farthest = max(farthest, lanes[first : first + width].min())
+    return farthest
+
+
+@njit(cache=True)
+def _lanes(local: FloatArray, start: float, count: int) -> FloatArray:
+    """How far each lane goes on from x = 0; the lanes lie at y = start + k * `LANE`."""
+    lanes = np.full(count, np.inf)
+    for i in range(len(local)):
+        x1, y1, x2, y2 = local[i, 0], local[i, 1], local[i, 2], local[i, 3]
+        if max(x1, x2) < 0.0 or abs(y2 - y1) <= ALONG * math.hypot(x2 - x1, y2 - y1):
+            continue
+        slope = (x2 - x1) / (y2 - y1)
+        first = max(math.ceil((min(y1, y2) - start) / LANE), 0)
+        last = min(math.floor((max(y1, y2) - start) / LANE), count - 1)
+        for k in range(first, last + 1):
+            x = x1 + slope * (start + k * LANE - y1)
+            if x >= 0.0:
+                lanes[k] = min(lanes[k], x)
+    return lanes
+
+
+@njit(cache=True)
+def _side(
+    local: FloatArray, walls: int, sign: float, usual: float, end: float, openings: Openings
+) -> FloatArray:
+    """Follow one side to the hallway's end; note the openings where it steps back.
 
     Args:
-        side: distance of the side at each probe, inf where nothing is seen, shape (n,).
-        step: metres.
-        usual: where the side is before the first probe, metres.
+        local: walls first, then doors, in the frame of the axis.
+        walls: how many walls.
+        sign: 1 for the left side, -1 for the right.
+        usual: distance of the side where it is not known better, metres.
+        end: of the hallway, metres.
+        openings: appended to.
 
     Returns:
-        For each run its first probe, the first probe after it, and the side's distance before it.
+        Distance of the side at each probe; inf where it is not seen, has a gap or an opening,
+        and behind the end.
     """
-    runs = [(0, 0, 0.0) for _ in range(0)]
-    reference, first = usual, -1
-    for i in range(len(side)):
-        if side[i] > reference + step:
-            if first < 0:
-                first = i
-            continue
-        if first >= 0:
-            runs.append((first, i, reference))
+    raw = _probe(local, sign, PROBES)
+    side = np.full(PROBES, np.inf)
+    last = PROBES if math.isinf(end) else min(PROBES, int((end + BEHIND) / SPACING) + 1)
+    first, before = -1, usual
+    for k in range(last):
+        reference = before if first >= 0 else _recent(side, k, usual)
+        if raw[k] <= reference + RECESS:
+            if first >= 0:
+                _note_opening(local[:walls], sign, first, k, reference, openings)
             first = -1
-        reference = max(side[i], usual)  # furniture and end walls stand before the side
-    return runs
+            side[k] = raw[k]
+        elif first < 0:
+            first, before = k, reference
+    if first >= 0 and math.isfinite(end):
+        _note_opening(local[:walls], sign, first, last, before, openings)
+    return side
 
 
 @njit(cache=True)
-def leads_out(walls: FloatArray, edge: float, offset: float) -> bool:
-    """Whether a wall leads away from the axis at the edge of an opening.
+def _recent(side: FloatArray, k: int, usual: float) -> float:
+    """The farthest that a side lay just before probe k: furniture stands before it."""
+    farthest = -1.0
+    for i in range(max(0, k - round(RECENT / SPACING)), k):
+        if math.isfinite(side[i]):
+            farthest = max(farthest, side[i])
+    return farthest if farthest >= 0.0 else usual
 
-    Args:
-        walls: shape (n, 4) in the frame of the axis, the opening at positive y, metres.
-        edge: x of the opening's edge.
-        offset: y of the side.
-    """
+
+@njit(cache=True)
+def _note_opening(
+    walls: FloatArray, sign: float, first: int, last: int, offset: float, openings: Openings
+) -> None:
+    """Note the probes [first, last) as an opening, if wide and a wall leads out of an edge."""
+    near = (first - 0.5) * SPACING - BEHIND
+    far = (last - 0.5) * SPACING - BEHIND
+    if far - near >= OPENING_WIDTH and (
+        _leads_out(walls, sign, near, offset) or _leads_out(walls, sign, far, offset)
+    ):
+        openings.append((sign > 0.0, near, far, offset))
+
+
+@njit(cache=True)
+def _leads_out(walls: FloatArray, sign: float, edge: float, offset: float) -> bool:
+    """Whether a wall leads away from the axis at x = `edge`, from y = `offset` on."""
     for i in range(len(walls)):
-        x1, y1, x2, y2 = walls[i, 0], walls[i, 1], walls[i, 2], walls[i, 3]
+        x1, y1, x2, y2 = walls[i, 0], sign * walls[i, 1], walls[i, 2], sign * walls[i, 3]
         if y2 < y1:
             x1, y1, x2, y2 = x2, y2, x1, y1
         steep = y2 - y1 > abs(x2 - x1)
-        if steep and y1 < offset + 0.6 and y2 > offset + 0.8 and abs(x1 - edge) < 0.4:
+        if steep and y1 < offset + 0.6 and y2 > offset + LEAF and abs(x1 - edge) < 0.4:
             return True
     return False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any, TypeAlias
 
 import numpy as np
 from numba import njit
@@ -23,185 +24,41 @@ REMEMBERED = np.dtype(
 )
 """A remembered wall or door: its ends, how often it was seen, how often contradicted."""
 
+Ends: TypeAlias = tuple[float, float, float, float]
+"""Start and end of a wall or door: x1, y1, x2, y2 in metres."""
 
-@njit(cache=True)
-def place(entry: NDArray, x: float, y: float, heading: float) -> tuple[float, float, float, float]:
-    """The ends of a wall or door, moved from the frame at (x, y, heading) to its parent."""
-    c, s = math.cos(heading), math.sin(heading)
-    return (
-        x + c * entry.start_x - s * entry.start_y,
-        y + s * entry.start_x + c * entry.start_y,
-        x + c * entry.end_x - s * entry.end_y,
-        y + s * entry.end_x + c * entry.end_y,
-    )
+LEAST_HITS = (2, 3)
+"""A wall counts from so many sightings on, and a door."""
 
+RECENT_HITS = 10
+"""Older sightings together weigh no more than so many: odometry drifts."""
 
-@njit(cache=True)
-def remember_walls(
-    seen: NDArray, count: int, pose: tuple[float, float, float], memory: NDArray, used: int
-) -> int:
-    """Fuse the walls of a scan with the remembered ones.
+SAME_DIRECTION = math.cos(math.radians(8.0))
+"""Walls that differ by less may be one."""
 
-    A wall joins a remembered one that faces the same side, within 8 degrees and 0.15 m of its
-    line, and overlaps it or ends less than 0.3 m from it: a gap one could pass stays open.
+SAME_LINE = 0.15
+"""Walls that lie less than this beside each other may be one, metres."""
 
-    Args:
-        seen: the scan's walls (`layout.WALL`), lidar frame.
-        count: how many.
-        pose: of the lidar in the memory's frame.
-        memory: `REMEMBERED`, changed in place; when it is full, new walls are left out.
-        used: entries used before.
+WALL_GAP = 0.3
+"""Walls less than this apart along their line may be one, metres: nothing passes between them."""
 
-    Returns:
-        Entries used afterwards.
-    """
-    for i in range(count):
-        x1, y1, x2, y2 = place(seen[i], pose[0], pose[1], pose[2])
-        length = math.hypot(x2 - x1, y2 - y1)
-        if length < 1e-6:
-            continue
-        ux, uy = (x2 - x1) / length, (y2 - y1) / length
-        match = -1
-        for k in range(used):
-            if _same_wall(memory[k], x1, y1, x2, y2, ux, uy):
-                match = k
-                break
-        if match >= 0:
-            _fuse_wall(memory[match], x1, y1, x2, y2, length)
-        elif used < len(memory):
-            entry = memory[used]
-            entry.start_x, entry.start_y, entry.end_x, entry.end_y = x1, y1, x2, y2
-            entry.hits, entry.misses = 1, 0
-            used += 1
-    return used
+SAME_JAMB = 0.4
+"""Two sightings are one door if both jambs agree to this, metres."""
 
-
-@njit(cache=True)
-def _same_wall(
-    old: NDArray, x1: float, y1: float, x2: float, y2: float, ux: float, uy: float
-) -> bool:
-    dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
-    length = math.hypot(dx, dy)
-    if dx * ux + dy * uy < 0.990 * length:
-        return False
-    vx, vy = dx / length, dy / length
-    t1 = (x1 - old.start_x) * vx + (y1 - old.start_y) * vy
-    t2 = (x2 - old.start_x) * vx + (y2 - old.start_y) * vy
-    if t1 > length + 0.3 or t2 < -0.3:
-        return False
-    mid = 0.5 * (max(t1, 0.0) + min(t2, length))
-    share = (mid - t1) / max(t2 - t1, 1e-9)
-    px, py = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
-    return abs((px - old.start_x) * vy - (py - old.start_y) * vx) < 0.15
-
-
-@njit(cache=True)
-def _fuse_wall(old: NDArray, x1: float, y1: float, x2: float, y2: float, length: float) -> None:
-    """The line is the mean weighted by length and sightings; its extent is the union of both."""
-    dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
-    old_length = math.hypot(dx, dy)
-    weight = old_length * min(old.hits, 10)
-    total = weight + length
-    mx = weight * dx / old_length + (x2 - x1)
-    my = weight * dy / old_length + (y2 - y1)
-    norm = math.hypot(mx, my)
-    vx, vy = mx / norm, my / norm
-    cx = (weight * 0.5 * (old.start_x + old.end_x) + length * 0.5 * (x1 + x2)) / total
-    cy = (weight * 0.5 * (old.start_y + old.end_y) + length * 0.5 * (y1 + y2)) / total
-    low = min((old.start_x - cx) * vx + (old.start_y - cy) * vy, (x1 - cx) * vx + (y1 - cy) * vy)
-    high = max((old.end_x - cx) * vx + (old.end_y - cy) * vy, (x2 - cx) * vx + (y2 - cy) * vy)
-    old.start_x, old.start_y = cx + low * vx, cy + low * vy
-    old.end_x, old.end_y = cx + high * vx, cy + high * vy
-    old.hits += 1
-
-
-@njit(cache=True)
-def remember_doors(
-    seen: NDArray, count: int, pose: tuple[float, float, float], memory: NDArray, used: int
-) -> int:
-    """Fuse the doors of a scan with the remembered ones; arguments as for `remember_walls`.
-
-    Two sightings are one door if both jambs agree within 0.4 m, whichever side it is seen from;
-    the jambs become the mean of the last ten sightings.
-    """
-    for i in range(count):
-        x1, y1, x2, y2 = place(seen[i], pose[0], pose[1], pose[2])
-        best, nearest, swap = -1, 0.4, False
-        for k in range(used):
-            old = memory[k]
-            same = max(
-                math.hypot(x1 - old.start_x, y1 - old.start_y),
-                math.hypot(x2 - old.end_x, y2 - old.end_y),
-            )
-            other = max(
-                math.hypot(x2 - old.start_x, y2 - old.start_y),
-                math.hypot(x1 - old.end_x, y1 - old.end_y),
-            )
-            if min(same, other) < nearest:
-                best, nearest, swap = k, min(same, other), other < same
-        if best >= 0:
-            old = memory[best]
-            if swap:
-                x1, y1, x2, y2 = x2, y2, x1, y1
-            share = 1.0 / min(old.hits + 1, 10)
-            old.start_x += share * (x1 - old.start_x)
-            old.start_y += share * (y1 - old.start_y)
-            old.end_x += share * (x2 - old.end_x)
-            old.end_y += share * (y2 - old.end_y)
-            old.hits += 1
-        elif used < len(memory):
-            old = memory[used]
-            old.start_x, old.start_y, old.end_x, old.end_y = x1, y1, x2, y2
-            old.hits, old.misses = 1, 0
-            used += 1
-    return used
-
-
-@njit(cache=True)
-def contradict_doors(
-    ranges: FloatArray,
-    angle_min: float,
-    angle_increment: float,
-    pose: tuple[float, float, float],
-    memory: NDArray,
-    used: int,
-) -> None:
-    """Count a miss for every remembered door whose opening the scan finds filled.
-
-    Args:
-        ranges: of the scan, metres, shape (n,).
-        angle_min: of the scan, radians.
-        angle_increment: of the scan, radians.
-        pose: of the lidar in the memory's frame.
-        memory: `REMEMBERED` doors, changed in place.
-        used: entries used.
-    """
-    for k in range(used):
-        door = memory[k]
-        filled = 0
-        for share in (0.3, 0.5, 0.7):
-            dx = door.start_x + share * (door.end_x - door.start_x) - pose[0]
-            dy = door.start_y + share * (door.end_y - door.start_y) - pose[1]
-            turn = math.atan2(dy, dx) - pose[2] - angle_min
-            turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi))
-            beam = int(turn / angle_increment + 0.5)
-            distance = math.hypot(dx, dy)
-            if beam < len(ranges) and distance > 0.5 and abs(ranges[beam] - distance) < 0.12:
-                filled += 1
-        if filled >= 2:
-            door.misses += 1
+FILLED = 0.12
+"""A beam that ends this near to a door's line finds its opening filled, metres."""
 
 
 @njit(cache=True)
 def remember(
-    walls: NDArray,
-    doors: NDArray,
-    counts: NDArray,
+    walls: Any,
+    doors: Any,
+    counts: Any,
     ranges: FloatArray,
     angle_min: float,
     angle_increment: float,
     pose: tuple[float, float, float],
-    memory: tuple[NDArray, NDArray, NDArray],
+    memory: tuple[Any, Any, Any],
 ) -> None:
     """Add one scan to the memory.
 
@@ -216,6 +73,185 @@ def remember(
         memory: walls, doors (`REMEMBERED`) and how many of each are used, changed in place.
     """
     known_walls, known_doors, used = memory
-    used[0] = remember_walls(walls, counts[WALLS], pose, known_walls, used[0])
-    contradict_doors(ranges, angle_min, angle_increment, pose, known_doors, used[1])
-    used[1] = remember_doors(doors, counts[DOORS], pose, known_doors, used[1])
+    for i in range(counts[WALLS]):
+        used[0] = remember_wall(placed(walls[i], pose), known_walls, used[0])
+    contradict_doors(ranges, angle_min, angle_increment, pose, known_doors[: used[1]])
+    for i in range(counts[DOORS]):
+        used[1] = remember_door(placed(doors[i], pose), known_doors, used[1])
+
+
+@njit(cache=True)
+def does_count(entry: Any, least_hits: int) -> bool:
+    """Whether it was seen often enough, and at most a third of the scans contradict it."""
+    return bool(entry.hits >= least_hits and 2 * entry.misses <= entry.hits)
+
+
+@njit(cache=True)
+def counting(entries: Any, least_hits: int) -> NDArray[np.bool_]:
+    """Which of the entries count, shape (n,)."""
+    mask = np.empty(len(entries), dtype=np.bool_)
+    for i in range(len(entries)):
+        mask[i] = does_count(entries[i], least_hits)
+    return mask
+
+
+@njit(cache=True)
+def placed(entry: Any, frame: tuple[float, float, float]) -> Ends:
+    """The ends of a wall or door, moved from a frame to the frame's parent."""
+    x, y, heading = frame
+    c, s = math.cos(heading), math.sin(heading)
+    return (
+        x + c * entry.start_x - s * entry.start_y,
+        y + s * entry.start_x + c * entry.start_y,
+        x + c * entry.end_x - s * entry.end_y,
+        y + s * entry.end_x + c * entry.end_y,
+    )
+
+
+@njit(cache=True)
+def remember_wall(wall: Ends, memory: Any, used: int) -> int:
+    """Fuse a wall with the first remembered one that it continues or repeats, or add it.
+
+    That one faces the same side, along the same line, and overlaps it or ends just beside it.
+
+    Args:
+        wall: in the memory's frame.
+        memory: `REMEMBERED` walls, changed in place.
+        used: entries used before.
+
+    Returns:
+        Entries used afterwards.
+    """
+    x1, y1, x2, y2 = wall
+    length = math.hypot(x2 - x1, y2 - y1)
+    if length < 1e-6:
+        return used
+    ux, uy = (x2 - x1) / length, (y2 - y1) / length
+    for k in range(used):
+        old = memory[k]
+        dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
+        dot = dx * ux + dy * uy
+        aligned = dot > 0.0 and dot * dot > SAME_DIRECTION**2 * (dx * dx + dy * dy)
+        if aligned and _on_one_line(old, wall):
+            _fuse_wall(old, wall)
+            return used
+    return _add(wall, memory, used)
+
+
+@njit(cache=True)
+def _on_one_line(old: Any, wall: Ends) -> bool:
+    """Whether two nearly parallel walls meet, and lie on one line where they do."""
+    x1, y1, x2, y2 = wall
+    dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
+    length = math.hypot(dx, dy)
+    first = ((x1 - old.start_x) * dx + (y1 - old.start_y) * dy) / length
+    last = ((x2 - old.start_x) * dx + (y2 - old.start_y) * dy) / length
+    if first > length + WALL_GAP or last < -WALL_GAP:
+        return False
+    middle = 0.5 * (max(first, 0.0) + min(last, length))
+    share = (middle - first) / max(last - first, 1e-9)
+    x, y = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
+    return bool(abs((x - old.start_x) * dy - (y - old.start_y) * dx) < SAME_LINE * length)
+
+
+@njit(cache=True)
+def _fuse_wall(old: Any, wall: Ends) -> None:
+    """The line is the mean weighted by length and sightings; its extent is the union of both."""
+    x1, y1, x2, y2 = wall
+    dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
+    hits = min(old.hits, RECENT_HITS)
+    weight = hits * math.hypot(dx, dy)
+    share = weight / (weight + math.hypot(x2 - x1, y2 - y1))
+    ux, uy = hits * dx + x2 - x1, hits * dy + y2 - y1
+    norm = math.hypot(ux, uy)
+    ux, uy = ux / norm, uy / norm
+    x = 0.5 * (share * (old.start_x + old.end_x) + (1.0 - share) * (x1 + x2))
+    y = 0.5 * (share * (old.start_y + old.end_y) + (1.0 - share) * (y1 + y2))
+    first = min((old.start_x - x) * ux + (old.start_y - y) * uy, (x1 - x) * ux + (y1 - y) * uy)
+    last = max((old.end_x - x) * ux + (old.end_y - y) * uy, (x2 - x) * ux + (y2 - y) * uy)
+    old.start_x, old.start_y = x + first * ux, y + first * uy
+    old.end_x, old.end_y = x + last * ux, y + last * uy
+    old.hits += 1
+
+
+@njit(cache=True)
+def remember_door(door: Ends, memory: Any, used: int) -> int:
+    """Fuse a door with the remembered one that it repeats, or add it; as `remember_wall`.
+
+    Both jambs must agree, whichever side the door is seen from; they become the mean of the
+    last sightings.
+    """
+    best, nearest, swapped = -1, SAME_JAMB, False
+    turned = (door[2], door[3], door[0], door[1])
+    for k in range(used):
+        same, other = _apart(memory[k], door), _apart(memory[k], turned)
+        if min(same, other) < nearest:
+            best, nearest, swapped = k, min(same, other), other < same
+    if best < 0:
+        return _add(door, memory, used)
+    x1, y1, x2, y2 = turned if swapped else door
+    old = memory[best]
+    share = 1.0 / min(old.hits + 1, RECENT_HITS)
+    old.start_x += share * (x1 - old.start_x)
+    old.start_y += share * (y1 - old.start_y)
+    old.end_x += share * (x2 - old.end_x)
+    old.end_y += share * (y2 - old.end_y)
+    old.hits += 1
+    return used
+
+
+@njit(cache=True)
+def _apart(old: Any, door: Ends) -> float:
+    """The larger distance between the starts and between the ends of two doors, metres."""
+    return max(
+        math.hypot(door[0] - old.start_x, door[1] - old.start_y),
+        math.hypot(door[2] - old.end_x, door[3] - old.end_y),
+    )
+
+
+@njit(cache=True)
+def _add(ends: Ends, memory: Any, used: int) -> int:
+    """Add an entry; when the memory is full it replaces the one that was seen least."""
+    place = used
+    if used == len(memory):
+        place = 0
+        for k in range(used):
+            if memory[k].hits < memory[place].hits:
+                place = k
+    new = memory[place]
+    new.start_x, new.start_y, new.end_x, new.end_y = ends
+    new.hits, new.misses = 1, 0
+    return min(used + 1, len(memory))
+
+
+@njit(cache=True)
+def contradict_doors(
+    ranges: FloatArray,
+    angle_min: float,
+    angle_increment: float,
+    pose: tuple[float, float, float],
+    doors: Any,
+) -> None:
+    """Count a miss for every remembered door whose opening the scan finds filled.
+
+    Args:
+        ranges: of the scan, metres, shape (n,).
+        angle_min: of the scan, radians.
+        angle_increment: of the scan, radians.
+        pose: of the lidar in the memory's frame.
+        doors: `REMEMBERED`, changed in place.
+    """
+    for k in range(len(doors)):
+        door = doors[k]
+        filled = 0
+        for share in (0.3, 0.5, 0.7):
+            dx = door.start_x + share * (door.end_x - door.start_x) - pose[0]
+            dy = door.start_y + share * (door.end_y - door.start_y) - pose[1]
+            turn = math.atan2(dy, dx) - pose[2] - angle_min
+            turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi))
+            beam = int(turn / angle_increment + 0.5)
+            distance = math.hypot(dx, dy)
+            if beam < len(ranges) and distance > 0.5 and abs(ranges[beam] - distance) < FILLED:
+                filled += 1
+        if filled >= 2:
+            door.misses += 1

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from semnav_env.commands.clauses import LAST, Approach, DoorReference, GoToDoor, Side
 from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
-from semnav_env.features.hallway import BEHIND, SPACING, Hallway
+from semnav_env.features.hallway import Hallway
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import GroundingError, Situation
-from semnav_env.grounding.words import ordinal_word, where
 
 STAND_OFF = 0.9
 """How far before a door, and behind it, the robot's centre comes to stand, metres."""
 
-PASSED_BY = 0.8
-"""A stretch of a side has been looked at when the robot is this far past its start, metres."""
+ON_THE_SIDE = 0.25
+"""So near to the side of a hallway a door lies on it, metres."""
+
+AT_THE_END = 0.6
+"""So near to the end of a hallway a door lies ahead, metres."""
+
+ABREAST = 0.3
+"""Doors so close along the hallway are not one before the other, metres."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,36 +53,32 @@ def ground_door(clause: GoToDoor, situation: Situation) -> Goal:
     found = find_door(clause.door, situation)
     if isinstance(found, Goal):
         return found
-    because = f"the {ordinal_word(clause.door.ordinal)} door{where(clause.door.side)}"
-    if clause.approach is Approach.THROUGH:
-        goal = Goal(GoalKind.PASS, found.pose(STAND_OFF), found.door, because=because)
+    if clause.approach is Approach.TO:
+        goal = Goal(GoalKind.REACH, found.pose(-STAND_OFF), found.door, 0.7, 0.6)
     else:
-        goal = Goal(GoalKind.REACH, found.pose(-STAND_OFF), found.door, 0.7, 0.6, because)
-    return goal.within(situation.hallway)
+        goal = Goal(GoalKind.PASS, found.pose(STAND_OFF), found.door, onward=found.pose(0.0))
+    return replace(goal, because=str(clause.door), hallway=situation.hallway)
 
 
 def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | Goal:
     """The door that a reference names, or the goal of looking for it.
 
     Raises:
-        GroundingError: the hallway ended before.
+        GroundingError: the hallway ended before, or the side is open and doors on both fit.
     """
     doors = doors_along(situation.scene, situation.hallway, reference.side)
-    name = f"{ordinal_word(reference.ordinal)} door{where(reference.side)}"
-    if reference.ordinal == LAST:
-        if not situation.seen_to_end:
-            return situation.seek(f"looking for the {name}")
-        found = doors[-1] if doors else None
-    else:
-        found = doors[reference.ordinal - 1] if len(doors) >= reference.ordinal else None
-    if found is None and situation.seen_to_end:
-        raise GroundingError(f"no {name}: the hallway ended after {len(doors)}")
-    if found is None:
-        return situation.seek(f"looking for the {name}")
-    unseen = _first_unseen(situation, reference.side, found.along)
-    if not situation.complete and situation.progress < unseen + PASSED_BY < math.inf:
-        return situation.seek(f"looking for doors before the {name}", unseen + PASSED_BY)
-    return found
+    index = len(doors) - 1 if reference.ordinal == LAST else reference.ordinal - 1
+    if reference.ordinal == LAST and not situation.seen_to_end:
+        return situation.seek(reference)
+    if not 0 <= index < len(doors):
+        if situation.seen_to_end:
+            raise situation.missing(str(reference), len(doors))
+        return situation.seek(reference)
+    if situation.complete:
+        _check_order(reference, doors, index)
+    elif _may_hide_a_door(situation, reference.side, doors[index].along):
+        return situation.seek(f"doors before {reference}", doors[index].along)
+    return doors[index]
 
 
 def doors_along(scene: Scene, hallway: Hallway, side: Side | None = None) -> list[CountedDoor]:
@@ -101,27 +102,36 @@ def doors_along(scene: Scene, hallway: Hallway, side: Side | None = None) -> lis
     return sorted(ahead, key=lambda door: door.along)
 
 
-def _first_unseen(situation: Situation, side: Side | None, until: float) -> float:
-    """Where the first stretch before `until` begins that may still hide a door."""
-    sides = {Side.LEFT: (True,), Side.RIGHT: (False,), Side.AHEAD: ()}
-    lefts = (True, False) if side is None else sides[side]
-    return min((situation.hallway.unseen(left, 0.0, until) for left in lefts), default=math.inf)
+def _check_order(reference: DoorReference, doors: list[CountedDoor], index: int) -> None:
+    """Refuse to choose between doors that are not one before the other."""
+    for other in doors[max(0, index - 1) : index + 2]:
+        facing = abs(other.along - doors[index].along) < ABREAST
+        if facing and other.side is not doors[index].side:
+            sides = " and ".join(sorted((other.side, doors[index].side)))
+            raise GroundingError(f"{reference}: there is one {sides} there; say on which side")
+
+
+def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> bool:
+    """Whether a stretch of the side ahead of the robot and before `until` is still unseen."""
+    lefts = {Side.LEFT: (True,), Side.RIGHT: (False,), Side.AHEAD: (), None: (True, False)}
+    start = max(0.0, situation.progress)
+    return any(math.isfinite(situation.hallway.unseen(left, start, until)) for left in lefts[side])
 
 
 def _counted(door: Door, hallway: Hallway) -> CountedDoor | None:
     start, end = to_local(hallway.frame, door.start), to_local(hallway.frame, door.end)
     dx, dy = end[0] - start[0], end[1] - start[1]
     along, offset = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
-    normal = math.atan2(dx, -dy)
-    if abs(dx) >= abs(dy):
-        if not _is_on_the_side(start, end, hallway):
-            return None
-        side = Side.LEFT if offset > 0 else Side.RIGHT
-        towards = math.copysign(math.pi / 2, offset)
+    if abs(dx) < abs(dy):
+        at_end = abs(along - hallway.end) <= AT_THE_END and abs(offset) <= hallway.half_width
+        side, towards = Side.AHEAD if at_end else None, 0.0
     else:
-        if abs(along - hallway.end) > 0.6 or min(abs(start[1]), abs(end[1])) > 1.2:
-            return None
-        side, towards = Side.AHEAD, 0.0
+        beside = Side.LEFT if offset > 0 else Side.RIGHT
+        side = beside if _is_on_the_side(start, end, hallway) else None
+        towards = math.copysign(math.pi / 2, offset)
+    if side is None:
+        return None
+    normal = math.atan2(dx, -dy)
     if math.cos(normal - towards) < 0:
         normal += math.pi
     return CountedDoor(door, along, side, wrap_angle(hallway.frame[2] + normal))
@@ -132,8 +142,6 @@ def _is_on_the_side(start: Point, end: Point, hallway: Hallway) -> bool:
     for share in (0.15, 0.5, 0.85):
         along = start[0] + share * (end[0] - start[0])
         offset = start[1] + share * (end[1] - start[1])
-        side = hallway.left if offset > 0 else hallway.right
-        probe = round((along + BEHIND) / SPACING)
-        if 0 <= probe < len(side) and abs(side[probe] - abs(offset)) < 0.25:
+        if abs(hallway.side_at(offset > 0, along) - abs(offset)) < ON_THE_SIDE:
             return True
     return False

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from semnav_env.commands import Command
-from semnav_env.commands.clauses import Follow
+from semnav_env.commands.clauses import Follow, Stop
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.goal import Goal, GoalKind
@@ -29,8 +29,8 @@ class Follower:
         complete: the scenes hold everything there is (true scenes).
         care: share of a goal's tolerances within which it counts as reached; an agent aims well
             inside what the verifier accepts.
-        jamb_margin: how far beside a jamb a crossing still counts, metres; perceived jambs are
-            not exact.
+        jamb_margin: how far beside a jamb a crossing still counts, and how far behind it the
+            robot must be, metres; perceived jambs are not exact.
         active: index of the clause under way; the number of clauses when all are done.
         begin: where that clause began.
         goal: where it leads.
@@ -50,7 +50,7 @@ class Follower:
     def start(self, scene: Scene, pose: Pose) -> None:
         """Begin with the first clause."""
         self.active, self._last = 0, pose
-        self._begin_clause(scene, pose)
+        self._begin_clause(scene, pose, pose)
 
     @property
     def done(self) -> bool:
@@ -71,8 +71,7 @@ class Follower:
         completed = not self.done and self._completed(pose, speed)
         self._last = pose
         if completed:
-            self.active += 1
-            self._begin_clause(scene(), pose)
+            self._begin_next(scene(), pose)
         return completed
 
     def look(self, scene: Scene, pose: Pose) -> None:
@@ -95,19 +94,26 @@ class Follower:
             self.goal = Goal(GoalKind.STOP, pose, because=self.impossible)
 
     def skip_to_next(self, scene: Scene) -> None:
-        """Take the active clause for done, at the very pose of its goal."""
-        self.active += 1
-        self._begin_clause(scene, self.goal.pose)
+        """Take the active clause for done."""
+        self._begin_next(scene, self.goal.onward or self.goal.pose)
 
-    def _begin_clause(self, scene: Scene, pose: Pose) -> None:
+    def _begin_next(self, scene: Scene, pose: Pose) -> None:
+        """Begin where the clause before leads, so that counting does not depend on the driving."""
+        self.active += 1
+        self._begin_clause(scene, self.goal.onward or self.goal.pose, pose)
+
+    def _begin_clause(self, scene: Scene, begin: Pose, pose: Pose) -> None:
         while not self.done and self._is_only_a_direction(self.active):
             self.active += 1
-        self.begin = pose
+        self.begin = begin
         self.look(scene, pose)
 
     def _is_only_a_direction(self, index: int) -> bool:
-        """ "go down the hallway" before another clause says where that clause looks."""
-        return self.command.clauses[index] == Follow() and index + 1 < len(self.command.clauses)
+        """Whether a clause is "go down the hallway" and the next one says how far."""
+        clauses = self.command.clauses
+        return clauses[index] == Follow() and not isinstance(
+            clauses[index + 1] if index + 1 < len(clauses) else Stop(), Stop
+        )
 
     @property
     def _after_hallway(self) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 from numba import njit
@@ -41,6 +41,8 @@ class Goal:
         because: what was understood, for the picture and the log.
         hallway: the hallway in which the referent was found.
         junction: the junction at which to turn.
+        onward: where the next clause begins; None for `pose`. The middle of the doorway that was
+            crossed, or the mouth of the arm that was turned into.
     """
 
     kind: GoalKind
@@ -51,6 +53,7 @@ class Goal:
     because: str = ""
     hallway: Hallway | None = field(default=None, compare=False, repr=False)
     junction: Junction | None = field(default=None, compare=False, repr=False)
+    onward: Pose | None = None
 
     def reached_by(self, pose: Pose, share: float = 1.0) -> bool:
         """Whether `pose` lies within the tolerances, or within a `share` of them."""
@@ -66,30 +69,18 @@ class Goal:
         Args:
             before: a pose of the robot's centre.
             after: the next one.
-            margin: how far beside the jambs still counts, metres.
+            margin: how far beside the jambs still counts, and how far behind them the way must
+                lead, metres; for a door that is not known exactly.
         """
         if self.door is None:
             return False
-        outward = math.cos(self.pose[2]), math.sin(self.pose[2])
-        share = crossing(self.door, before, after)
-        forward = (after[0] - before[0]) * outward[0] + (after[1] - before[1]) * outward[1] > 0
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
+        (ax, ay), (bx, by) = self.door.start, self.door.end
+        line = ax + margin * c, ay + margin * s, bx + margin * c, by + margin * s
+        share = _crossing(*line, *before[:2], *after[:2])
+        forward = (after[0] - before[0]) * c + (after[1] - before[1]) * s > 0
         slack = margin / self.door.width
-        return share is not None and forward and -slack <= share <= 1 + slack
-
-    def within(self, hallway: Hallway, junction: Junction | None = None) -> Goal:
-        """The same goal, with the hallway and the junction it was found in."""
-        return replace(self, hallway=hallway, junction=junction)
-
-
-def crossing(door: Door, before: Pose, after: Pose) -> float | None:
-    """Where the straight way between two poses crosses the line through a door's jambs.
-
-    Returns:
-        0 at the start jamb, 1 at the end jamb, less or more beside them; None if the way does
-        not cross the line.
-    """
-    share = _crossing(*door.start, *door.end, *before[:2], *after[:2])
-    return None if math.isnan(share) else share
+        return forward and -slack <= share <= 1 + slack
 
 
 @njit(cache=True)

@@ -5,15 +5,26 @@ from __future__ import annotations
 import math
 
 from semnav_env.commands.clauses import DoorReference, Follow, Place, PlaceReference, Turn, Turning
-from semnav_env.features.frames import Pose, wrap_angle
-from semnav_env.features.hallway import Hallway, Junction, hallway
+from semnav_env.features.frames import Pose, compose, to_parent
+from semnav_env.features.hallway import Hallway, Junction, doorway_at, hallway
 from semnav_env.grounding.doors import find_door
 from semnav_env.grounding.goal import Goal, GoalKind
-from semnav_env.grounding.situation import END_MARGIN, GroundingError, Situation
-from semnav_env.grounding.words import ordinal_word
+from semnav_env.grounding.situation import END_MARGIN, Situation
 
 ARM_DEPTH = 1.0
 """How far inside the arm of a junction a turn ends, metres."""
+
+STILL_AHEAD = 0.5
+"""A junction counts while more than this of it is ahead, metres."""
+
+JUST_BEFORE = 0.3
+"""How far before the middle of a door "until the door" ends, so that it still counts, metres."""
+
+OUT_OF_DOORWAY = 1.0
+"""How far a robot that stands in a doorway drives out of it before it turns, metres."""
+
+PAST_DOORWAY = 0.5
+"""How far beside that doorway counting begins, so that it does not count itself, metres."""
 
 QUARTERS = {Turning.LEFT: 1, Turning.RIGHT: -1, Turning.AROUND: 2}
 
@@ -21,105 +32,146 @@ QUARTERS = {Turning.LEFT: 1, Turning.RIGHT: -1, Turning.AROUND: 2}
 def ground_turn(clause: Turn, situation: Situation) -> Goal:
     """The goal of "turn left at the intersection"."""
     if clause.at is None and not situation.after_hallway:
-        return _turn_here(clause.turning, situation.begin)
+        return _turn_here(clause.turning, situation)
     if clause.turning is Turning.AROUND:
-        return _turn_around_at(clause, situation)
-    junction = _find(clause.at, clause.turning, situation)
+        return _turn_around(clause, situation)
+    junction = _find_junction(clause.at, clause.turning, situation)
     if isinstance(junction, Goal):
         return junction
-    arm = _arm(junction, clause.turning, situation)
-    goal = Goal(GoalKind.REACH, arm, None, 1.6, 0.5, f"turn {clause.turning} {_name(clause.at)}")
-    return goal.within(situation.hallway, junction)
+    mouth = _mouth(junction, clause.turning, situation)
+    return Goal(
+        GoalKind.REACH,
+        compose(mouth, (ARM_DEPTH, 0.0, 0.0)),
+        distance_tolerance=1.6,
+        heading_tolerance=0.5,
+        because=f"turn {clause.turning} at {_name(clause.at)}",
+        hallway=situation.hallway,
+        junction=junction,
+        onward=mouth,
+    )
 
 
 def ground_follow(clause: Follow, situation: Situation) -> Goal:
     """The goal of "follow the hallway until the next intersection"."""
-    if isinstance(clause.until, DoorReference):
-        door = find_door(clause.until, situation)
+    until, end = clause.until, situation.hallway.end - END_MARGIN
+    if isinstance(until, DoorReference):
+        door = find_door(until, situation)
         if isinstance(door, Goal):
             return door
-        return _stand(situation, min(door.along, situation.hallway.end - END_MARGIN), "as far as the door")
-    if clause.until is None or clause.until.place is Place.END:
-        if math.isinf(situation.hallway.end):
-            return situation.seek("looking for the end of the hallway")
-        return _stand(situation, situation.hallway.end - END_MARGIN, "to the end of the hallway")
-    junction = _find(clause.until, None, situation)
+        return _go_on(situation, min(door.along - JUST_BEFORE, end), str(until))
+    if until is None or until.place is Place.END:
+        if math.isinf(end):
+            return situation.seek("the end of the hallway")
+        return _go_on(situation, end, "the end of the hallway")
+    junction = _find_junction(until, None, situation)
     if isinstance(junction, Goal):
         return junction
-    return _stand(situation, junction.centre, f"to {_name(clause.until)[3:]}")
+    return _go_on(situation, junction.centre, str(until))
 
 
-def _stand(situation: Situation, along: float, name: str) -> Goal:
-    goal = Goal(GoalKind.REACH, situation.hallway.place(along), None, 1.0, math.pi, f"go on {name}")
-    return goal.within(situation.hallway)
+def _go_on(situation: Situation, along: float, where: str) -> Goal:
+    return Goal(
+        GoalKind.REACH,
+        situation.hallway.place(along),
+        distance_tolerance=1.0,
+        because=f"go on to {where}",
+        hallway=situation.hallway,
+    )
 
 
-def _turn_here(turning: Turning, begin: Pose) -> Goal:
-    pose = (*begin[:2], wrap_angle(begin[2] + QUARTERS[turning] * math.pi / 2))
-    return Goal(GoalKind.REACH, pose, None, 1.5, 0.5, f"turn {turning} here")
+def _turn_here(turning: Turning, situation: Situation) -> Goal:
+    """Turn where the clause began, or where there is room for it before the doorway there."""
+    doorway = doorway_at(situation.scene, situation.begin)
+    out = 0.0 if doorway is None else min(OUT_OF_DOORWAY, situation.hallway.end / 2)
+    pose = compose(situation.begin, (out, 0.0, QUARTERS[turning] * math.pi / 2))
+    past = PAST_DOORWAY if doorway is not None and turning is not Turning.AROUND else 0.0
+    return Goal(
+        GoalKind.REACH,
+        pose,
+        distance_tolerance=1.5,
+        heading_tolerance=0.5,
+        because=f"turn {turning} here",
+        onward=compose(pose, (past, 0.0, 0.0)),
+    )
 
 
-def _turn_around_at(clause: Turn, situation: Situation) -> Goal:
+def _turn_around(clause: Turn, situation: Situation) -> Goal:
     there = ground_follow(Follow(clause.at), situation)
     if there.kind is GoalKind.SEEK:
         return there
-    pose = (*there.pose[:2], wrap_angle(there.pose[2] + math.pi))
-    goal = Goal(GoalKind.REACH, pose, None, 1.5, 0.5, f"turn around {_name(clause.at)}")
-    return goal.within(situation.hallway)
+    return Goal(
+        GoalKind.REACH,
+        compose(there.pose, (0.0, 0.0, math.pi)),
+        distance_tolerance=1.5,
+        heading_tolerance=0.5,
+        because=f"turn around at {clause.at or 'the end of the hallway'}",
+        hallway=situation.hallway,
+    )
 
 
-def _find(
+def _find_junction(
     reference: PlaceReference | None, turning: Turning | None, situation: Situation
 ) -> Junction | Goal:
     """The junction that a reference names, or the goal of looking for it.
 
-    Only places that open to the side of the turn count. Without a reference it is the next one
-    of any kind.
+    Only junctions that open to the side of the turn count. Without a reference it is the next
+    one of any kind.
 
     Raises:
         GroundingError: there is no such place.
     """
-    places = [j for j in situation.hallway.junctions if _counts(j, reference, turning, situation)]
+    place = None if reference is None else reference.place
     ordinal = 1 if reference is None else reference.ordinal
-    if len(places) >= ordinal:
-        return places[ordinal - 1]
+    junctions = [
+        junction
+        for junction in situation.hallway.junctions
+        if _is_ahead(junction, situation.hallway)
+        and _is_a(junction, place)
+        and _opens_to(junction, turning)
+    ]
+    if len(junctions) >= ordinal:
+        return junctions[ordinal - 1]
     name = _name(reference) + ("" if turning is None else f" that leads {turning}")
     if situation.seen_to_end:
-        raise GroundingError(f"no way {name}: the hallway ended after {len(places)} such places")
-    return situation.seek(f"looking for a way {name}")
+        raise situation.missing(name, len(junctions))
+    return situation.seek(name)
 
 
-def _counts(
-    junction: Junction,
-    reference: PlaceReference | None,
-    turning: Turning | None,
-    situation: Situation,
-) -> bool:
-    kinds = {Place.CORNER: junction.is_corner, Place.INTERSECTION: not junction.is_corner}
-    kinds[Place.END] = not junction.ahead
-    sides = {Turning.LEFT: junction.left, Turning.RIGHT: junction.right, None: junction}
-    ahead = max(opening.far for opening in junction.openings) > 0.5
-    ends_in_reach = junction.centre < situation.hallway.end
-    fits = reference is None or kinds[reference.place]
-    return ahead and ends_in_reach and fits and sides[turning] is not None
+def _is_ahead(junction: Junction, hallway: Hallway) -> bool:
+    return junction.far > STILL_AHEAD and junction.centre < hallway.end
 
 
-def _arm(junction: Junction, turning: Turning, situation: Situation) -> Pose:
-    """The pose `ARM_DEPTH` inside an arm, on its centre line, looking out along it."""
+def _is_a(junction: Junction, place: Place | None) -> bool:
+    match place:
+        case Place.CORNER:
+            return junction.is_corner
+        case Place.INTERSECTION:
+            return not junction.is_corner
+        case Place.END:
+            return not junction.ahead
+        case None:
+            return True
+
+
+def _opens_to(junction: Junction, turning: Turning | None) -> bool:
+    arms = {Turning.LEFT: junction.left, Turning.RIGHT: junction.right}
+    return turning is None or arms[turning] is not None
+
+
+def _mouth(junction: Junction, turning: Turning, situation: Situation) -> Pose:
+    """The pose in the mouth of an arm, on its centre line, looking out along it."""
     opening = junction.left if turning is Turning.LEFT else junction.right
     assert opening is not None
     side = QUARTERS[turning]
-    guess = situation.hallway.place(
+    inside = situation.hallway.place(
         opening.centre, side * (opening.offset + ARM_DEPTH), side * math.pi / 2
     )
-    arm: Hallway = hallway(situation.scene, guess)
-    moved = math.hypot(arm.frame[0] - guess[0], arm.frame[1] - guess[1])
-    return arm.frame if moved < (opening.far - opening.near) / 2 else guess
+    arm = hallway(situation.scene, inside).frame
+    moved = math.dist(arm[:2], inside[:2])
+    fits = moved < (opening.far - opening.near) / 2
+    inside = arm if fits else inside
+    return (*to_parent(inside, (-ARM_DEPTH, 0.0)), inside[2])
 
 
 def _name(reference: PlaceReference | None) -> str:
-    if reference is None:
-        return "at the next junction"
-    if reference.place is Place.END:
-        return "at the end of the hallway"
-    return f"at the {ordinal_word(reference.ordinal)} {reference.place}"
+    return "the next junction" if reference is None else str(reference)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,7 +17,7 @@ LOOK_AHEAD = 4.0
 END_MARGIN = 1.0
 """How far before the end of a hallway the robot's centre stops, metres."""
 
-AT_END = 1.9
+AT_END = 1.4
 """Within this distance of its end a hallway has been seen to its end, metres."""
 
 
@@ -47,7 +48,7 @@ class Situation:
         """The hallway that the robot looked along when the clause began."""
         return hallway(self.scene, self.begin)
 
-    @property
+    @cached_property
     def progress(self) -> float:
         """How far along the hallway the robot is, metres."""
         return self.hallway.along((self.pose[0], self.pose[1]))
@@ -57,14 +58,23 @@ class Situation:
         """Whether nothing of the hallway is left to be looked at."""
         return self.complete or self.progress > self.hallway.end - AT_END
 
-    def seek(self, because: str, at_most: float = float("inf")) -> Goal:
-        """Go on along the hallway and keep looking.
+    def seek(self, what: object, at_most: float = math.inf) -> Goal:
+        """Go on along the hallway and keep looking for something.
 
         Args:
-            because: what is being looked for.
+            what: is being looked for.
             at_most: how far along the hallway to go, metres.
         """
         along = min(self.progress + LOOK_AHEAD, self.hallway.end - END_MARGIN, at_most)
-        return Goal(
-            GoalKind.SEEK, self.hallway.place(along), because=because, hallway=self.hallway
-        )
+        pose = self.hallway.place(along)
+        return Goal(GoalKind.SEEK, pose, because=f"looking for {what}", hallway=self.hallway)
+
+    def missing(self, what: str, count: int) -> GroundingError:
+        """The error for something that is not there: "no third door: the hallway ended after 2".
+
+        Args:
+            what: was looked for, beginning with "the".
+            count: how many of the kind there are.
+        """
+        there = f"ended after {count}" if count else "has none"
+        return GroundingError(f"no {what.removeprefix('the ')}: the hallway {there}")
