@@ -77,7 +77,9 @@ def save_page(
     for ax in axes[len(scenes) :]:
         ax.set_axis_off()
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=min(5, 2 * columns), fontsize=9)
+    figure.legend(
+        handles, labels, loc="outside lower center", ncols=min(5, 2 * columns), fontsize=9
+    )
     figure.savefig(path, dpi=110)
 
 
