@@ -1,10 +1,6 @@
 from __future__ import annotations
 
-import copy
 import math
-import pickle
-import subprocess
-import sys
 from itertools import pairwise
 
 import numpy as np
@@ -14,6 +10,7 @@ from shapely import LineString, Polygon
 from semnav_env.features.frames import Point, Pose, to_parent, wrap_angle
 from semnav_env.robots import ROBOTS, SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.world import World
+from tests.driving import at_the_wall, random_commands
 from tests.small_plans import empty_hall, furnished_hall, plan_of
 
 HZ = 15
@@ -27,25 +24,8 @@ def wide_world(robot: RobotSpec = WHEELCHAIR, pose: Pose = MIDDLE) -> World:
     return world
 
 
-def at_the_wall(robot: RobotSpec = WHEELCHAIR) -> World:
-    """A world in which the robot leans on a wall at x = 10, at an angle."""
-    world = World(empty_hall(10.0, 6.0), robot)
-    world.reset((8.0, 3.0, 0.3))
-    for _ in range(60):
-        world.step((1.0, 0.0, 0.0))
-    assert world.in_contact
-    return world
-
-
 def axle_of(world: World) -> Point:
     return to_parent(world.pose, (world.robot.axle, 0.0))
-
-
-def random_commands(seed: int, count: int) -> list[Pose]:
-    """Held for half a second each, often at full speed."""
-    rng = np.random.default_rng(seed)
-    held = rng.uniform((-2.0, -1.0, -2.0), (3.0, 1.0, 2.0), (count // 8 + 1, 3))
-    return [tuple(row) for row in held.repeat(8, axis=0)[:count].tolist()]
 
 
 @robots
@@ -250,73 +230,3 @@ def test_an_empty_plan_has_unbounded_clearance() -> None:
     world.reset((0.0, 0.0, 0.0))
     world.step((1.0, 0.0, 0.0))
     assert world.clearance() == math.inf
-
-
-def trace(world: World, commands: list[Pose]) -> list[Pose]:
-    poses = []
-    for command in commands:
-        world.step(command)
-        poses += [world.pose, world.velocity]
-    return poses
-
-
-@robots
-def test_the_same_commands_give_the_same_poses_bit_for_bit(robot: RobotSpec) -> None:
-    commands = random_commands(3, 600)
-    worlds = [World(furnished_hall(), robot) for _ in range(3)]
-    for world in worlds:
-        world.reset((3.0, 2.0, 0.5))
-    first, *others = [trace(world, commands) for world in worlds]
-    assert all(other == first for other in others)
-
-
-def test_what_came_before_a_reset_does_not_matter() -> None:
-    used, fresh = at_the_wall(), World(empty_hall(10.0, 6.0), WHEELCHAIR)
-    commands = random_commands(4, 300)
-    for world in (used, fresh):
-        world.reset((3.0, 2.0, 0.5))
-    assert trace(used, commands) == trace(fresh, commands)
-
-
-@robots
-@pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda w: pickle.loads(pickle.dumps(w))])
-def test_a_copy_made_while_pushing_a_wall_goes_on_as_the_original(
-    robot: RobotSpec, duplicate: object
-) -> None:
-    world = at_the_wall(robot)
-    twin = duplicate(world)  # type: ignore[operator]
-    assert (twin.pose, twin.velocity, twin.contacts) == (world.pose, world.velocity, world.contacts)
-    commands = [(1.0, 0.2, 0.5)] * 30 + random_commands(6, 200)
-    assert trace(twin, commands) == trace(world, commands)
-
-
-def test_a_world_that_was_never_reset_can_be_pickled() -> None:
-    world = pickle.loads(pickle.dumps(World(empty_hall(), WHEELCHAIR)))
-    world.reset((3.0, 2.0, 0.5))
-    assert world.pose == pytest.approx((3.0, 2.0, 0.5))
-
-
-def test_another_process_gives_the_same_poses_bit_for_bit() -> None:
-    world, commands = at_the_wall(), random_commands(8, 300)
-    code = "import pickle, sys; world, run, commands = pickle.load(sys.stdin.buffer); "
-    code += "[world.step(c) for c in run + commands]; print(world.pose, world.velocity)"
-    fresh = World(world.floor_plan, world.robot)
-    fresh.reset((8.0, 3.0, 0.3))
-    message = pickle.dumps((fresh, [(1.0, 0.0, 0.0)] * 60, commands))
-    done = subprocess.run([sys.executable, "-c", code], input=message, capture_output=True)
-    trace(world, commands)
-    assert done.stdout.decode().strip() == f"{world.pose} {world.velocity}", done.stderr.decode()
-
-
-def test_worlds_do_not_influence_each_other() -> None:
-    alone, commands = World(empty_hall(), WHEELCHAIR), random_commands(9, 200)
-    alone.reset((3.0, 2.0, 0.5))
-    expected = trace(alone, commands)
-    first, second = World(empty_hall(), WHEELCHAIR), World(furnished_hall(), SPOT)
-    first.reset((3.0, 2.0, 0.5))
-    second.reset((3.0, 2.0, 0.0))
-    found = []
-    for command in commands:
-        found += trace(first, [command])
-        second.step(command)
-    assert found == expected
