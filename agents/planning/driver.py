@@ -7,11 +7,19 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from semnav_env.agents.planning.follower import Progress, Steering, follow
+from semnav_env.agents.planning.follower import Progress, Steering, follow, stopping_pose
+from semnav_env.agents.planning.nudge import best_nudge
 from semnav_env.agents.planning.path import Path
 from semnav_env.agents.planning.planner import PlannerSettings, Target, is_free, plan
 from semnav_env.agents.planning.track import FollowerSettings, Track
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import (
+    FloatArray,
+    Pose,
+    compose,
+    points_to_local,
+    points_to_parent,
+    relative,
+)
 from semnav_env.robots import RobotSpec
 
 STOP = Steering(0.0, 0.0, 0.0, Progress())
@@ -48,6 +56,7 @@ class Driver:
         self._track: Track | None = None
         self._target: Target | None = None
         self._progress = Progress()
+        self._shift: Pose = (0.0, 0.0, 0.0)
         self._step = self._wait = 0
 
     def drive(
@@ -70,9 +79,9 @@ class Driver:
         if self._must_plan(points, target, pose):
             if self._wait > 0:
                 return STOP
-            self._plan(points, target, pose)
+            self._plan(points, target, pose, velocity)
         assert self._track is not None
-        steering = follow(self._track, self._progress, pose, velocity)
+        steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
         self._progress = steering.progress
         if steering.deviation > self.follower.lost:
             self._track = None
@@ -86,12 +95,17 @@ class Driver:
             return True
         if not self.path.complete and self._remaining() < 1.0:
             return True
-        return self._step % self.check_every == 0 and not self._free(points)
+        return self._step % self.check_every == 0 and not self._stays_free(points, pose)
 
-    def _plan(self, points: FloatArray, target: Target, pose: Pose) -> None:
-        self.path = plan(points, pose, target, self.robot, self.planner)
+    def _plan(
+        self, points: FloatArray, target: Target, pose: Pose, velocity: tuple[float, float, float]
+    ) -> None:
+        start = stopping_pose(pose, velocity, 0.8 * self.robot.max_acceleration)
+        if not is_free(points, np.array([start]), self.robot):
+            start = pose
+        self.path = plan(points, start, target, self.robot, self.planner)
         self.plans += 1
-        self._target, self._progress = target, Progress()
+        self._target, self._progress, self._shift = target, Progress(), (0.0, 0.0, 0.0)
         self._track = Track(self.path, self.robot, self.follower)
         if not self.path.complete:
             self._wait = self.retry_after
@@ -100,15 +114,29 @@ class Driver:
         assert self._track is not None
         return float(self._track.distance[-1] - self._track.distance[self._progress.sample])
 
-    def _free(self, points: FloatArray) -> bool:
-        """Whether the next 2.5 m of the path are free, with a little less than its margin."""
+    def _stays_free(self, points: FloatArray, pose: Pose) -> bool:
+        """Whether the next metres of the path are free, if need be after a small correction."""
+        assert self.path is not None
+        seen, margin = points_to_local(pose, points), self.path.margin
+        size = (self.robot.length, self.robot.width)
+        left, turn, clearance = best_nudge(seen, self._ahead(pose, 1.2), *size, margin + 0.005)
+        if left or turn:
+            shift = compose((0.0, left, turn), relative(pose, self._shift))
+            self._shift = compose(pose, shift)
+        if clearance < min(0.0, margin - 0.03):
+            return False
+        return is_free(seen, self._ahead(pose, 2.5), self.robot, max(-0.02, margin - 0.03))
+
+    def _ahead(self, pose: Pose, distance: float) -> FloatArray:
+        """The centre's poses on the path ahead, about 0.1 m apart, in the robot frame, (M, 3)."""
         assert self.path is not None
         assert self._track is not None
-        first = self._progress.sample + 2
-        distance = self._track.distance
-        upto = int(np.searchsorted(distance, distance[self._progress.sample] + 2.5)) + 1
-        margin = max(-0.03, 0.5 * self.path.margin - 0.02)
-        return is_free(points, self.path.poses[first:upto], self.robot, margin)
+        along, first = self._track.distance, self._progress.sample
+        last = int(np.searchsorted(along, along[first] + distance))
+        poses = self.path.poses[first : last + 1 : 2]
+        frame = relative(pose, self._shift)
+        places = points_to_parent(frame, poses[:, :2])
+        return np.column_stack((places, poses[:, 2] + frame[2]))
 
 
 def _apart(a: Target, b: Target) -> bool:

@@ -102,7 +102,7 @@ def _turn(
         left,
         math.copysign(rate, error),
         Progress(progress.leg, sample),
-        math.dist(axle[:2], (x, y)),
+        max(0.0, math.dist(axle[:2], (x, y)) - _stopping_distance(track, velocity)),
     )
 
 
@@ -182,7 +182,7 @@ def _errors(track: Track, leg: Leg, sample: int, axle: Pose) -> tuple[float, flo
     c, s = math.cos(direction), math.sin(direction)
     dx, dy = axle[0] - x, axle[1] - y
     along, across = c * dx + s * dy, c * dy - s * dx
-    bend = track.curvature[min(sample, leg.last - 1)]
+    bend = track.curvature[min(sample, leg.last - 1)] if along > 0 else 0.0
     sign = -1.0 if leg.kind == REVERSE else 1.0
     if leg.kind == REVERSE:
         across = -across
@@ -205,6 +205,11 @@ def _direction(track: Track, leg: Leg, sample: int) -> float:
 def _ahead(track: Track, leg: Leg, sample: int, distance: float) -> int:
     there = int(np.searchsorted(track.distance, track.distance[sample] + distance))
     return min(max(sample, there), leg.last - 1)
+
+
+def _stopping_distance(track: Track, velocity: tuple[float, float, float]) -> float:
+    """Metres, a little more than at the limit of acceleration."""
+    return (velocity[0] ** 2 + velocity[1] ** 2) / (1.6 * track.robot.max_acceleration)
 
 
 def _towards(axle: Pose, place: tuple[float, float]) -> tuple[float, float]:

@@ -126,15 +126,20 @@ def centred(near: FloatArray, x: float, y: float, heading: float, reach: float) 
 def is_passable(field: Field, body: Body, x: float, y: float, margin: float) -> bool:
     """Whether the body fits through the gap at (x, y) in any heading.
 
-    Its middle part must lie in some straight strip while it passes. Half its length and 1 cm are
-    left out, since (x, y) is only about the middle of the gap.
+    While its middle passes the gap the whole body lies in one straight strip. Since (x, y) is
+    only about the middle, a tenth of the length and 1 cm of width are left out, and places up to
+    0.1 m away are tried too.
     """
-    length = (body.front + body.rear) / 2
-    near = points_near(field, x, y, length + WIDEST)
+    reach = 0.45 * (body.front + body.rear)
+    near = points_near(field, x, y, reach + WIDEST + 0.2)
     for k in range(2 * HEADINGS):
-        lane = centred(near, x, y, math.pi * k / (2 * HEADINGS), length / 2)
-        if lane[3] >= 2 * (body.half_width + margin) - 0.01:
-            return True
+        heading = math.pi * k / (2 * HEADINGS)
+        for offset in (0.0, 0.1, -0.1):
+            px, py = x + offset * math.cos(heading), y + offset * math.sin(heading)
+            lane = centred(near, px, py, heading, reach)
+            fits = lane[3] >= 2 * (body.half_width + margin) - 0.01
+            if fits and math.hypot(lane[0] - px, lane[1] - py) < 0.15:
+                return True
     return False
 
 

@@ -85,7 +85,7 @@ def forget(
 
 
 @njit(cache=True)
-def join(into: NDArray[Any], other: NDArray[Any]) -> None:
+def join(into: Any, other: Any) -> None:
     """Make one centre of two, weighted by their hits."""
     share = other.hits / (into.hits + other.hits)
     into.x += share * (other.x - into.x)

@@ -1,0 +1,87 @@
+"""Small corrections of a path that drift has brought too close to what is seen now."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from semnav_env.features.frames import FloatArray
+
+SIDE_STEP, TURN_STEP, STEPS = 0.005, 0.006, 4
+"""Metres and radians of the finest correction, and how many of them to each side are tried."""
+
+RELUCTANCE = 0.1
+"""Metres of clearance that a correction must win for each metre it moves the path."""
+
+NEAR = 0.15
+"""Metres from the path's footprints beyond which points do not matter."""
+
+
+@njit(cache=True)
+def best_nudge(
+    points: FloatArray, poses: FloatArray, length: float, width: float, wanted: float
+) -> tuple[float, float, float]:
+    """The shift to the left and the turn about the origin that give a path the most clearance.
+
+    Args:
+        points: obstacles in the robot frame, metres, shape (N, 2).
+        poses: the centre's poses ahead, in the robot frame, shape (M, 3).
+        length: of the footprint, metres.
+        width: the same.
+        wanted: metres of clearance beyond which more is worth nothing.
+
+    Returns:
+        left in metres, turn in radians, and the clearance with them (negative: overlap).
+    """
+    near = _near_points(points, poses, length, width)
+    best = (0.0, 0.0, path_clearance(near, poses, length, width, 0.0, 0.0, -math.inf))
+    score = min(best[2], wanted)
+    for a in range(-STEPS, STEPS + 1):
+        for b in range(-STEPS, STEPS + 1):
+            left, turn = a * SIDE_STEP, b * TURN_STEP
+            price = RELUCTANCE * (abs(left) + abs(turn))
+            clearance = path_clearance(near, poses, length, width, left, turn, score + price)
+            if min(clearance, wanted) - price > score + 1e-4:
+                best, score = (left, turn, clearance), min(clearance, wanted) - price
+    return best
+
+
+@njit(cache=True)
+def path_clearance(
+    points: FloatArray,
+    poses: FloatArray,
+    length: float,
+    width: float,
+    left: float,
+    turn: float,
+    enough: float,
+) -> float:
+    """Least distance by which points lie outside the footprints of the moved path, metres.
+
+    Distance is the larger of those along and across the body. Stops early below `enough`.
+    """
+    least = math.inf
+    c, s = math.cos(turn), math.sin(turn)
+    for m in range(len(poses)):
+        ch, sh = math.cos(poses[m, 2]), math.sin(poses[m, 2])
+        for k in range(len(points)):
+            px, py = points[k, 0], points[k, 1] - left
+            dx, dy = c * px + s * py - poses[m, 0], c * py - s * px - poses[m, 1]
+            ahead, aside = abs(ch * dx + sh * dy), abs(ch * dy - sh * dx)
+            least = min(least, max(ahead - length / 2, aside - width / 2))
+            if least < enough:
+                return least
+    return least
+
+
+@njit(cache=True)
+def _near_points(points: FloatArray, poses: FloatArray, length: float, width: float) -> FloatArray:
+    kept = np.empty_like(points)
+    n = 0
+    for k in range(len(points)):
+        if path_clearance(points[k : k + 1], poses, length, width, 0.0, 0.0, NEAR) < NEAR:
+            kept[n] = points[k]
+            n += 1
+    return kept[:n]
