@@ -59,8 +59,8 @@ def extract(scan: Scan, settings: ExtractorSettings = DEFAULT_SETTINGS) -> Scene
 @lru_cache(maxsize=16)
 def beam_directions(beams: int, angle_min: float, angle_increment: float) -> FloatArray:
     """Cosine and sine of every beam of at most one full turn, shape (n, 2); do not write."""
-    turn = int(2.0 * math.pi / angle_increment * (1.0 + 1e-9)) + 1 if angle_increment else beams
-    angles = angle_min + angle_increment * np.arange(min(beams, turn))
+    turn = 2.0 * math.pi / angle_increment * (1.0 + 1e-9) + 1.0
+    angles = angle_min + angle_increment * np.arange(int(min(beams, turn)))
     return np.stack((np.cos(angles), np.sin(angles)), axis=1)
 
 

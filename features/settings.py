@@ -50,6 +50,9 @@ class ExtractorSettings:
             metres. Along the beam rather than across the chord, so that an open leaf seen
             through a grazing gap does not hide the door.
         door_clear_fraction: share of the beams between the jambs that must do so.
+        door_recess: nothing but a recess is behind the chord unless some beams get this far
+            across it, metres; a closed door lies less deep in its frame.
+        door_deep_fraction: share of the beams between the jambs that must get so far.
         door_beams: fewest beams through an opening.
         jamb_beams: fewest beams of what counts as a jamb.
         one_sided_doors: accept a wall on one side and only a jamb on the other.
@@ -151,6 +154,7 @@ _LIMITS = {
     "confidence": (0.0, 10.0),
     "door_angle_tolerance": (0.0, _RIGHT_ANGLE / 2),
     "door_clear_fraction": (0.0, 1.0),
+    "door_deep_fraction": (0.0, 1.0),
     "door_beams": (1, 10_000),
     "jamb_beams": (2, 10_000),
     "one_sided_doors": (0, 1),

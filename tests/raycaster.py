@@ -32,7 +32,7 @@ def cast(segments: FloatArray, pose: Pose, angles: FloatArray) -> FloatArray:
     directions = np.stack((np.cos(angles + pose[2]), np.sin(angles + pose[2])), axis=1)
     start = segments[:, 0] - np.array(pose[:2])
     along = segments[:, 1] - segments[:, 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         cross = directions[:, :1] * along[:, 1] - directions[:, 1:] * along[:, 0]
         distance = (start[:, 0] * along[:, 1] - start[:, 1] * along[:, 0]) / cross
         place = start[:, 0] * directions[:, 1:] - start[:, 1] * directions[:, :1]

@@ -148,10 +148,10 @@ def is_seen(
     )
     if angle < -0.5 * increment:
         angle += 2.0 * math.pi
-    beam = int(angle / increment + 0.5)
-    if beam >= len(ranges):
+    place = angle / increment + 0.5
+    if place >= len(ranges):
         return False
-    distance = ranges[beam]
+    distance = ranges[int(place)]
     return not is_return(distance, range_min, limit) or distance > math.hypot(x, y)
 
 

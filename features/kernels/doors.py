@@ -59,7 +59,7 @@ def find_jambs(pieces: int, settings: Any, scratch: Any) -> int:
     count = 0
     for k in range(pieces):
         piece = scratch.pieces[k]
-        if piece.points >= settings.jamb_beams:
+        if piece.points >= settings.jamb_beams and count < len(scratch.start_jambs):
             start, end = scratch.start_jambs[count], scratch.end_jambs[count]
             write_jamb(start, piece.end_x, piece.end_y, beams[piece.last], k)
             write_jamb(end, piece.start_x, piece.start_y, beams[piece.first], k)

@@ -74,21 +74,6 @@ def gather(xs: FloatArray, ys: FloatArray, first: int, last: int, piece: Any) ->
 
 
 @njit(cache=True, error_model="numpy")
-def add_point(xs: FloatArray, ys: FloatArray, piece: Any, index: int) -> None:
-    """Add the point just before or after a piece to its moments."""
-    dx, dy = xs[index] - piece.mean_x, ys[index] - piece.mean_y
-    count = piece.points + 1
-    weight = piece.points / count
-    piece.xx += weight * dx * dx
-    piece.xy += weight * dx * dy
-    piece.yy += weight * dy * dy
-    piece.mean_x += dx / count
-    piece.mean_y += dy / count
-    piece.points = count
-    piece.first, piece.last = min(piece.first, index), max(piece.last, index)
-
-
-@njit(cache=True, error_model="numpy")
 def absorb(piece: Any, other: Any) -> None:
     """Add the points of `other` to the moments of `piece` (the parallel-axis theorem)."""
     count = piece.points + other.points

@@ -29,7 +29,8 @@ CANDIDATE = np.dtype(
 JAMB = np.dtype([("x", "f8"), ("y", "f8"), ("beam", "i8"), ("piece", "i8")])
 """A possible jamb: an end of a piece, and the beam that saw it."""
 
-DOOR_CANDIDATES = 128
+JAMBS, DOOR_CANDIDATES = 1024, 128
+"""Entries beyond these are left out, in beam order."""
 
 
 class Scratch(NamedTuple):
@@ -43,8 +44,8 @@ class Scratch(NamedTuple):
         stack: split points still to be visited, shape (n,).
         vertices: the break points of one group, shape (n + 1,).
         pieces: straight pieces, dtype `PIECE`, shape (n,).
-        start_jambs: where an opening may start, dtype `JAMB`, shape (n,).
-        end_jambs: where an opening may end, dtype `JAMB`, shape (n,).
+        start_jambs: where an opening may start, dtype `JAMB`.
+        end_jambs: where an opening may end, dtype `JAMB`.
         candidates: possible doors, dtype `CANDIDATE`.
         wall_piece: the piece of each wall, shape of the wall array.
         corner_ends: the walls that end and start at each corner or -1, two columns.
@@ -92,8 +93,8 @@ def allocate_scratch(beams: int) -> Scratch:
         stack=np.zeros(beams, np.int64),
         vertices=np.zeros(beams + 1, np.int64),
         pieces=np.zeros(beams, PIECE),
-        start_jambs=np.zeros(beams, JAMB),
-        end_jambs=np.zeros(beams, JAMB),
+        start_jambs=np.zeros(JAMBS, JAMB),
+        end_jambs=np.zeros(JAMBS, JAMB),
         candidates=np.zeros(DOOR_CANDIDATES, CANDIDATE),
         wall_piece=np.zeros(CAPACITY["walls"], np.int64),
         corner_ends=np.zeros((CAPACITY["corners"], 2), np.int64),

@@ -10,7 +10,7 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
-from semnav_env.features.kernels.lines import absorb, add_point, fit, gather, offset, split
+from semnav_env.features.kernels.lines import absorb, fit, gather, offset, split
 from semnav_env.features.kernels.segmentation import is_return
 
 MERGE_CHI_SQUARE = 13.8
@@ -41,20 +41,40 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
                 fit(xs, ys, pieces[count])
                 count += 1
         for k in range(group_start, count - 1):
-            assign_shared_point(xs, ys, pieces[k], pieces[k + 1])
+            settle_border(xs, ys, pieces[k], pieces[k + 1])
     return count
 
 
 @njit(cache=True, error_model="numpy")
-def assign_shared_point(xs: FloatArray, ys: FloatArray, before: Any, after: Any) -> None:
-    """Give the point at which two pieces were cut to the line it is nearer to."""
-    point = before.last + 1
-    if after.first != point + 1:
+def settle_border(xs: FloatArray, ys: FloatArray, before: Any, after: Any) -> None:
+    """Give every point around a cut to the line it is nearer to, and fit both lines again.
+
+    The end-point fit finds a corner only to within its split distance. The point at the cut is
+    in neither piece yet.
+    """
+    if after.first != before.last + 2:
         return
-    x, y = xs[point], ys[point]
-    nearer = before if abs(offset(before, x, y)) <= abs(offset(after, x, y)) else after
-    add_point(xs, ys, nearer, point)
-    fit(xs, ys, nearer)
+    last, cut, first = before.last, before.last + 1, after.first
+    if not prefers_second(before, after, xs[cut], ys[cut]):
+        last = cut
+        while first < after.last - 1 and not prefers_second(before, after, xs[first], ys[first]):
+            last = first
+            first += 1
+    else:
+        first = cut
+        while last > before.first + 1 and prefers_second(before, after, xs[last], ys[last]):
+            first = last
+            last -= 1
+    gather(xs, ys, before.first, last, before)
+    gather(xs, ys, first, after.last, after)
+    fit(xs, ys, before)
+    fit(xs, ys, after)
+
+
+@njit(cache=True, error_model="numpy")
+def prefers_second(first: Any, second: Any, x: float, y: float) -> bool:
+    """Whether a point is nearer to the line of the second piece than to that of the first."""
+    return bool(abs(offset(first, x, y)) > abs(offset(second, x, y)))
 
 
 @njit(cache=True, error_model="numpy")

@@ -84,7 +84,8 @@ def _is_seen(corridor: Corridor, sweep: Sweep) -> bool:
     angle = math.remainder(math.atan2(y, x) - sweep.angle_min, 2.0 * math.pi)
     if angle < -0.5 * sweep.increment:
         angle += 2.0 * math.pi
-    beam = math.floor(angle / sweep.increment + 0.5)
-    if beam >= len(sweep.ranges):
+    place = angle / sweep.increment + 0.5
+    if place >= len(sweep.ranges):
         return False
+    beam = math.floor(place)
     return bool(not sweep.returned[beam] or sweep.ranges[beam] > math.hypot(x, y))

@@ -34,11 +34,11 @@ class Sweep:
     @classmethod
     def of(cls, scan: Scan, settings: ExtractorSettings) -> Sweep:
         """The usable part of a scan; a range beyond `rupture_range` is no return (2.1)."""
-        turn = math.floor(2.0 * math.pi / scan.angle_increment * (1.0 + 1e-9)) + 1
-        ranges = scan.ranges[:turn]
+        turn = 2.0 * math.pi / scan.angle_increment * (1.0 + 1e-9) + 1.0
+        ranges = scan.ranges[: int(min(turn, len(scan.ranges)))]
         angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
         directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)
-        returned = scan.valid[:turn] & (ranges > 0.0) & (ranges < settings.rupture_range)
+        returned = scan.valid[: len(ranges)] & (ranges > 0.0) & (ranges < settings.rupture_range)
         return cls(ranges, directions, returned, scan.angle_increment, scan.angle_min)
 
     def points(self, beams: list[int]) -> FloatArray:

@@ -110,21 +110,32 @@ def _cuts(points: FloatArray, first: int, last: int, limit: float) -> list[int]:
 
 
 def _straight_runs(sweep: Sweep, group: list[int], limit: float) -> list[list[int]]:
-    """Beams of each straight run; a cut belongs to the neighbour whose line is nearer."""
+    """Beams of each straight run, the borders between runs settled one after the other."""
     points = sweep.points(group)
     cuts = [-1, *_cuts(points, 0, len(group) - 1, limit), len(group)]
     runs = [range(a + 1, b) for a, b in itertools.pairwise(cuts) if b - a > 2]
-    result = [[group[i] for i in run] for run in runs]
     for k, (run, following) in enumerate(itertools.pairwise(runs)):
-        if following.start - run.stop == 1:
-            cut = group[run.stop]
-            before, after = (Piece(r, sweep.points(r)) for r in result[k : k + 2])
-            point = sweep.points([cut])[0]
-            if abs(before.offset(point)) <= abs(after.offset(point)):
-                result[k].append(cut)
-            else:
-                result[k + 1].insert(0, cut)
-    return result
+        if following.start == run.stop + 1:
+            runs[k], runs[k + 1] = _settled(points, runs[k], following)
+    return [[group[i] for i in run] for run in runs]
+
+
+def _settled(points: FloatArray, before: range, after: range) -> tuple[range, range]:
+    """Move the border between two runs until every point is with the line it is nearer to."""
+    lines = [Piece(list(run), points[run.start : run.stop]) for run in (before, after)]
+
+    def prefers_after(i: int) -> bool:
+        return abs(lines[0].offset(points[i])) > abs(lines[1].offset(points[i]))
+
+    border = before.stop
+    if prefers_after(border):
+        while border > before.start + 2 and prefers_after(border - 1):
+            border -= 1
+    else:
+        border += 1
+        while border < after.stop - 2 and not prefers_after(border):
+            border += 1
+    return range(before.start, border), range(border, after.stop)
 
 
 def _flagged(sweep: Sweep, group: list[int], beams: list[int]) -> Piece:

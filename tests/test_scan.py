@@ -1,0 +1,68 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from semnav_env.features import Scan
+from tests.strategies import awkward_scans
+
+
+@given(awkward_scans())
+def test_a_beam_is_valid_only_with_a_positive_range_between_the_limits(scan: Scan) -> None:
+    for distance, valid in zip(scan.ranges, scan.valid, strict=True):
+        assert valid == (scan.range_min <= distance < scan.range_max)
+
+
+def test_angles_run_counter_clockwise_from_angle_min() -> None:
+    scan = Scan([1, 2, 3], angle_min=-0.5, angle_increment=0.25)
+    assert scan.angles.tolist() == [-0.5, -0.25, 0.0]
+
+
+def test_the_ranges_are_a_copy_that_cannot_be_written() -> None:
+    given_ranges = np.array([1.0, 2.0])
+    scan = Scan(given_ranges, 0.0, 0.1)
+    given_ranges[0] = 9.0
+    assert scan.ranges[0] == 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        scan.ranges[0] = 5.0
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.int16, np.uint8])
+def test_any_real_dtype_is_accepted(dtype: type) -> None:
+    assert Scan(np.array([1, 2, 3], dtype), 0.0, 0.1).ranges.dtype == np.float64
+
+
+@pytest.mark.parametrize(
+    ("ranges", "message"),
+    [
+        ([], "at least one beam"),
+        ([[1.0, 2.0]], "one-dimensional"),
+        (1.0, "one-dimensional"),
+        (["a"], "real numbers"),
+        ([1j], "real numbers"),
+        ([True, False], "real numbers"),
+        ([1500.0, 2500.0, 3000.0], "millimetres"),
+    ],
+)
+def test_bad_ranges_are_refused_with_the_reason(ranges: object, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        Scan(ranges, 0.0, 0.1)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("numbers", "message"),
+    [
+        ({"angle_increment": 0.0}, "must be positive"),
+        ({"angle_increment": -0.1}, "flip the ranges"),
+        ({"angle_increment": math.nan}, "finite"),
+        ({"angle_min": math.inf}, "finite"),
+        ({"range_min": -1.0}, "range_min"),
+        ({"range_min": 10.0, "range_max": 10.0}, "range_max"),
+    ],
+)
+def test_bad_numbers_are_refused_with_the_reason(numbers: dict[str, float], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        Scan([1.0], **{"angle_min": 0.0, "angle_increment": 0.1, **numbers})  # type: ignore[arg-type]

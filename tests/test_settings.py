@@ -1,0 +1,55 @@
+from __future__ import annotations
+
+import math
+from dataclasses import FrozenInstanceError, fields
+
+import numpy as np
+import pytest
+
+from semnav_env.features import ExtractorSettings
+
+
+def test_the_record_holds_every_field_by_name() -> None:
+    settings = ExtractorSettings(sigma=0.03, wall_beams=7, one_sided_doors=False)
+    record = settings.as_record()
+    assert record.shape == (1,)
+    for field in fields(settings):
+        assert record[0][field.name] == getattr(settings, field.name)
+
+
+def test_settings_cannot_be_changed() -> None:
+    with pytest.raises(FrozenInstanceError):
+        ExtractorSettings().sigma = 1.0  # type: ignore[misc]
+
+
+def test_every_field_is_described() -> None:
+    described = ExtractorSettings.__doc__ or ""
+    assert all(f"        {field.name}: " in described for field in fields(ExtractorSettings))
+
+
+def test_numpy_numbers_become_python_numbers() -> None:
+    settings = ExtractorSettings(sigma=np.float32(0.5), wall_beams=np.int64(9))  # type: ignore[arg-type]
+    assert type(settings.sigma) is float
+    assert type(settings.wall_beams) is int
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"sigma": -0.01}, "sigma is -0.01; it must be from 0 to 1000"),
+        ({"sigma": math.nan}, "sigma is nan"),
+        ({"rupture_range": math.inf}, "rupture_range is inf"),
+        ({"sigma": "wide"}, "sigma is 'wide'; it must be a number"),
+        ({"wall_beams": 4.5}, "wall_beams is 4.5; it must be a whole number"),
+        ({"jamb_beams": 1}, "jamb_beams is 1; it must be from 2"),
+        ({"one_sided_doors": 1}, "one_sided_doors is 1; it must be True or False"),
+        ({"breakpoint_angle": 0.0}, "breakpoint_angle"),
+        ({"door_clear_fraction": 1.5}, "from 0 to 1"),
+        ({"door_width_min": 1.3}, "must not exceed door_width_max, which is 1.2"),
+        ({"merge_gap": 0.9}, "must not exceed door_width_min"),
+        ({"corridor_distance_min": 7.0}, "must not exceed corridor_distance_max"),
+    ],
+)
+def test_bad_limits_are_refused_with_their_range(values: dict[str, float], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        ExtractorSettings(**values)  # type: ignore[arg-type]
