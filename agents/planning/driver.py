@@ -100,7 +100,7 @@ class Driver:
     def _plan(
         self, points: FloatArray, target: Target, pose: Pose, velocity: tuple[float, float, float]
     ) -> None:
-        start = stopping_pose(pose, velocity, 0.8 * self.robot.max_acceleration)
+        start = stopping_pose(pose, velocity, self.robot.max_acceleration)
         if not is_free(points, np.array([start]), self.robot):
             start = pose
         self.path = plan(points, start, target, self.robot, self.planner)

@@ -71,10 +71,15 @@ def follow(
     return Steering(0.0, 0.0, 0.0, progress, 0.0, True)
 
 
-def stopping_pose(pose: Pose, velocity: tuple[float, float, float], acceleration: float) -> Pose:
+def stopping_pose(
+    pose: Pose,
+    velocity: tuple[float, float, float],
+    acceleration: float,
+    delay: float = 1.0 / 15.0,
+) -> Pose:
     """Where the robot comes to rest if it brakes now, driving on along its arc."""
     forward, left, turn = velocity
-    time = math.hypot(forward, left) / acceleration / 2
+    time = math.hypot(forward, left) / acceleration / 2 + delay
     heading = pose[2] + turn * time / 2
     x = pose[0] + time * (forward * math.cos(heading) - left * math.sin(heading))
     y = pose[1] + time * (forward * math.sin(heading) + left * math.cos(heading))
@@ -102,7 +107,7 @@ def _turn(
         left,
         math.copysign(rate, error),
         Progress(progress.leg, sample),
-        max(0.0, math.dist(axle[:2], (x, y)) - _stopping_distance(track, velocity)),
+        _strayed(track, math.dist(axle[:2], (x, y)), velocity),
     )
 
 
@@ -207,9 +212,16 @@ def _ahead(track: Track, leg: Leg, sample: int, distance: float) -> int:
     return min(max(sample, there), leg.last - 1)
 
 
-def _stopping_distance(track: Track, velocity: tuple[float, float, float]) -> float:
-    """Metres, a little more than at the limit of acceleration."""
-    return (velocity[0] ** 2 + velocity[1] ** 2) / (1.6 * track.robot.max_acceleration)
+def _strayed(track: Track, distance: float, velocity: tuple[float, float, float]) -> float:
+    """Deviation, metres, of a robot that far from where it should turn.
+
+    While it brakes the way it needs for that does not count; once it stands every centimetre
+    counts more, since the turn was only tested there.
+    """
+    speed = math.hypot(velocity[0], velocity[1])
+    if speed > 0.05:
+        return max(0.0, distance - speed * speed / (1.6 * track.robot.max_acceleration))
+    return distance * track.settings.lost / track.settings.lost_at_turn
 
 
 def _towards(axle: Pose, place: tuple[float, float]) -> tuple[float, float]:

@@ -35,6 +35,7 @@ class Guidance:
         reachable: whether the target, or the window's edge towards it, can be reached.
         time: seconds to `place` from every cell.
         room: of `heuristic.room_grid`, with gaps that are too narrow closed.
+        seconds: of the way to the target, infinite if it cannot be reached.
         way: cells (j, i) from the start, shape (M, 2).
         margin: metres, what the room was measured for.
     """
@@ -45,6 +46,7 @@ class Guidance:
     time: FloatArray
     room: FloatArray
     way: NDArray[np.int64]
+    seconds: float
     margin: float
 
 
@@ -65,9 +67,10 @@ def guidance_to(
             break
         time = seconds_to(sources, first, room, costs)
         way = descent(time, *coarse_cell(field, *start))
-    reachable = math.isfinite(seconds_at(field, time, *start))
+    seconds = seconds_at(field, time, *start)
+    reachable = math.isfinite(seconds)
     if reachable and len(sources) == 1:
-        return Guidance(target, True, True, time, room, way, margin)
+        return Guidance(target, True, True, time, room, way, seconds, margin)
     place = (
         _centre(field, *way[-1].tolist())
         if reachable
@@ -76,7 +79,7 @@ def guidance_to(
     cell = np.array([coarse_cell(field, *place)])
     time = seconds_to(cell, np.zeros(1), room, costs)
     way = descent(time, *coarse_cell(field, *start))
-    return Guidance(place, False, reachable, time, room, way, margin)
+    return Guidance(place, False, reachable, time, room, way, seconds, margin)
 
 
 def _sources(

@@ -40,7 +40,8 @@ class PlannerSettings:
     """Limits and prices of the planner.
 
     Attributes:
-        margins: gaps to keep on every side, metres, tried in this order until a path is found.
+        margins: gaps to keep on every side, metres, from the widest on.
+        detour: seconds of detour that each step to a wider gap is worth.
         half_window: half the side of the square around the start that is planned in, metres.
         speed: m/s that a straight line counts with.
         turn_rate: rad/s that a turn on the spot counts with.
@@ -53,7 +54,8 @@ class PlannerSettings:
             outweighs the time so far, and how many states may be looked at.
     """
 
-    margins: tuple[float, ...] = (0.06, 0.03, 0.0)
+    margins: tuple[float, ...] = (0.10, 0.06, 0.03, 0.0)
+    detour: float = 3.0
     half_window: float = 7.0
     speed: float = 1.0
     turn_rate: float = 0.8
@@ -96,14 +98,19 @@ def plan(
         _without_impossible(_checked_points(points), axle, body), start[:2], settings.half_window
     )
     costs = _costs(robot, settings)
+    ways = [
+        guidance_to(target.pose[:2], start[:2], field, body, margin, costs)
+        for margin in settings.margins
+    ]
+    order = np.argsort(
+        [way.seconds + k * settings.detour for k, way in enumerate(ways)], kind="stable"
+    )
     best: Path | None = None
-    for margin in settings.margins:
-        guidance = guidance_to(target.pose[:2], start[:2], field, body, margin, costs)
-        if guidance.reachable or margin == settings.margins[-1]:
-            path = _search(field, body, start, target, robot, settings, guidance)
-            if path.complete or (guidance.reachable and not guidance.exact):
-                return path
-            best = _nearer(best, path, target)
+    for guidance in [ways[k] for k in order if ways[k].reachable] or ways[-1:]:
+        path = _search(field, body, start, target, robot, settings, guidance)
+        if path.complete or not guidance.exact:
+            return path
+        best = _nearer(best, path, target)
     assert best is not None
     return best
 

@@ -33,6 +33,7 @@ class FollowerSettings:
         done_distance: metres before a leg's end at which it counts as driven.
         done_angle: radians, the same for a turn.
         lost: metres off the path at which to plan again.
+        lost_at_turn: the same, where the robot stands to turn.
     """
 
     cruise: float = 1.1
@@ -47,6 +48,7 @@ class FollowerSettings:
     done_distance: float = 0.015
     done_angle: float = 0.02
     lost: float = 0.12
+    lost_at_turn: float = 0.06
 
 
 class Leg(NamedTuple):
