@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
@@ -29,24 +28,3 @@ class Agent(Protocol):
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action, in the environment's action space."""
-
-
-def make_agent(name: str) -> Agent:
-    """The agent of that name, or the trained one at that path.
-
-    Raises:
-        ValueError: neither; says what there is.
-    """
-    if name == "scripted":
-        from semnav_env.agents.scripted import ScriptedAgent
-
-        return ScriptedAgent()
-    if name == "oracle":
-        from semnav_env.agents.oracle import OracleAgent
-
-        return OracleAgent()
-    if Path(name).exists():
-        from semnav_env.agents.learned import LearnedAgent
-
-        return LearnedAgent.load(name)
-    raise ValueError(f"no agent {name!r}; there are: scripted, oracle, or the path of a trained one")

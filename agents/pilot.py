@@ -9,16 +9,24 @@ from numpy.typing import NDArray
 
 from semnav_env.agents.planning.doorway import target_behind
 from semnav_env.agents.planning.driver import Driver
-from semnav_env.agents.planning.planner import Target
+from semnav_env.agents.planning.planner import PlannerSettings, Target
 from semnav_env.features.frames import FloatArray, Point, Pose, compose, to_parent
 from semnav_env.features.scene import Door
 from semnav_env.grounding import GoalKind
 from semnav_env.observations import SeenGoal
 from semnav_env.robots import RobotSpec
 
+STUCK_AFTER, FREE_AFTER = 8, 12
+"""Steps of pushing without moving after which the robot is stuck, and of backing out of it."""
+
+MARGINS = (0.10, 0.06, 0.03, 0.0)
+"""Gaps that the planner tries to keep to obstacles, in this order, metres."""
+
 
 class Pilot:
     """Drives a robot to goals with the footprint-aware planner.
+
+    A robot that pushes without moving backs out the way it came and plans anew.
 
     Args:
         robot: the body.
@@ -26,7 +34,10 @@ class Pilot:
 
     def __init__(self, robot: RobotSpec) -> None:
         self.robot = robot
-        self.driver = Driver(robot)
+        self.driver = Driver(robot, PlannerSettings(margins=MARGINS))
+        self._pushed = 0
+        self._backing = 0
+        self._last: Pose = (0.0, 0.0, 0.0)
 
     def act(
         self, points: FloatArray, goal: SeenGoal, pose: Pose, velocity: Pose
@@ -41,8 +52,26 @@ class Pilot:
         """
         if goal.kind is GoalKind.STOP:
             return self._action(0.0, 0.0, 0.0)
+        if self._is_stuck(velocity):
+            forward, left, turn = self._last
+            return self._action(-0.2 * sign(forward), -0.2 * sign(left), -0.3 * sign(turn))
+        if goal.door is not None:
+            points = np.vstack((points, [to_parent(pose, jamb) for jamb in goal.door]))
         steering = self.driver.drive(points, _target(goal, pose), pose, velocity)
+        self._last = steering.command
         return self._action(*steering.command)
+
+    def _is_stuck(self, velocity: Pose) -> bool:
+        """Whether it is time to back out of a contact."""
+        if self._backing > 0:
+            self._backing -= 1
+            return True
+        pushing = max(map(abs, self._last)) > 0.03 and max(map(abs, velocity)) < 0.02
+        self._pushed = self._pushed + 1 if pushing else 0
+        if self._pushed >= STUCK_AFTER:
+            self._pushed, self._backing = 0, FREE_AFTER
+            self.driver.reset()
+        return self._backing > 0
 
     def _action(self, forward: float, left: float, turn: float) -> NDArray[np.float32]:
         robot = self.robot
@@ -50,6 +79,11 @@ class Pilot:
         if robot.holonomic:
             shares.insert(1, left / robot.max_sideways_speed)
         return np.clip(np.array(shares, dtype=np.float32), -1.0, 1.0)
+
+
+def sign(value: float) -> float:
+    """-1, 0 or 1; what is almost nothing is 0."""
+    return math.copysign(1.0, value) if abs(value) > 0.01 else 0.0
 
 
 def _target(goal: SeenGoal, pose: Pose) -> Target:

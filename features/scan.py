@@ -62,7 +62,8 @@ class Scan:
     @property
     def angles(self) -> FloatArray:
         """Direction of each beam in radians, shape (n,)."""
-        return self.angle_min + self.angle_increment * np.arange(len(self.ranges))
+        steps = np.arange(len(self.ranges), dtype=np.float64)
+        return self.angle_min + self.angle_increment * steps
 
     @property
     def valid(self) -> np.ndarray:
@@ -95,7 +96,7 @@ def _check_ranges(ranges: ArrayLike, range_max: float) -> FloatArray:
         raise ValueError(f"ranges have dtype {raw.dtype}; they must be real numbers in metres")
     if len(raw) == 0:
         raise ValueError("ranges are empty; a scan has at least one beam")
-    array = raw.astype(np.float64)
+    array: FloatArray = raw.astype(np.float64)
     returns = array[np.isfinite(array) & (array > 0)]
     if len(returns) and np.median(returns) > 20.0 * range_max:
         raise ValueError(

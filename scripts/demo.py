@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tyro.conf import Positional
 
-from semnav_env.agents.base import make_agent
+from semnav_env.agents.registry import make_agent
 from semnav_env.env import CONTROL_HZ, SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.scripts.progress import tracked
@@ -119,7 +119,7 @@ def _drive(env: SemNavEnv, agent: Any, observation: Any) -> Iterator[dict[str, A
 
 
 def parse_pose(text: str) -> Pose:
-    """ "x,y,heading" as three numbers.
+    """Three numbers from "x,y,heading".
 
     Raises:
         ValueError: something else.

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from statistics import median
+from typing import Any
 
 import gymnasium as gym
 import numpy as np
@@ -38,9 +39,7 @@ class Timing:
         return 1e6 / self.microseconds
 
 
-def benchmark(
-    floor_plan: str, robot: str, observation: str, runs: int, steps: int
-) -> list[Timing]:
+def benchmark(floor_plan: str, robot: str, observation: str, runs: int, steps: int) -> list[Timing]:
     """Time the parts of a step and the whole of it, the whole first.
 
     Args:
@@ -50,7 +49,9 @@ def benchmark(
         runs: how often each part is timed; the median counts.
         steps: calls per run.
     """
-    env = gym.make("semnav_env:SemNav-v0", robot=robot, floor_plan=floor_plan, observation=observation)
+    env = gym.make(
+        "semnav_env:SemNav-v0", robot=robot, floor_plan=floor_plan, observation=observation
+    )
     bare = env.unwrapped
     assert isinstance(bare, SemNavEnv)
     env.reset(seed=0)
@@ -82,7 +83,7 @@ def _smooth_actions(env: SemNavEnv, steps: int) -> np.ndarray:
     return np.repeat(drawn, 15, axis=0)[:steps]
 
 
-def _drive(env: gym.Env, actions: np.ndarray) -> None:  # type: ignore[type-arg]
+def _drive(env: gym.Env[Any, Any], actions: np.ndarray) -> None:
     """Step through the actions; episodes that end are begun anew (the time counts)."""
     for action in actions:
         _, _, terminated, truncated, _ = env.step(action)
@@ -97,7 +98,8 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], No
     lidar_pose = compose(pose, env.robot.lidar_mount)
     velocity = (0.3, 0.0, 0.2)
     perception.sense(pose, pose, velocity, (0, 0, 0))
-    arrays, out = perception.lidar.arrays, np.empty(env.lidar_spec.beams)
+    arrays: tuple[Any, ...] = perception.lidar.arrays
+    out = np.empty(env.lidar_spec.beams)
     extraction = perception.extraction_arguments()
     scene = env.floor_plan.scene
 
@@ -109,10 +111,13 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], No
         return run
 
     return [
-        ("scan without noise", repeat(lambda i: cast(*lidar_pose, *arrays, out))),
+        ("scan without noise", repeat(lambda i: cast(*(*lidar_pose, *arrays, out)))),
         ("scan with noise", repeat(lambda i: perception.lidar.ranges(pose, (0, 0, i), out))),
         ("features", repeat(lambda i: extract_arrays(*extraction))),
-        ("scan, features, memory, goal", repeat(lambda i: perception.sense(pose, pose, velocity, (0, 0, i)))),
+        (
+            "scan, features, memory, goal",
+            repeat(lambda i: perception.sense(pose, pose, velocity, (0, 0, i))),
+        ),
         ("world step", repeat(lambda i: env.world.step(velocity))),
         ("hallway (a few times a second)", repeat(lambda i: hallway(scene, pose))),
     ]

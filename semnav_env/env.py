@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium as gym
 import numpy as np
@@ -31,7 +31,7 @@ CONTROL_HZ = 15
 OPTIONS = ("command", "pose", "floor_plan")
 
 
-class SemNavEnv(gym.Env[dict[str, NDArray[Any]], NDArray[np.float32]]):
+class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     """A robot in an office carries out a spoken-style command.
 
     ## Description
@@ -94,7 +94,7 @@ class SemNavEnv(gym.Env[dict[str, NDArray[Any]], NDArray[np.float32]]):
     Barbret 2021; Weerakoon et al.; Yan et al.; Mes 2021: see CITATION.cff.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {
+    metadata = {  # noqa: RUF012 - declared so by gymnasium.Env
         "render_modes": ["rgb_array", "human"],
         "render_fps": CONTROL_HZ,
     }
@@ -188,9 +188,15 @@ class SemNavEnv(gym.Env[dict[str, NDArray[Any]], NDArray[np.float32]]):
         if self.render_mode == "human":
             self.render()
         info = self._info(terms, verifier.over or truncated)
-        return self._observation(), sum(terms.values()), verifier.over and not truncated, truncated, info
+        return (
+            self._observation(),
+            sum(terms.values()),
+            verifier.over and not truncated,
+            truncated,
+            info,
+        )
 
-    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+    def render(self) -> NDArray[np.uint8] | None:
         """The picture, shape (height, width, 3), or a window in "human" mode."""
         if self.render_mode is None:
             gym.logger.warn("render() does nothing: give render_mode to gymnasium.make")
@@ -235,7 +241,9 @@ class SemNavEnv(gym.Env[dict[str, NDArray[Any]], NDArray[np.float32]]):
         if not all(map(math.isfinite, values)):
             raise ValueError(f"the action is {values}; it must be finite, in [-1, 1]")
         scaled = [max(-1.0, min(1.0, v)) * s for v, s in zip(values, self._scale, strict=True)]
-        return (scaled[0], 0.0, scaled[1]) if len(scaled) == 2 else (scaled[0], scaled[1], scaled[2])
+        return (
+            (scaled[0], 0.0, scaled[1]) if len(scaled) == 2 else (scaled[0], scaled[1], scaled[2])
+        )
 
     def _sense(self) -> None:
         key = (self._noise_seed, 0, self._steps)

@@ -87,7 +87,9 @@ _CORRIDORS, _REMEMBERED = _STARTS["corridors"], _STARTS["remembered_doors"]
 _REST = _STARTS["clause"]
 ROW_SIZE = sum(entry.size for entry in ENTRIES)
 
-_FEATURES = tuple(entry.name for entry in ENTRIES if entry.name not in ("clause", "odometry", "goal"))
+_FEATURES = tuple(
+    entry.name for entry in ENTRIES if entry.name not in ("clause", "odometry", "goal")
+)
 _SEMANTIC = (*_FEATURES, "command", "clause", "odometry", "goal")
 MODES = {
     "semantic": _SEMANTIC,
@@ -124,16 +126,14 @@ class Observer:
     @property
     def space(self) -> Dict:
         """The Gymnasium space of what `pack` returns."""
-        spaces = {
+        spaces: dict[str, Box[Any]] = {
             entry.name: Box(entry.low, entry.high, entry.shape, np.float32) for entry in ENTRIES
         }
         spaces["scan"] = Box(0.0, self.range_max, (self.beams,), np.float32)
         spaces["command"] = token_space()
         return Dict({name: spaces[name] for name in MODES[self.mode]})
 
-    def pack(
-        self, row: NDArray[np.float32], tokens: NDArray[np.int64]
-    ) -> dict[str, NDArray[Any]]:
+    def pack(self, row: NDArray[np.float32], tokens: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
         """The observation as fresh arrays.
 
         Args:
@@ -194,7 +194,7 @@ def write_remembered(
 
 @njit(cache=True, inline="always")
 def _write_ends(
-    row: NDArray[np.float32], at: int, item: np.ndarray, x: float, y: float, c: float, s: float
+    row: NDArray[np.float32], at: int, item: Any, x: float, y: float, c: float, s: float
 ) -> None:
     row[at] = x + c * item.start_x - s * item.start_y
     row[at + 1] = y + s * item.start_x + c * item.start_y

@@ -14,7 +14,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.commands import Command
-from semnav_env.features.extract import ExtractorSettings
+from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import FloatArray, Pose, compose
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.memory import remember
@@ -77,9 +77,7 @@ def observe(
     grid, starts, ends, directions, sensor = lidar
     x, y, heading = lidar_world
     seed, episode, step = key
-    sense(
-        x, y, heading, grid, starts, ends, directions, sensor, seed, episode, step, ranges
-    )
+    sense(x, y, heading, grid, starts, ends, directions, sensor, seed, episode, step, ranges)
     limits = sensor[0]
     extract_arrays(
         ranges,
@@ -145,6 +143,8 @@ class Perception:
         self.memory.clear()
         self.follower = Follower(command, care=0.5, jamb_margin=0.3)
         self._started = False
+        self._looked_from: Pose = (0.0, 0.0, 0.0)
+        self._looked_at, self._looked_on = 0, (0, 0)
 
     def sense(
         self, true_pose: Pose, odometry: Pose, velocity: Pose, key: tuple[int, int, int]

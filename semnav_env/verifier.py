@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -151,7 +152,7 @@ class Verifier:
     def route(self) -> FloatArray:
         """The true route as points, shape (k, 2), world frame."""
         points = [self.start[:2], *(place(goal) for goal in self.planned_goals)]
-        ways = [self._geodesic.to(b).way(a) for a, b in zip(points, points[1:], strict=False)]
+        ways = [self._geodesic.to(b).way(a) for a, b in pairwise(points)]
         return np.vstack(ways) if ways else np.array([self.start[:2]])
 
     @property
@@ -171,7 +172,7 @@ class Verifier:
         if crossed is not None:
             self.crossed.append(crossed.name)
         named = goal.door.name if goal.kind is GoalKind.PASS and goal.door is not None else None
-        if self.failure is None and not self.follower.done or completed:
+        if (self.failure is None and not self.follower.done) or completed:
             if crossed is not None and crossed.name != named:
                 self.failure = Verdict.WRONG_DOOR
             elif not completed and self._went_astray(goal, pose):

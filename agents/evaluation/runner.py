@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.agents.base import make_agent
 from semnav_env.agents.evaluation.results import Result
 from semnav_env.agents.evaluation.suites import Trial
-from semnav_env.env import CONTROL_HZ, SemNavEnv
+from semnav_env.agents.registry import make_agent
+from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import placement_error
@@ -96,7 +96,9 @@ def scattered(
 ) -> Pose:
     """A free pose around the trial's, each part within its scatter."""
     while True:
-        x, y, heading = (p + rng.uniform(-s, s) for p, s in zip(trial.pose, trial.scatter, strict=True))
+        x, y, heading = (
+            p + rng.uniform(-s, s) for p, s in zip(trial.pose, trial.scatter, strict=True)
+        )
         if placement_error(floor_plan, robot, (x, y, heading)) is None:
             return x, y, heading
 

@@ -52,7 +52,7 @@ _FROM_WEST = _trials(
     "turn right at the intersection and go through the first door on the left",
     "turn right at the intersection and follow the hallway until the end",
     "go down the hallway, turn left at the intersection and go through the first door on the left",
-    "turn left at the intersection, turn right at the corner and enter the second door on the right",
+    "turn left at the intersection, turn right at the corner and take the second door on the right",
     "turn left at the intersection, turn right at the corner and take the last door on the left",
 )
 

@@ -1,4 +1,4 @@
-"""Shortest ways through a floor plan, on a grid; for rewards and for path lengths to compare with."""
+"""Shortest ways through a floor plan, on a grid: for rewards and for comparing path lengths."""
 
 from __future__ import annotations
 
@@ -106,7 +106,9 @@ class WaysTo:
 
 
 @njit(cache=True)
-def _read(field: FloatArray, west: float, south: float, spacing: float, x: float, y: float) -> float:
+def _read(
+    field: FloatArray, west: float, south: float, spacing: float, x: float, y: float
+) -> float:
     """The distance at a point: over the best of the nearest nine cells."""
     row, column = round((y - south) / spacing), round((x - west) / spacing)
     best = np.inf

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +15,32 @@ from semnav_env.grounding.doors import doors_along
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.perception import Perception
 from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.viewer import Viewer
+from semnav_env.robots import RobotSpec
+from semnav_env.tasks import CommandTask
 from semnav_env.verifier import Verdict, Verifier
+from semnav_env.world import World
 
-if TYPE_CHECKING:
-    from semnav_env.env import SemNavEnv
+
+class Stage(Protocol):
+    """What of an environment is shown."""
+
+    floor_plan: FloorPlan
+    robot: RobotSpec
+    world: World
+    perception: Perception
+    task: CommandTask
+    metadata: dict[str, Any]
+
+    @property
+    def believed_pose(self) -> Pose:
+        """Where the robot believes to be, in the odometry frame."""
+
+    @property
+    def seconds(self) -> float:
+        """Simulated time since the start of the episode."""
 
 
 class Scribe:
@@ -35,7 +55,7 @@ class Scribe:
         """Start a new trail."""
         self._trail = []
 
-    def draw(self, env: SemNavEnv, mode: str) -> NDArray[np.uint8] | None:
+    def draw(self, env: Stage, mode: str) -> NDArray[np.uint8] | None:
         """The picture, or None in "human" mode, where it goes to a window."""
         if self._viewer is None:
             self._viewer = Viewer(self._floor_plan, fps=env.metadata["render_fps"])
@@ -55,7 +75,7 @@ class Scribe:
         """A picture is drawn anew after unpickling; windows do not travel."""
         return {**self.__dict__, "_viewer": None}
 
-    def frame(self, env: SemNavEnv) -> Frame:
+    def frame(self, env: Stage) -> Frame:
         """This moment of the episode, world frame."""
         perception, verifier, pose = env.perception, env.task.verifier, env.world.pose
         believed = env.believed_pose

@@ -134,5 +134,7 @@ def _pose(given: object) -> Pose | None:
     try:
         x, y, heading = (float(value) for value in given)  # type: ignore[attr-defined]
     except (TypeError, ValueError):
-        raise ValueError(f"a pose is (x, y, heading) in metres and radians, not {given!r}") from None
+        raise ValueError(
+            f"a pose is (x, y, heading) in metres and radians, not {given!r}"
+        ) from None
     return x, y, heading
