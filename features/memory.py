@@ -6,7 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.memory import LEAST_HITS, REMEMBERED, counting, remember
+from semnav_env.features.kernels.memory import (
+    REMEMBERED,
+    counting_doors,
+    counting_walls,
+    remember,
+)
 from semnav_env.features.scene import Door, Scene, Wall
 
 MAX_WALLS, MAX_DOORS = 512, 64
@@ -17,7 +22,8 @@ class SceneMemory:
     """What was seen so far, in one fixed frame (the odometry frame).
 
     A wall counts from its second sighting. A door counts from its third, while no more than a
-    third of the scans contradict it, that is, found its opening filled.
+    third of the scans contradict it, that is, found its opening filled; of two doors in one place,
+    only the one that was seen more often.
     """
 
     def __init__(self) -> None:
@@ -58,18 +64,21 @@ class SceneMemory:
     @property
     def size(self) -> tuple[int, int]:
         """How many walls and doors count."""
-        return len(self._counting(0)), len(self._counting(1))
+        return len(self._counting_walls()), len(self._counting_doors())
 
     def scene(self) -> Scene:
         """The walls and doors that count, in the memory's frame, in the order first seen."""
-        walls = [Wall((a, b), (c, d)) for a, b, c, d, *_ in self._counting(0).tolist()]
+        walls = [Wall((a, b), (c, d)) for a, b, c, d, *_ in self._counting_walls().tolist()]
         doors = [
             Door((a, b), (c, d), sightings=hits)
-            for a, b, c, d, hits, _ in self._counting(1).tolist()
+            for a, b, c, d, hits, _ in self._counting_doors().tolist()
         ]
         return Scene(tuple(walls), tuple(doors))
 
-    def _counting(self, kind: int) -> NDArray[np.void]:
-        """The entries that count (`kind` 0: walls, 1: doors)."""
-        entries = (self._walls, self._doors)[kind][: self._used[kind]]
-        return entries[counting(entries, LEAST_HITS[kind])]
+    def _counting_walls(self) -> NDArray[np.void]:
+        walls = self._walls[: self._used[0]]
+        return walls[counting_walls(walls)]
+
+    def _counting_doors(self) -> NDArray[np.void]:
+        doors = self._doors[: self._used[1]]
+        return doors[counting_doors(doors)]

@@ -277,6 +277,6 @@ def _leads_out(walls: FloatArray, sign: float, edge: float, offset: float) -> bo
         if y2 < y1:
             x1, y1, x2, y2 = x2, y2, x1, y1
         steep = y2 - y1 > abs(x2 - x1)
-        if steep and y1 < offset + 0.6 and y2 > offset + LEAF and abs(x1 - edge) < 0.4:
+        if steep and y1 < offset + 0.6 and y2 > offset + LEAF and abs(x1 - edge) < 0.25:
             return True
     return False

@@ -27,8 +27,11 @@ REMEMBERED = np.dtype(
 Ends: TypeAlias = tuple[float, float, float, float]
 """Start and end of a wall or door: x1, y1, x2, y2 in metres."""
 
-LEAST_HITS = (2, 3)
+WALL_HITS, DOOR_HITS = 2, 3
 """A wall counts from so many sightings on, and a door."""
+
+SAME_PLACE = 0.5
+"""Of two doors whose middles are nearer than this only one counts, metres."""
 
 RECENT_HITS = 10
 """Older sightings together weigh no more than so many: odometry drifts."""
@@ -81,17 +84,46 @@ def remember(
 
 
 @njit(cache=True)
-def does_count(entry: Any, least_hits: int) -> bool:
-    """Whether it was seen often enough, and at most a third of the scans contradict it."""
-    return bool(entry.hits >= least_hits and 2 * entry.misses <= entry.hits)
+def wall_counts(walls: Any, k: int) -> bool:
+    """Whether wall `k` of the remembered ones was seen often enough."""
+    return bool(walls[k].hits >= WALL_HITS)
 
 
 @njit(cache=True)
-def counting(entries: Any, least_hits: int) -> NDArray[np.bool_]:
-    """Which of the entries count, shape (n,)."""
-    mask = np.empty(len(entries), dtype=np.bool_)
-    for i in range(len(entries)):
-        mask[i] = does_count(entries[i], least_hits)
+def door_counts(doors: Any, k: int) -> bool:
+    """Whether door `k` of the remembered ones was seen often enough to be taken for a door.
+
+    At most a third of the scans may contradict it; and of two in the same place, such as a door
+    and the gap to its leaf, only the one that was seen more often counts.
+    """
+    door = doors[k]
+    if door.hits < DOOR_HITS or 2 * door.misses > door.hits:
+        return False
+    for i in range(len(doors)):
+        rival = doors[i]
+        first = rival.hits > door.hits or (rival.hits == door.hits and i < k)
+        x = 0.5 * (rival.start_x + rival.end_x - door.start_x - door.end_x)
+        y = 0.5 * (rival.start_y + rival.end_y - door.start_y - door.end_y)
+        if first and x * x + y * y < SAME_PLACE**2 and 2 * rival.misses <= rival.hits:
+            return False
+    return True
+
+
+@njit(cache=True)
+def counting_walls(walls: Any) -> NDArray[np.bool_]:
+    """Which of the remembered walls count, shape (n,)."""
+    mask = np.empty(len(walls), dtype=np.bool_)
+    for k in range(len(walls)):
+        mask[k] = wall_counts(walls, k)
+    return mask
+
+
+@njit(cache=True)
+def counting_doors(doors: Any) -> NDArray[np.bool_]:
+    """Which of the remembered doors count, shape (n,)."""
+    mask = np.empty(len(doors), dtype=np.bool_)
+    for k in range(len(doors)):
+        mask[k] = door_counts(doors, k)
     return mask
 
 

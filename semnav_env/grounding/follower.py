@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from semnav_env.commands import Command
 from semnav_env.commands.clauses import Follow, Stop
-from semnav_env.features.frames import Pose
+from semnav_env.features.frames import Pose, relative
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.ground import ground
@@ -46,6 +46,7 @@ class Follower:
     goal: Goal = field(default=Goal(GoalKind.STOP, (0.0, 0.0, 0.0)), init=False)
     impossible: str | None = field(default=None, init=False)
     _last: Pose = field(default=(0.0, 0.0, 0.0), init=False)
+    _farthest: Pose = field(default=(0.0, 0.0, 0.0), init=False)
 
     def start(self, scene: Scene, pose: Pose) -> None:
         """Begin with the first clause."""
@@ -70,6 +71,8 @@ class Follower:
         """
         completed = not self.done and self._completed(pose, speed)
         self._last = pose
+        if relative(self.begin, pose)[0] > relative(self.begin, self._farthest)[0]:
+            self._farthest = pose
         if completed:
             self._begin_next(scene(), pose)
         return completed
@@ -84,7 +87,7 @@ class Follower:
                 self.command.clauses[self.active],
                 scene,
                 self.begin,
-                pose,
+                self._farthest,  # what was looked at stays so when the robot comes back
                 complete=self.complete,
                 after_hallway=self._after_hallway,
             )
@@ -105,7 +108,7 @@ class Follower:
     def _begin_clause(self, scene: Scene, begin: Pose, pose: Pose) -> None:
         while not self.done and self._is_only_a_direction(self.active):
             self.active += 1
-        self.begin = begin
+        self.begin, self._farthest = begin, pose
         self.look(scene, pose)
 
     def _is_only_a_direction(self, index: int) -> bool:

@@ -26,7 +26,7 @@ def ground(
         clause: one clause of a command.
         scene: remembered or true walls and doors, any frame.
         begin: where the robot was when the clause began, in the scene's frame.
-        pose: where it is now; `begin` if not given.
+        pose: how far it has come since then; `begin` if not given.
         complete: the scene holds everything there is, so there is nothing to look for.
         after_hallway: the clause follows "go down the hallway", so a bare turn means the next
             place that offers it.

@@ -1,4 +1,4 @@
-"""What a clause is grounded on: a scene, where the clause began, and where the robot is now."""
+"""What a clause is grounded on: a scene, where the clause began, and how far the robot is."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Situation:
     Attributes:
         scene: remembered or true walls and doors.
         begin: where the clause began, in the scene's frame.
-        pose: where the robot is now, in the scene's frame.
+        pose: how far the robot has come since then, in the scene's frame.
         complete: the scene holds everything there is.
         after_hallway: the clause before was "go down the hallway".
     """
@@ -50,7 +50,7 @@ class Situation:
 
     @cached_property
     def progress(self) -> float:
-        """How far along the hallway the robot is, metres."""
+        """How far along the hallway the robot has come, metres."""
         return self.hallway.along((self.pose[0], self.pose[1]))
 
     @property
