@@ -40,17 +40,26 @@ def find_corridors(
         How many corridors were written.
     """
     found = 0
+    square = math.cos(settings.corridor_angle_tolerance)
+    farthest = settings.corridor_distance_max + 0.5 * settings.corridor_probe
     for c in range(corner_count):
         corner = corners[c]
-        if corner.kind == OUTER or math.hypot(corner.x, corner.y) > (
-            settings.corridor_distance_max + 0.5 * settings.corridor_probe
-        ):
+        if corner.kind == OUTER or corner.x**2 + corner.y**2 > farthest**2:
             continue
         ending, starting = scratch.corner_ends[c, 0], scratch.corner_ends[c, 1]
         for probe in range(2):
             along_x, along_y = probe_direction(corner.kind, ending, starting, probe, scratch)
             reach = nearest_wall(
-                corner.x, corner.y, along_x, along_y, ending, starting, walls, settings, scratch
+                corner.x,
+                corner.y,
+                along_x,
+                along_y,
+                ending,
+                starting,
+                walls,
+                square,
+                settings,
+                scratch,
             )
             if reach < 0.0 or found == len(corridors):
                 continue
@@ -91,6 +100,7 @@ def nearest_wall(
     ending: int,
     starting: int,
     walls: int,
+    square: float,
     settings: Any,
     scratch: Any,
 ) -> float:
@@ -99,7 +109,6 @@ def nearest_wall(
     -1 too if that wall is met from behind or too far from square, or beyond the probe.
     """
     nearest = settings.corridor_probe
-    square = math.cos(settings.corridor_angle_tolerance)
     met = False
     for k in range(walls):
         if k in (ending, starting):

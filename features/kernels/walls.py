@@ -42,12 +42,16 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
                 count += 1
         for k in range(group_start, count - 1):
             settle_border(xs, ys, pieces[k], pieces[k + 1])
+        if count > group_start + 1:
+            for k in range(group_start, count):
+                gather(xs, ys, pieces[k].first, pieces[k].last, pieces[k])
+                fit(xs, ys, pieces[k])
     return count
 
 
 @njit(cache=True, error_model="numpy")
 def settle_border(xs: FloatArray, ys: FloatArray, before: Any, after: Any) -> None:
-    """Give every point around a cut to the line it is nearer to, and fit both lines again.
+    """Move the border of two pieces until every point is with the line it is nearer to.
 
     The end-point fit finds a corner only to within its split distance. The point at the cut is
     in neither piece yet.
@@ -65,10 +69,7 @@ def settle_border(xs: FloatArray, ys: FloatArray, before: Any, after: Any) -> No
         while last > before.first + 1 and prefers_second(before, after, xs[last], ys[last]):
             first = last
             last -= 1
-    gather(xs, ys, before.first, last, before)
-    gather(xs, ys, first, after.last, after)
-    fit(xs, ys, before)
-    fit(xs, ys, after)
+    before.last, after.first = last, first
 
 
 @njit(cache=True, error_model="numpy")

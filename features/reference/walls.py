@@ -110,19 +110,21 @@ def _cuts(points: FloatArray, first: int, last: int, limit: float) -> list[int]:
 
 
 def _straight_runs(sweep: Sweep, group: list[int], limit: float) -> list[list[int]]:
-    """Beams of each straight run, the borders between runs settled one after the other."""
+    """Beams of each straight run, after settling the borders between them."""
     points = sweep.points(group)
     cuts = [-1, *_cuts(points, 0, len(group) - 1, limit), len(group)]
     runs = [range(a + 1, b) for a, b in itertools.pairwise(cuts) if b - a > 2]
-    for k, (run, following) in enumerate(itertools.pairwise(runs)):
-        if following.start == run.stop + 1:
-            runs[k], runs[k + 1] = _settled(points, runs[k], following)
+    lines = [Piece(list(run), points[run.start : run.stop]) for run in runs]
+    for k in range(len(runs) - 1):
+        if runs[k + 1].start == runs[k].stop + 1:
+            runs[k : k + 2] = _settled(points, lines[k : k + 2], *runs[k : k + 2])
     return [[group[i] for i in run] for run in runs]
 
 
-def _settled(points: FloatArray, before: range, after: range) -> tuple[range, range]:
+def _settled(
+    points: FloatArray, lines: list[Piece], before: range, after: range
+) -> tuple[range, range]:
     """Move the border between two runs until every point is with the line it is nearer to."""
-    lines = [Piece(list(run), points[run.start : run.stop]) for run in (before, after)]
 
     def prefers_after(i: int) -> bool:
         return abs(lines[0].offset(points[i])) > abs(lines[1].offset(points[i]))
