@@ -70,7 +70,7 @@ def path_clearance(
             px, py = points[k, 0], points[k, 1] - left
             dx, dy = c * px + s * py - poses[m, 0], c * py - s * px - poses[m, 1]
             ahead, aside = abs(ch * dx + sh * dy), abs(ch * dy - sh * dx)
-            least = min(least, max(ahead - length / 2, aside - width / 2))
+            least = min(least, float(max(ahead - length / 2, aside - width / 2)))
             if least < enough:
                 return least
     return least
