@@ -18,6 +18,7 @@ COMMANDS = {
     "demo": ("demo", "let a robot carry out a command"),
     "ground": ("ground", "say what a command refers to in a floor plan"),
     "evaluate": ("evaluate", "measure an agent on a suite of commands"),
+    "train": ("train", "teach an agent, and keep what it learned"),
     "bench": ("bench", "time a step of the environment and its parts"),
     "doctor": ("doctor", "check the installation, and say how to mend it"),
 }

@@ -1,0 +1,74 @@
+"""Drives as it was trained to; needs no more than NumPy and safetensors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.agents.base import Observation
+from semnav_env.agents.learning.compact import COMPACT_SIZE, compact
+from semnav_env.agents.learning.files import POLICY, Description, load_tensors
+from semnav_env.agents.learning.policy import Policy
+from semnav_env.robots import robot_spec
+
+
+class LearnedAgent:
+    """A trained policy, without the noise it explored with.
+
+    Args:
+        policy: from a compact observation to an action.
+        robot: name of the body that it was trained on.
+        repeat: steps for which an action holds.
+    """
+
+    observation = "all"
+
+    def __init__(self, policy: Policy, robot: str, repeat: int) -> None:
+        self.policy, self.robot, self.repeat = policy, robot, repeat
+        self._held = 0
+        self._action: NDArray[np.float32]
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """The agent in a folder that `semnav train` wrote.
+
+        Raises:
+            ValueError: there is none, it is damaged, or it does not fit this version.
+            OSError: a file cannot be read.
+            ImportError: safetensors is not installed.
+        """
+        folder = Path(path)
+        description = Description.read(folder)
+        fitting = (COMPACT_SIZE, robot_spec(description.robot).action_size)
+        widths = description.widths
+        if (widths[0], widths[-1]) != fitting:
+            raise ValueError(
+                f"{folder}: the policy takes {widths[0]} values and gives {widths[-1]}; this "
+                f"version has {fitting[0]} and {fitting[1]}: train it anew"
+            )
+        try:
+            policy = Policy.from_tensors(load_tensors(folder / POLICY), widths)
+        except ValueError as error:
+            raise ValueError(f"{folder / POLICY}: {error}") from None
+        return cls(policy, description.robot, description.repeat)
+
+    def reset(self, info: dict[str, Any]) -> None:
+        """Begin an episode.
+
+        Raises:
+            ValueError: it is to drive another robot.
+        """
+        robot = info["robot_spec"].name
+        if robot != self.robot:
+            raise ValueError(f"this agent was trained on {self.robot!r}, not {robot!r}")
+        self._held = 0
+
+    def act(self, observation: Observation) -> NDArray[np.float32]:
+        """The action: a new one every `repeat` steps."""
+        if self._held == 0:
+            self._action = self.policy.act(compact(observation))
+        self._held = (self._held + 1) % self.repeat
+        return self._action.copy()

@@ -1,0 +1,61 @@
+"""What a small policy sees of an observation: one short vector, the same in training and after."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.agents.base import Observation
+from semnav_env.observations import GOAL_SIZE
+
+Array = NDArray[np.float32]
+
+SECTORS = 54
+"""Parts of the scan of which the nearest hit counts: 5 degrees each for a lidar of 270 degrees."""
+
+COMPACT_SIZE = GOAL_SIZE + 3 + SECTORS
+"""Length of what `compact` returns: the goal, the velocity, the scan."""
+
+_KINDS = GOAL_SIZE - 9
+
+
+def compact(observation: Observation) -> Array:
+    """The goal, the velocity and the nearest hits around, each value in [-1, 1].
+
+    Places and speeds go through p / (1 + |p|): direction is kept, near is told apart finely and
+    far coarsely, and nothing grows without bound. The text of the command is left out: what it
+    refers to is in the goal already.
+
+    Args:
+        observation: of an environment with `observation="all"`.
+
+    Returns:
+        Shape (COMPACT_SIZE,): the kind of goal (4), its place (2), cosine and sine of its heading,
+        its door's start (2) and end (2), whether it has one; forward, left and turning; and for
+        each sector, clockwise first, the nearest hit.
+    """
+    goal, scan = observation["goal"], observation["scan"]
+    kind, place, heading, jambs, has_door = np.split(goal, (_KINDS, _KINDS + 2, _KINDS + 4, -1))
+    starts = np.arange(SECTORS) * len(scan) // SECTORS
+    values: Array = np.concatenate(
+        (
+            kind,
+            _squash_place(place),
+            heading,
+            _squash_place(jambs[:2]),
+            _squash_place(jambs[2:]),
+            has_door,
+            _squash(observation["odometry"][4:]),
+            _squash(np.minimum.reduceat(scan, starts)),
+        ),
+        dtype=np.float32,
+    )
+    return values
+
+
+def _squash_place(place: Array) -> Array:
+    return np.asarray(place / (1.0 + np.hypot(place[0], place[1])))
+
+
+def _squash(values: Array) -> Array:
+    return np.asarray(values / (1.0 + np.abs(values)))

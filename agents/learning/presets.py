@@ -1,0 +1,103 @@
+"""What to learn and how: named, frozen settings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from semnav_env.agents.evaluation.suites import Trial, suite
+
+
+@dataclass(frozen=True)
+class PPOSettings:
+    """Hyperparameters of proximal policy optimisation (Schulman et al. 2017).
+
+    Attributes:
+        hidden: widths of the layers of policy and value function, each with its own; tanh.
+        rollout: decisions of each environment between updates.
+        batch_size: of a gradient step.
+        epochs: passes over a rollout.
+        learning_rate: of Adam.
+        gamma: discount per decision.
+        gae_lambda: of generalised advantage estimation.
+        clip_range: of the probability ratio.
+        entropy: weight of the entropy bonus.
+        log_std: logarithm of the first standard deviation of the actions.
+        max_kl: divergence from the old policy at which an update stops early.
+    """
+
+    hidden: tuple[int, ...] = (64, 64)
+    rollout: int = 256
+    batch_size: int = 512
+    epochs: int = 10
+    learning_rate: float = 3e-4
+    gamma: float = 0.99
+    gae_lambda: float = 0.95
+    clip_range: float = 0.2
+    entropy: float = 0.0
+    log_std: float = -0.5
+    max_kl: float = 0.05
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A thing to learn.
+
+    Attributes:
+        name: as in `semnav train NAME`.
+        robot: name of the body.
+        floor_plan: where random commands are given, if there are no trials.
+        trials: commands and start poses, drawn evenly; none for random ones.
+        max_seconds: after which an episode of training is cut off.
+        repeat: steps of the environment (1/15 s each) for which one decision holds.
+        envs: environments practised in at once.
+        steps: decisions to train for, unless told otherwise.
+        ppo: how to learn.
+    """
+
+    name: str
+    robot: str
+    floor_plan: str
+    trials: tuple[Trial, ...]
+    max_seconds: float
+    repeat: int
+    envs: int
+    steps: int
+    ppo: PPOSettings = PPOSettings()
+
+
+PRESETS = {
+    preset.name: preset
+    for preset in (
+        Preset(
+            name="quick",
+            robot="wheelchair",
+            floor_plan="heidelberg_hallway",
+            trials=suite("heidelberg"),
+            max_seconds=45.0,
+            repeat=3,
+            envs=16,
+            steps=2_000_000,
+        ),
+        Preset(
+            name="office",
+            robot="wheelchair",
+            floor_plan="office_cross",
+            trials=(),
+            max_seconds=60.0,
+            repeat=3,
+            envs=16,
+            steps=5_000_000,
+        ),
+    )
+}
+
+
+def preset(name: str) -> Preset:
+    """The preset of that name.
+
+    Raises:
+        ValueError: no such preset; lists those there are.
+    """
+    if name not in PRESETS:
+        raise ValueError(f"no preset {name!r}; there are: {', '.join(PRESETS)}")
+    return PRESETS[name]

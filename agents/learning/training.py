@@ -1,0 +1,183 @@
+"""Training by proximal policy optimisation; the one file that imports stable-baselines3."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import asdict, dataclass
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import torch
+from stable_baselines3 import PPO
+from stable_baselines3.common.logger import configure
+from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor
+
+from semnav_env.agents.learning.files import (
+    POLICY,
+    TRAINING,
+    Description,
+    load_tensors,
+    save_tensors,
+)
+from semnav_env.agents.learning.policy import Policy
+from semnav_env.agents.learning.practice import Practice
+from semnav_env.agents.learning.presets import Preset
+from semnav_env.agents.learning.state import read_state, write_state
+
+
+@dataclass(frozen=True)
+class Report:
+    """How training stands; shares and means are of the last hundred episodes, NaN before any.
+
+    Attributes:
+        steps: decisions so far.
+        rate: decisions per second lately.
+        success: share of episodes in which the command was carried out.
+        reward: mean sum of rewards of an episode.
+    """
+
+    steps: int
+    rate: float
+    success: float
+    reward: float
+
+
+class Trainer:
+    """One training, in one folder.
+
+    Args:
+        preset: what to learn.
+        folder: for the agent and, in `tensorboard`, the curves; made if it is not there.
+        seed: of weights, trials, noise and exploration.
+        steps: decisions that the folder's training has behind it; 0 starts anew.
+    """
+
+    def __init__(self, preset: Preset, folder: Path, seed: int, steps: int = 0) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        torch.set_num_threads(1)  # so small a network only loses by more
+        self.preset, self.folder, self.seed = preset, folder, seed
+        self._envs = VecMonitor(DummyVecEnv([partial(Practice, preset)] * preset.envs))
+        self.model = _model(preset, self._envs, _seed_from(seed, steps))
+        self.model.set_logger(configure(str(folder / "tensorboard"), ["tensorboard"]))
+
+    @classmethod
+    def resume(cls, preset: Preset, folder: Path) -> Trainer:
+        """Go on with the training in a folder.
+
+        Weights, the optimizer's state, the count of decisions and the seed are restored. Episodes
+        that were under way are not: all environments start new ones, and random numbers go on
+        from the seed and the count, so an interrupted training and a whole one differ.
+
+        Raises:
+            ValueError: the folder holds no training, a damaged one or one of another preset.
+        """
+        description = Description.read(folder)
+        _check_same(preset, description, folder)
+        path = folder / TRAINING
+        tensors = load_tensors(path)
+        steps = int(tensors["steps"]) if "steps" in tensors else 0
+        trainer = cls(preset, folder, description.seed, steps)
+        try:
+            read_state(trainer.model, tensors)
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
+        return trainer
+
+    def advance(self) -> Report:
+        """Practise for one rollout and learn from it."""
+        start, before = time.perf_counter(), self.steps
+        size = self.model.n_steps * self.model.n_envs
+        self.model.learn(size, reset_num_timesteps=False)
+        rate = (self.steps - before) / (time.perf_counter() - start)
+        episodes = list(self.model.ep_info_buffer or ())
+        return Report(
+            self.steps,
+            rate,
+            _mean(list(self.model.ep_success_buffer or ())),
+            _mean([episode["r"] for episode in episodes]),
+        )
+
+    def save(self) -> None:
+        """Write the folder's files, each in one move."""
+        policy = _actor(self.model)
+        save_tensors(self.folder / TRAINING, write_state(self.model))
+        save_tensors(self.folder / POLICY, policy.tensors())
+        widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
+        Description(
+            robot=self.preset.robot,
+            repeat=self.preset.repeat,
+            widths=widths,
+            preset=plain(self.preset),
+            seed=self.seed,
+            steps=self.steps,
+        ).write(self.folder)
+
+    @property
+    def steps(self) -> int:
+        """Decisions so far."""
+        return int(self.model.num_timesteps)
+
+    def close(self) -> None:
+        """Finish the curves and let go of the environments."""
+        self.model.logger.close()
+        self._envs.close()
+
+
+def plain(preset: Preset) -> dict[str, object]:
+    """The preset as JSON has it."""
+    return dict(json.loads(json.dumps(asdict(preset))))
+
+
+def _model(preset: Preset, envs: VecMonitor, seed: int) -> PPO:
+    ppo = preset.ppo
+    return PPO(
+        "MlpPolicy",
+        envs,
+        learning_rate=ppo.learning_rate,
+        n_steps=ppo.rollout,
+        batch_size=ppo.batch_size,
+        n_epochs=ppo.epochs,
+        gamma=ppo.gamma,
+        gae_lambda=ppo.gae_lambda,
+        clip_range=ppo.clip_range,
+        ent_coef=ppo.entropy,
+        target_kl=ppo.max_kl,
+        policy_kwargs={
+            "net_arch": {"pi": list(ppo.hidden), "vf": list(ppo.hidden)},
+            "log_std_init": ppo.log_std,
+        },
+        seed=seed,
+        device="cpu",
+    )
+
+
+def _seed_from(seed: int, steps: int) -> int:
+    return int(np.random.SeedSequence((seed, steps)).generate_state(1)[0])
+
+
+def _actor(model: PPO) -> Policy:
+    """The part of the model that chooses the mean action."""
+    network = model.policy.mlp_extractor.policy_net
+    layers = [
+        layer for layer in (*network, model.policy.action_net) if isinstance(layer, torch.nn.Linear)
+    ]
+    return Policy(
+        tuple(layer.weight.detach().numpy().copy() for layer in layers),
+        tuple(layer.bias.detach().numpy().copy() for layer in layers),
+    )
+
+
+def _check_same(preset: Preset, description: Description, folder: Path) -> None:
+    now, then = plain(preset), description.preset
+    for name, value in now.items():
+        if then.get(name) != value:
+            raise ValueError(
+                f"{folder} was trained with another preset: {name} was {then.get(name)!r:.60}, "
+                f"{preset.name!r} has {value!r:.60}; start anew with another --out"
+            )
+
+
+def _mean(values: list[float]) -> float:
+    return float(np.mean(values)) if values else float("nan")

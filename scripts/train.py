@@ -1,0 +1,163 @@
+"""`semnav train`: teach an agent, and keep what it learned."""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from tyro.conf import Positional
+
+from semnav_env.agents.learning.files import AGENT
+from semnav_env.agents.learning.presets import Preset, preset
+
+if TYPE_CHECKING:
+    from semnav_env.agents.learning.training import Report, Trainer
+
+SAVE_EVERY = 30.0
+"""Seconds between checkpoints."""
+
+INTERRUPTED = 130
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Train an agent on a preset with proximal policy optimisation (extra `rl`).
+
+    Ends at the first of --steps and --minutes. Ctrl-C ends it after the update under way; what was
+    learned is saved, and --resume goes on from there.
+
+    Attributes:
+        preset: what to learn: quick.
+        out: folder of the agent; runs/PRESET if not given.
+        steps: decisions to have trained for at the end; the preset's own number if not given.
+        minutes: to train for, this time.
+        seed: of weights, trials, noise and exploration; a resumed training has its own.
+        resume: go on with the training in the folder.
+    """
+
+    preset: Positional[str] = "quick"
+    out: Path | None = None
+    steps: int | None = None
+    minutes: float | None = None
+    seed: int = 0
+    resume: bool = False
+
+    def run(self) -> int:
+        """Train, save and say how it went."""
+        wanted = preset(self.preset)
+        folder = self.out or Path("runs") / wanted.name
+        self._check(folder)
+        trainer = self._trainer(wanted, folder)
+        console = Console(stderr=True)
+        limits = Limits(wanted.steps if self.steps is None else self.steps, self.minutes)
+        with _stopped_by_signals() as stop, _bar(console) as bar:
+            report = _train(trainer, limits, stop, bar)
+        trainer.close()
+        interrupted = "interrupted; " if stop else ""
+        print(f"{interrupted}{trainer.steps} decisions{_learned(report)}; saved in {folder}")
+        return INTERRUPTED if stop else 0
+
+    def _check(self, folder: Path) -> None:
+        if self.steps is not None and self.steps < 0:
+            raise ValueError(f"--steps is {self.steps}; it must be at least 0")
+        if self.minutes is not None and not 0 < self.minutes < float("inf"):
+            raise ValueError(f"--minutes is {self.minutes}; it must be positive and finite")
+        if self.seed < 0:
+            raise ValueError(f"--seed is {self.seed}; it must be at least 0")
+        if not self.resume and (folder / AGENT).exists():
+            raise ValueError(
+                f"{folder} holds a trained agent; go on with it by --resume, or give another --out"
+            )
+
+    def _trainer(self, wanted: Preset, folder: Path) -> Trainer:
+        try:
+            from semnav_env.agents.learning.training import Trainer
+        except ModuleNotFoundError as error:
+            raise ImportError(
+                f'training needs {error.name}: pip install "semnav-env[rl]"'
+            ) from None
+        return Trainer.resume(wanted, folder) if self.resume else Trainer(wanted, folder, self.seed)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """When to end.
+
+    Attributes:
+        steps: decisions in all.
+        minutes: of this run, if it is bounded.
+    """
+
+    steps: int
+    minutes: float | None
+
+    def fraction(self, first: int, steps: int, seconds: float) -> float:
+        """How much is done, at least 1 when it is time to end."""
+        by_steps = 1.0 if steps >= self.steps else (steps - first) / (self.steps - first)
+        return max(by_steps, seconds / (60 * self.minutes) if self.minutes else 0.0)
+
+
+def _train(trainer: Trainer, limits: Limits, stop: list[int], bar: Progress) -> Report | None:
+    """Learn until a limit or a signal; checkpoints on the way and at the end."""
+    task = bar.add_task("learning", total=1.0)
+    first, start = trainer.steps, time.monotonic()
+    saved, report = start, None
+    trainer.save()
+    while not stop and limits.fraction(first, trainer.steps, time.monotonic() - start) < 1.0:
+        report = trainer.advance()
+        done = limits.fraction(first, trainer.steps, time.monotonic() - start)
+        bar.update(task, completed=min(done, 1.0), description=_line(report))
+        if time.monotonic() - saved > SAVE_EVERY:
+            trainer.save()
+            saved = time.monotonic()
+            if not bar.console.is_terminal:
+                bar.console.print(_line(report), highlight=False)
+    trainer.save()
+    return report
+
+
+def _bar(console: Console) -> Progress:
+    columns = (BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    return Progress(TextColumn("{task.description}"), *columns, console=console)
+
+
+def _line(report: Report) -> str:
+    return (
+        f"{report.steps} decisions, {report.rate:.0f}/s, "
+        f"success {report.success:.0%}, reward {report.reward:.1f}"
+    )
+
+
+def _learned(report: Report | None) -> str:
+    if report is None:
+        return ""
+    return f", success {report.success:.0%} and reward {report.reward:.1f} while exploring"
+
+
+@contextmanager
+def _stopped_by_signals() -> Iterator[list[int]]:
+    """A list that is filled by the first Ctrl-C or SIGTERM; the second one ends the process."""
+    stop: list[int] = []
+    names = (signal.SIGINT, signal.SIGTERM)
+    before = {name: signal.getsignal(name) for name in names}
+
+    def note(number: int, frame: FrameType | None) -> None:
+        stop.append(number)
+        for name in names:
+            signal.signal(name, before[name])
+
+    for name in names:
+        signal.signal(name, note)
+    try:
+        yield stop
+    finally:
+        for name in names:
+            signal.signal(name, before[name])
