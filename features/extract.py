@@ -25,6 +25,7 @@ from semnav_env.features.scene import Corner, CornerKind, Corridor, Door, Scene,
 from semnav_env.features.settings import ExtractorSettings
 
 DEFAULT_SETTINGS = ExtractorSettings()
+KINDS = tuple(CornerKind)
 
 
 def extract(scan: Scan, settings: ExtractorSettings = DEFAULT_SETTINGS) -> Scene:
@@ -67,30 +68,38 @@ def beam_directions(beams: int, angle_min: float, angle_increment: float) -> Flo
 def to_scene(features: Features) -> Scene:
     """The used entries of the kernels' arrays as a scene."""
     counts = features.counts.tolist()
+    walls = features.walls[: counts[WALLS]].tolist()
+    doors = features.doors[: counts[DOORS]].tolist()
+    corners = features.corners[: counts[CORNERS]].tolist()
+    corridors = features.corridors[: counts[CORRIDORS]].tolist()
     return Scene(
-        tuple(_wall(row) for row in features.walls[: counts[WALLS]].tolist()),
-        tuple(Door(row[:2], row[2:]) for row in features.doors[: counts[DOORS]].tolist()),
-        tuple(
-            Corner(row[:2], CornerKind(row[2]))
-            for row in features.corners[: counts[CORNERS]].tolist()
-        ),
-        tuple(
-            Corridor(row[:2], row[2:]) for row in features.corridors[: counts[CORRIDORS]].tolist()
-        ),
+        tuple([_wall(*row) for row in walls]),
+        tuple([Door((ax, ay), (bx, by)) for ax, ay, bx, by in doors]),
+        tuple([Corner((x, y), KINDS[kind]) for x, y, kind in corners]),
+        tuple([Corridor((ax, ay), (bx, by)) for ax, ay, bx, by in corridors]),
     )
 
 
-def _wall(row: tuple[float, float, float, float, float, int, int, int, int]) -> Wall:
-    flags = row[7]
+def _wall(
+    start_x: float,
+    start_y: float,
+    end_x: float,
+    end_y: float,
+    residual: float,
+    first: int,
+    last: int,
+    flags: int,
+    points: int,
+) -> Wall:
     return Wall(
-        start=row[:2],
-        end=row[2:4],
-        start_rupture=bool(flags & START_RUPTURE),
-        end_rupture=bool(flags & END_RUPTURE),
-        start_break=bool(flags & START_BREAK),
-        end_break=bool(flags & END_BREAK),
-        beams=row[8],
-        residual=row[4],
+        (start_x, start_y),
+        (end_x, end_y),
+        flags & START_RUPTURE != 0,
+        flags & END_RUPTURE != 0,
+        flags & START_BREAK != 0,
+        flags & END_BREAK != 0,
+        points,
+        residual,
     )
 
 
