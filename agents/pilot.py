@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from semnav_env.agents.planning.doorway import target_behind
 from semnav_env.agents.planning.driver import Driver
-from semnav_env.agents.planning.planner import PlannerSettings, Target
+from semnav_env.agents.planning.planner import Target
 from semnav_env.features.frames import FloatArray, Point, Pose, compose, to_parent
 from semnav_env.features.scene import Door
 from semnav_env.grounding import GoalKind
@@ -18,9 +18,6 @@ from semnav_env.robots import RobotSpec
 
 STUCK_AFTER, FREE_AFTER = 8, 12
 """Steps of pushing without moving after which the robot is stuck, and of backing out of it."""
-
-MARGINS = (0.10, 0.06, 0.03, 0.0)
-"""Gaps that the planner tries to keep to obstacles, in this order, metres."""
 
 
 class Pilot:
@@ -34,7 +31,7 @@ class Pilot:
 
     def __init__(self, robot: RobotSpec) -> None:
         self.robot = robot
-        self.driver = Driver(robot, PlannerSettings(margins=MARGINS))
+        self.driver = Driver(robot)
         self._pushed = 0
         self._backing = 0
         self._last: Pose = (0.0, 0.0, 0.0)

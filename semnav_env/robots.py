@@ -63,7 +63,8 @@ WHEELCHAIR = RobotSpec(
     axle=-1.10 / 2 + 1.10 / 3,
     lidar_mount=(0.45, 0.0, 0.0),
     source="a powered wheelchair inside the maximum overall dimensions of ISO 7193 "
-    "(1.20 m x 0.70 m), driven at the rear third of its length; lidar at the front as in Barbret 2021",
+    "(1.20 m x 0.70 m), driven at the rear third of its length; lidar at "
+    "the front as in Barbret 2021",
 )
 
 SPOT = RobotSpec(
