@@ -146,6 +146,20 @@ def _holds_point(
 
 
 @njit(cache=True)
+def bins_around(field: Field, x: float, y: float, radius: float) -> list[tuple[int, int]]:
+    """Where the points of the rows of bins around a place start and end."""
+    size = CELL * BIN
+    bins = field.distance.shape[0] // BIN
+    i0 = max(0, math.floor((x - radius - field.x) / size))
+    i1 = min(bins - 1, math.floor((x + radius - field.x) / size))
+    j0 = max(0, math.floor((y - radius - field.y) / size))
+    j1 = min(bins - 1, math.floor((y + radius - field.y) / size))
+    if i0 > i1:
+        j1 = j0 - 1
+    return [(field.first[j * bins + i0], field.first[j * bins + i1 + 1]) for j in range(j0, j1 + 1)]
+
+
+@njit(cache=True)
 def room_at(field: Field, body: Body, x: float, y: float, heading: float) -> float:
     """About how far the body's sides and ends are from the nearest point, metres, never below 0.
 

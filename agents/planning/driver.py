@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from semnav_env.agents.planning.follower import Progress, Steering, follow, stopping_pose
-from semnav_env.agents.planning.nudge import best_nudge
+from semnav_env.agents.planning.motion import moved
+from semnav_env.agents.planning.nudge import best_nudge, path_clearance, path_clearances
 from semnav_env.agents.planning.path import Path
 from semnav_env.agents.planning.planner import PlannerSettings, Target, is_free, plan
 from semnav_env.agents.planning.track import FollowerSettings, Track
@@ -37,6 +38,9 @@ class Driver:
         planner: the planner's settings.
         follower: the follower's settings.
         check_every: steps between two looks whether the path is still free.
+        tolerance: metres by which a path may lose clearance before it is planned anew.
+        foresight: seconds ahead for which a collision is looked for.
+        alert: metres of clearance below which that counts as one.
         retry_after: steps to stand still where no way leads on.
     """
 
@@ -44,6 +48,9 @@ class Driver:
     planner: PlannerSettings = field(default_factory=PlannerSettings)
     follower: FollowerSettings = field(default_factory=FollowerSettings)
     check_every: int = 3
+    tolerance: float = 0.03
+    foresight: float = 0.3
+    alert: float = 0.006
     retry_after: int = 8
 
     def __post_init__(self) -> None:
@@ -58,6 +65,7 @@ class Driver:
         self._progress = Progress()
         self._shift: Pose = (0.0, 0.0, 0.0)
         self._step = self._wait = 0
+        self._braking = False
 
     def drive(
         self,
@@ -76,6 +84,9 @@ class Driver:
         """
         self._step += 1
         self._wait -= 1
+        self._braking = self._braking and max(map(abs, velocity)) > 0.05
+        if self._braking:
+            return STOP
         if self._must_plan(points, target, pose):
             if self._wait > 0:
                 return STOP
@@ -83,10 +94,35 @@ class Driver:
         assert self._track is not None
         steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
         self._progress = steering.progress
-        if steering.deviation > self.follower.lost:
-            self._track = None
+        if steering.deviation > self.follower.lost or self._hits_soon(
+            points, pose, velocity, steering
+        ):
+            self._track, self._braking = None, True
             return STOP
         return steering
+
+    def _hits_soon(
+        self,
+        points: FloatArray,
+        pose: Pose,
+        velocity: tuple[float, float, float],
+        steering: Steering,
+    ) -> bool:
+        """Whether the steering, kept up for `foresight` seconds and a stop, leads into a point.
+
+        A robot that is already closer than `alert` may go on as long as it comes no closer.
+        """
+        command = np.array(steering.command)
+        axle = self.robot.axle
+        twist = command - (0.0, command[2] * axle, 0.0)
+        braking = math.hypot(velocity[0], velocity[1]) / self.robot.max_acceleration / 2
+        times = (self.foresight + braking) * np.arange(5) / 4
+        ahead = np.array([moved(0.0, 0.0, 0.0, tuple(twist), share) for share in times])
+        seen, size = points_to_local(pose, points), (self.robot.length, self.robot.width)
+        near = seen[np.abs(seen).max(axis=1) < self.robot.length]
+        now = path_clearance(near, ahead[:1], *size, 0.0, 0.0, -np.inf)
+        soon = path_clearance(near, ahead[1:], *size, 0.0, 0.0, -np.inf)
+        return bool(soon < self.alert and soon < now - 0.004)
 
     def _must_plan(self, points: FloatArray, target: Target, pose: Pose) -> bool:
         if self._track is None or self._target is None or self.path is None:
@@ -119,21 +155,23 @@ class Driver:
         assert self.path is not None
         seen, margin = points_to_local(pose, points), self.path.margin
         size = (self.robot.length, self.robot.width)
-        left, turn, clearance = best_nudge(seen, self._ahead(pose, 1.2), *size, margin + 0.005)
+        left, turn, _ = best_nudge(seen, self._ahead(pose, 1.2), *size, margin + 0.005)
         if left or turn:
             shift = compose((0.0, left, turn), relative(pose, self._shift))
             self._shift = compose(pose, shift)
-        if clearance < min(0.0, margin - 0.03):
-            return False
-        return is_free(seen, self._ahead(pose, 2.5), self.robot, max(-0.02, margin - 0.03))
+        planned = self.path.clearance[self._samples_ahead(2.5)]
+        now = path_clearances(seen, self._ahead(pose, 2.5), *size, margin)
+        return bool((now > np.minimum(planned, margin) - self.tolerance).all())
+
+    def _samples_ahead(self, distance: float) -> slice:
+        assert self._track is not None
+        along, first = self._track.distance, self._progress.sample
+        return slice(first, int(np.searchsorted(along, along[first] + distance)) + 1, 2)
 
     def _ahead(self, pose: Pose, distance: float) -> FloatArray:
         """The centre's poses on the path ahead, about 0.1 m apart, in the robot frame, (M, 3)."""
         assert self.path is not None
-        assert self._track is not None
-        along, first = self._track.distance, self._progress.sample
-        last = int(np.searchsorted(along, along[first] + distance))
-        poses = self.path.poses[first : last + 1 : 2]
+        poses = self.path.poses[self._samples_ahead(distance)]
         frame = relative(pose, self._shift)
         places = points_to_parent(frame, poses[:, :2])
         return np.column_stack((places, poses[:, 2] + frame[2]))

@@ -7,17 +7,30 @@ import math
 import numpy as np
 from numba import njit
 
-from semnav_env.agents.planning.collision import Body, Field, room_at
+from semnav_env.agents.planning.collision import Body, Field, bins_around
 from semnav_env.features.frames import FloatArray
 
 
 @njit(cache=True)
-def rooms(field: Field, body: Body, poses: FloatArray) -> FloatArray:
-    """About the clearance at axle poses, shape (M, 3), in metres, shape (M,)."""
-    room = np.empty(len(poses))
-    for k in range(len(poses)):
-        room[k] = room_at(field, body, poses[k, 0], poses[k, 1], poses[k, 2])
-    return room
+def clearances(field: Field, body: Body, poses: FloatArray, most: float) -> FloatArray:
+    """How far the nearest point lies outside the footprint at axle poses, metres, shape (M,).
+
+    Distance is the larger of those along and across the body, at most `most`; negative inside.
+    """
+    clearance = np.empty(len(poses))
+    middle = (body.front - body.rear) / 2
+    half_length, half_width = (body.front + body.rear) / 2, body.half_width
+    around = math.hypot(half_length + most, half_width + most)
+    for m in range(len(poses)):
+        c, s = math.cos(poses[m, 2]), math.sin(poses[m, 2])
+        x, y = poses[m, 0] + c * middle, poses[m, 1] + s * middle
+        clearance[m] = most
+        for k, upto in bins_around(field, x, y, around):
+            for p in range(k, upto):
+                dx, dy = field.points[p, 0] - x, field.points[p, 1] - y
+                outside = max(abs(c * dx + s * dy) - half_length, abs(c * dy - s * dx) - half_width)
+                clearance[m] = min(clearance[m], outside)
+    return clearance
 
 
 @njit(cache=True)

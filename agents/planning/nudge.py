@@ -77,6 +77,18 @@ def path_clearance(
 
 
 @njit(cache=True)
+def path_clearances(
+    points: FloatArray, poses: FloatArray, length: float, width: float, most: float
+) -> FloatArray:
+    """Clearance at each of the poses, (M, 3), as `path_clearance` and at most `most`, (M,)."""
+    clearance = np.empty(len(poses))
+    for m in range(len(poses)):
+        least = path_clearance(points, poses[m : m + 1], length, width, 0.0, 0.0, -math.inf)
+        clearance[m] = min(least, most)
+    return clearance
+
+
+@njit(cache=True)
 def _near_points(points: FloatArray, poses: FloatArray, length: float, width: float) -> FloatArray:
     kept = np.empty_like(points)
     n = 0

@@ -15,6 +15,9 @@ from semnav_env.features.frames import FloatArray, Pose, compose
 SPACING = 0.04
 """Metres between the samples of a path."""
 
+MOST_CLEARANCE = 0.35
+"""Metres; more makes no difference to how a path is driven."""
+
 TURN_SPACING = 0.05
 """Radians between the samples of a path."""
 
@@ -29,7 +32,8 @@ class Path:
         axle: x of the axle in the robot frame, metres.
         complete: whether it reaches the target; else it comes as near as was found.
         margin: metres that the search kept clear.
-        room: about the clearance along the samples, metres, shape (M,).
+        clearance: distance to the nearest obstacle at the samples, metres, at most
+            `MOST_CLEARANCE`, shape (M,).
         expansions: how many states the search looked at.
     """
 
@@ -38,7 +42,7 @@ class Path:
     axle: float
     complete: bool
     margin: float
-    room: FloatArray
+    clearance: FloatArray
     expansions: int = 0
 
     @cached_property

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from semnav_env.agents.planning.collision import Body, Field, body_of, field_of, is_clear
-from semnav_env.agents.planning.free import all_clear, rooms
+from semnav_env.agents.planning.free import all_clear, clearances
 from semnav_env.agents.planning.guidance import Guidance, guidance_to
 from semnav_env.agents.planning.lanes import lane_anchors
 from semnav_env.agents.planning.motion import Costs, Margin, Triple
-from semnav_env.agents.planning.path import Path, sample
+from semnav_env.agents.planning.path import MOST_CLEARANCE, Path, sample
 from semnav_env.agents.planning.search import Aim, Problem, search
 from semnav_env.agents.planning.shorten import merged, rounded, shortened
 from semnav_env.features.frames import FloatArray, Pose, compose
@@ -42,7 +42,9 @@ class PlannerSettings:
     Attributes:
         margins: gaps to keep on every side, metres, from the widest on.
         detour: seconds of detour that each step to a wider gap is worth.
-        half_window: half the side of the square around the start that is planned in, metres.
+        half_window: half the side of the square around the start that is planned in, metres; it
+            grows with the distance of the target up to `widest`.
+        widest: the largest half window, metres.
         speed: m/s that a straight line counts with.
         turn_rate: rad/s that a turn on the spot counts with.
         reverse: factor on the time of backward motion.
@@ -57,6 +59,7 @@ class PlannerSettings:
     margins: tuple[float, ...] = (0.10, 0.06, 0.03, 0.0)
     detour: float = 1.0
     half_window: float = 7.0
+    widest: float = 32.0
     speed: float = 1.0
     turn_rate: float = 0.8
     reverse: float = 3.0
@@ -64,7 +67,7 @@ class PlannerSettings:
     steering: float = 0.1
     room: float = 0.25
     crowding: float = 3.0
-    efforts: tuple[tuple[float, int], ...] = ((2.0, 500), (5.0, 3000))
+    efforts: tuple[tuple[float, int], ...] = ((2.0, 500), (5.0, 2500))
 
 
 def plan(
@@ -95,7 +98,7 @@ def plan(
     _check_pose("target", target.pose)
     body, axle = body_of(robot), compose(start, (robot.axle, 0.0, 0.0))
     field = field_of(
-        _without_impossible(_checked_points(points), axle, body), start[:2], settings.half_window
+        _without_impossible(_checked_points(points), axle, body), start[:2], _half_window(start, target, settings)
     )
     costs = _costs(robot, settings)
     ways = [
@@ -138,7 +141,7 @@ def _search(
 ) -> Path:
     axle, full = compose(start, (robot.axle, 0.0, 0.0)), guidance.margin
     costs = _costs(robot, settings)
-    margin = Margin(full, _start_room(field, body, axle, full), 0.03, axle[0], axle[1])
+    margin = Margin(full, _start_room(field, body, axle, full), 0.1, axle[0], axle[1])
     anchors = lane_anchors(field, body, guidance.room, guidance.way, settings.room + 0.1, full)
     problem = Problem(
         field,
@@ -159,8 +162,9 @@ def _search(
     hurried = costs._replace(stop=0.25 * costs.stop)
     moves = shortened(field, body, axle, merged(moves), margin, hurried)
     moves = rounded(field, body, axle, moves, margin, costs)
-    room = rooms(field, body, sample(axle, moves)[0])
-    return Path(start, moves, robot.axle, bool(found and guidance.exact), full, room, expansions)
+    clearance = clearances(field, body, sample(axle, moves)[0], MOST_CLEARANCE)
+    complete = bool(found and guidance.exact)
+    return Path(start, moves, robot.axle, complete, full, clearance, expansions)
 
 
 def _aim(target: Target, guidance: Guidance, robot: RobotSpec) -> Aim:
@@ -170,6 +174,12 @@ def _aim(target: Target, guidance: Guidance, robot: RobotSpec) -> Aim:
     tolerance = target.heading_tolerance
     near, free = target.position_tolerance, tolerance is None
     return Aim(x, y, target.pose[2], near, tolerance or 0.0, free, robot.axle)
+
+
+def _half_window(start: Pose, target: Target, settings: PlannerSettings) -> float:
+    """Wide enough for the target and a way around something near it."""
+    away = max(abs(target.pose[0] - start[0]), abs(target.pose[1] - start[1]))
+    return min(max(settings.half_window, away + 3.0), settings.widest)
 
 
 def _nearer(a: Path | None, b: Path, target: Target) -> Path:

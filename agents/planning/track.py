@@ -26,6 +26,7 @@ class FollowerSettings:
         sideways: m/s at most.
         crowded: m/s that are added for each metre of clearance.
         turn_rate: rad/s, on the spot and along arcs.
+        crowded_turn: rad/s along arcs without clearance.
         braking: share of the acceleration limit that stops are planned with.
         stiffness: 1/m; errors die out over about the inverse of this distance.
         preview: seconds by which the curvature is looked up ahead.
@@ -41,6 +42,7 @@ class FollowerSettings:
     sideways: float = 0.3
     crowded: float = 3.0
     turn_rate: float = 1.0
+    crowded_turn: float = 0.4
     braking: float = 0.6
     stiffness: float = 2.5
     preview: float = 0.2
@@ -93,10 +95,13 @@ class Track:
     def speed(self) -> FloatArray:
         """m/s at each sample, zero at the ends of legs, shape (M,)."""
         s = self.settings
-        limit = np.clip(s.creep + s.crowded * self.path.room, 0.25, s.cruise)
+        limit = np.clip(s.creep + s.crowded * self.path.clearance, 0.25, s.cruise)
         bend = np.abs(self.curvature)
-        limit[:-1] = np.minimum(limit[:-1], s.turn_rate / np.maximum(bend, 1e-6))
-        limit[1:] = np.minimum(limit[1:], s.turn_rate / np.maximum(bend, 1e-6))
+        rate = np.clip(
+            s.crowded_turn + s.crowded * self.path.clearance, s.crowded_turn, s.turn_rate
+        )
+        limit[:-1] = np.minimum(limit[:-1], rate[:-1] / np.maximum(bend, 1e-6))
+        limit[1:] = np.minimum(limit[1:], rate[1:] / np.maximum(bend, 1e-6))
         for leg in self.legs:
             limit[leg.last] = 0.0
         braking = s.braking * self.robot.max_acceleration
