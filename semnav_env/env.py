@@ -260,7 +260,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             "robot_spec": self.robot,
             "lidar_spec": self.lidar_spec,
             "pose": start,
-            "route": verifier.route,
+            "route": verifier.route.copy(),
             "route_length": verifier.route_length,
         }
 
@@ -278,7 +278,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             info |= {
                 "is_success": verifier.success,
                 "crossed_doors": tuple(verifier.crossed),
-                "route": verifier.route,
+                "route": verifier.route.copy(),
                 "route_length": verifier.route_length,
                 "impossible": self.perception.follower.impossible,
             }
