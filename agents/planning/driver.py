@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from semnav_env.agents.planning.follower import Progress, Steering, follow, stopping_pose
-from semnav_env.agents.planning.motion import moved
-from semnav_env.agents.planning.nudge import best_nudge, path_clearance, path_clearances
+from semnav_env.agents.planning.guard import SHARES, safe_share
+from semnav_env.agents.planning.nudge import best_nudge, path_clearances
 from semnav_env.agents.planning.path import Path
 from semnav_env.agents.planning.planner import PlannerSettings, Target, is_free, plan
 from semnav_env.agents.planning.track import FollowerSettings, Track
@@ -39,8 +39,7 @@ class Driver:
         follower: the follower's settings.
         check_every: steps between two looks whether the path is still free.
         tolerance: metres by which a path may lose clearance before it is planned anew.
-        foresight: seconds ahead for which a collision is looked for.
-        alert: metres of clearance below which that counts as one.
+        insist_after: how often in a row a steering may be refused before it is let through.
         retry_after: steps to stand still where no way leads on.
     """
 
@@ -49,8 +48,7 @@ class Driver:
     follower: FollowerSettings = field(default_factory=FollowerSettings)
     check_every: int = 3
     tolerance: float = 0.03
-    foresight: float = 0.3
-    alert: float = 0.006
+    insist_after: int = 4
     retry_after: int = 8
 
     def __post_init__(self) -> None:
@@ -66,6 +64,7 @@ class Driver:
         self._shift: Pose = (0.0, 0.0, 0.0)
         self._step = self._wait = 0
         self._braking = False
+        self._refusals = 0
 
     def drive(
         self,
@@ -94,35 +93,37 @@ class Driver:
         assert self._track is not None
         steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
         self._progress = steering.progress
-        if steering.deviation > self.follower.lost or self._hits_soon(
-            points, pose, velocity, steering
-        ):
-            self._track, self._braking = None, True
-            return STOP
-        return steering
+        if steering.deviation > self.follower.lost:
+            return self._stop()
+        return self._guarded(points, pose, velocity, steering)
 
-    def _hits_soon(
+    def _stop(self) -> Steering:
+        """Brake, and plan anew from standstill."""
+        self._track, self._braking = None, True
+        return STOP
+
+    def _guarded(
         self,
         points: FloatArray,
         pose: Pose,
         velocity: tuple[float, float, float],
         steering: Steering,
-    ) -> bool:
-        """Whether the steering, kept up for `foresight` seconds and a stop, leads into a point.
+    ) -> Steering:
+        """The steering, slowed or refused where it leads into something.
 
-        A robot that is already closer than `alert` may go on as long as it comes no closer.
+        After `insist_after` refusals in a row it is let through slowly: what is seen may be noise.
         """
-        command = np.array(steering.command)
-        axle = self.robot.axle
-        twist = command - (0.0, command[2] * axle, 0.0)
-        braking = math.hypot(velocity[0], velocity[1]) / self.robot.max_acceleration / 2
-        times = (self.foresight + braking) * np.arange(5) / 4
-        ahead = np.array([moved(0.0, 0.0, 0.0, tuple(twist), share) for share in times])
-        seen, size = points_to_local(pose, points), (self.robot.length, self.robot.width)
-        near = seen[np.abs(seen).max(axis=1) < self.robot.length]
-        now = path_clearance(near, ahead[:1], *size, 0.0, 0.0, -np.inf)
-        soon = path_clearance(near, ahead[1:], *size, 0.0, 0.0, -np.inf)
-        return bool(soon < self.alert and soon < now - 0.004)
+        share = safe_share(points_to_local(pose, points), steering.command, velocity, self.robot)
+        if share == 0.0:
+            self._refusals += 1
+            if self._refusals <= self.insist_after:
+                return self._stop()
+            share = SHARES[-1]
+        elif share == 1.0:
+            self._refusals = 0
+        if steering.done and self.path is not None and not self.path.complete:
+            return STOP
+        return steering.slowed(share)
 
     def _must_plan(self, points: FloatArray, target: Target, pose: Pose) -> bool:
         if self._track is None or self._target is None or self.path is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -47,6 +47,11 @@ class Steering:
     def command(self) -> tuple[float, float, float]:
         """(forward, left, turn)."""
         return self.forward, self.left, self.turn
+
+    def slowed(self, share: float) -> Steering:
+        """The same, that much slower."""
+        forward, left, turn = (share * value for value in self.command)
+        return replace(self, forward=forward, left=left, turn=turn)
 
 
 def follow(
@@ -123,7 +128,8 @@ def _drive(
     ):
         return None
     speed = _speed(track, sample, along, left_over, across, error)
-    bend = track.curvature[_ahead(track, leg, sample, speed * s.preview)]
+    preview = s.preview * min(speed, math.hypot(velocity[0], velocity[1]))
+    bend = track.curvature[_ahead(track, leg, sample, preview)]
     here = Progress(progress.leg, sample)
     if track.robot.holonomic:
         return _holonomic(track, leg, here, speed, across, error, bend)

@@ -97,9 +97,8 @@ def plan(
     _check_pose("start", start)
     _check_pose("target", target.pose)
     body, axle = body_of(robot), compose(start, (robot.axle, 0.0, 0.0))
-    field = field_of(
-        _without_impossible(_checked_points(points), axle, body), start[:2], _half_window(start, target, settings)
-    )
+    solid = _without_impossible(_checked_points(points), axle, body)
+    field = field_of(solid, start[:2], _half_window(start, target, settings))
     costs = _costs(robot, settings)
     ways = [
         guidance_to(target.pose[:2], start[:2], field, body, margin, costs)
