@@ -70,11 +70,12 @@ class Geodesic:
             both = self._free[a] & self._free[b]
             length = np.full(both.sum(), SPACING * math.hypot(dr, dc))
             parts.append((index[a][both], index[b][both], length))
+            parts.append((index[b][both], index[a][both], length))
         i, j, length = (np.concatenate(column) for column in zip(*parts, strict=True))
         return coo_matrix((length, (i, j)), shape=(self._free.size,) * 2).tocsr()
 
     def _distances(self, source: int) -> FloatArray:
-        distances = dijkstra(self._graph, directed=False, indices=source)
+        distances = dijkstra(self._graph, indices=source)
         return np.asarray(distances, dtype=np.float64).reshape(self._shape)
 
 
