@@ -87,8 +87,8 @@ class Opening:
 
 @st.composite
 def openings(draw: st.DrawFn, narrowest: float, widest: float) -> Opening:
-    """Openings seen from 0.5 to 2.5 m before them."""
+    """Openings seen from 0.5 to 1.5 m before them."""
     corridor, width = draw(st.floats(1.6, 2.6)), draw(st.floats(narrowest, widest))
     sideways = draw(st.floats(0.5 - corridor / 2, corridor / 2 - 0.5))
-    pose = draw(st.floats(-2.5, -0.5)), sideways, draw(st.floats(-0.4, 0.4))
+    pose = draw(st.floats(-1.5, -0.5)), sideways, draw(st.floats(-0.4, 0.4))
     return Opening(corridor, width, pose)

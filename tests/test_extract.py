@@ -15,6 +15,7 @@ from tests.raycaster import heidelberg, polygon, polyline, scan_of
 from tests.strategies import Opening, Room, awkward_scans, openings, rooms
 
 quick = settings(max_examples=60, deadline=None)
+MILLIMETRE = 1e-3
 
 
 def cross(a: Point, b: Point) -> float:
@@ -28,7 +29,7 @@ def full_circle(segments: FloatArray, pose: Pose, beams: int = 1080) -> Scan:
 def is_on(wall: Wall, point: Point) -> bool:
     along = wall.end[0] - wall.start[0], wall.end[1] - wall.start[1]
     offset = cross(along, (point[0] - wall.start[0], point[1] - wall.start[1])) / wall.length
-    return abs(offset) < 1e-6
+    return abs(offset) < MILLIMETRE
 
 
 def has_door(scene: Scene, jambs: tuple[Point, Point], within: float = 0.25) -> bool:
@@ -44,16 +45,16 @@ def is_door(door: Door, jambs: tuple[Point, Point], within: float = 0.25) -> boo
 def test_a_noise_free_room_has_its_four_walls_and_four_outer_corners(room: Room) -> None:
     corners = [to_local(room.pose, corner) for corner in room.corners]
     seam = min(abs(wrap_angle(math.pi - math.atan2(y, x))) for x, y in corners)
-    assume(seam > 0.1)  # a corner in the first or last beams is cut off
+    assume(seam > 0.35)  # a corner next to the first or last beam has too short a wall
     scene = extract(full_circle(room.segments, room.pose))
     for start, end in pairwise([*corners, corners[0]]):
         side = [wall for wall in scene.walls if is_on(wall, start) and is_on(wall, end)]
         assert sum(wall.length for wall in side) > 0.9 * math.dist(start, end)
-    assert all(wall.residual < 1e-6 for wall in scene.walls)
+    assert all(wall.residual < MILLIMETRE for wall in scene.walls)
     assert len(scene.corners) == 4
     assert all(corner.kind is CornerKind.OUTER for corner in scene.corners)
     for corner in corners:
-        assert min(math.dist(corner, found.point) for found in scene.corners) < 1e-6
+        assert min(math.dist(corner, found.point) for found in scene.corners) < MILLIMETRE
     assert scene.doors == ()
 
 
@@ -115,7 +116,7 @@ def test_rotating_the_scan_rotates_the_scene(opening: Opening, angle: float) -> 
 
 
 @quick
-@given(openings(0.5, 2.5), st.floats(0.0, 1e-3))
+@given(openings(0.5, 2.5), st.floats(1e-4, 1e-2))
 def test_mirroring_the_scan_swaps_left_and_right(opening: Opening, roughness: float) -> None:
     rng = np.random.default_rng(11)
     scan = scan_of(opening.segments, opening.pose, sigma=roughness, rng=rng)

@@ -26,6 +26,7 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
         How many pieces were written to `scratch.pieces`.
     """
     xs, ys, pieces, vertices = scratch.xs, scratch.ys, scratch.pieces, scratch.vertices
+    near = 3.0 * settings.sigma
     count = 0
     for group in range(groups):
         first, last = scratch.group_first[group], scratch.group_first[group + 1] - 1
@@ -41,8 +42,9 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
                 fit(xs, ys, pieces[count])
                 count += 1
         for k in range(group_start, count - 1):
-            settle_border(xs, ys, pieces[k], pieces[k + 1])
-        if count > group_start + 1:
+            settle_border(xs, ys, near, pieces[k], pieces[k + 1])
+        if cuts > 2 and count > group_start:
+            extend(xs, ys, near, first, last, pieces[group_start], pieces[count - 1])
             for k in range(group_start, count):
                 gather(xs, ys, pieces[k].first, pieces[k].last, pieces[k])
                 fit(xs, ys, pieces[k])
@@ -50,26 +52,40 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
 
 
 @njit(cache=True, error_model="numpy")
-def settle_border(xs: FloatArray, ys: FloatArray, before: Any, after: Any) -> None:
+def settle_border(xs: FloatArray, ys: FloatArray, near: float, before: Any, after: Any) -> None:
     """Move the border of two pieces until every point is with the line it is nearer to.
 
-    The end-point fit finds a corner only to within its split distance. The point at the cut is
-    in neither piece yet.
+    The end-point fit finds a corner only to within its split distance. The points between the
+    pieces, a cut or a run too short for a line, join one of them if they are `near` its line.
     """
-    if after.first != before.last + 2:
-        return
-    last, cut, first = before.last, before.last + 1, after.first
-    if not prefers_second(before, after, xs[cut], ys[cut]):
-        last = cut
-        while first < after.last - 1 and not prefers_second(before, after, xs[first], ys[first]):
-            last = first
-            first += 1
-    else:
-        first = cut
+    last, first = before.last, after.first
+    while (
+        last + 1 < first
+        and abs(offset(before, xs[last + 1], ys[last + 1])) <= near
+        and not prefers_second(before, after, xs[last + 1], ys[last + 1])
+    ):
+        last += 1
+    while first - 1 > last and abs(offset(after, xs[first - 1], ys[first - 1])) <= near:
+        first -= 1
+    if first == last + 1:
         while last > before.first + 1 and prefers_second(before, after, xs[last], ys[last]):
-            first = last
             last -= 1
+        first = last + 1
+        while first < after.last - 1 and prefers_second(after, before, xs[first], ys[first]):
+            first += 1
+        last = first - 1
     before.last, after.first = last, first
+
+
+@njit(cache=True, error_model="numpy")
+def extend(
+    xs: FloatArray, ys: FloatArray, near: float, first: int, last: int, head: Any, tail: Any
+) -> None:
+    """Let a group's first and last piece take the points beyond them that are near their lines."""
+    while head.first > first and abs(offset(head, xs[head.first - 1], ys[head.first - 1])) <= near:
+        head.first -= 1
+    while tail.last < last and abs(offset(tail, xs[tail.last + 1], ys[tail.last + 1])) <= near:
+        tail.last += 1
 
 
 @njit(cache=True, error_model="numpy")
@@ -111,26 +127,37 @@ def joint_scatter(a: Any, b: Any) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def is_one_line(a: Any, b: Any, settings: Any) -> bool:
-    """Whether two successive pieces are one line with no gap between that one could pass."""
+def merge_cost(a: Any, b: Any, settings: Any) -> float:
+    """What joining two successive pieces adds to the squared residuals.
+
+    Infinite if they are not one line, or if one could pass the gap between them.
+    """
     gap = (b.start_x - a.end_x) ** 2 + (b.start_y - a.end_y) ** 2
     if gap > settings.merge_gap**2:
-        return False
+        return math.inf
     allowed = MERGE_CHI_SQUARE * settings.sigma**2
     allowed += min(a.points, b.points) * settings.merge_offset**2
-    return bool(joint_scatter(a, b) - a.scatter - b.scatter <= allowed)
+    cost = joint_scatter(a, b) - a.scatter - b.scatter
+    return float(cost) if cost <= allowed else math.inf
 
 
 @njit(cache=True, error_model="numpy")
 def merge_pieces(count: int, settings: Any, scratch: Any) -> int:
-    """Join successive pieces that are one line; returns how many remain."""
+    """Join successive pieces that are one line; returns how many remain.
+
+    A piece that fits both its neighbours joins the one that it fits better.
+    """
     pieces = scratch.pieces
     if count == 0:
         return 0
     kept = 0
     for k in range(1, count):
         current, following = pieces[kept], pieces[k]
-        if is_one_line(current, following, settings):
+        cost = merge_cost(current, following, settings)
+        joins = cost < math.inf
+        if joins and k + 1 < count:
+            joins = cost <= merge_cost(following, pieces[k + 1], settings)
+        if joins:
             ends = END_BREAK | END_RUPTURE
             current.flags = (current.flags & ~ends) | (following.flags & ends)
             absorb(current, following)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -82,15 +83,21 @@ class Piece:
 
 def find_pieces(sweep: Sweep, settings: ExtractorSettings) -> list[Piece]:
     """Every straight piece of two points or more, in beam order, joined where one line."""
-    pieces: list[Piece] = []
-    for group in sweep.connected_groups(settings):
-        for beams in _straight_runs(sweep, group, settings.split_distance):
-            piece = _flagged(sweep, group, beams)
-            if pieces and _is_one_line(pieces[-1], piece, settings):
-                pieces[-1] = _joined(pieces[-1], piece)
-            else:
-                pieces.append(piece)
-    return pieces
+    groups = sweep.connected_groups(settings)
+    pieces = [
+        _flagged(sweep, group, beams)
+        for group in groups
+        for beams in _straight_runs(sweep, group, settings)
+    ]
+    joined: list[Piece] = []
+    for piece, following in itertools.zip_longest(pieces, pieces[1:]):
+        cost = _merge_cost(joined[-1], piece, settings) if joined else math.inf
+        other = _merge_cost(piece, following, settings) if following else math.inf
+        if cost < math.inf and cost <= other:
+            joined[-1] = _joined(joined[-1], piece)
+        else:
+            joined.append(piece)
+    return joined
 
 
 def is_wall(piece: Piece, settings: ExtractorSettings) -> bool:
@@ -109,35 +116,50 @@ def _cuts(points: FloatArray, first: int, last: int, limit: float) -> list[int]:
     return [*_cuts(points, first, cut, limit), cut, *_cuts(points, cut, last, limit)]
 
 
-def _straight_runs(sweep: Sweep, group: list[int], limit: float) -> list[list[int]]:
+def _straight_runs(sweep: Sweep, group: list[int], settings: ExtractorSettings) -> list[list[int]]:
     """Beams of each straight run, after settling the borders between them."""
     points = sweep.points(group)
-    cuts = [-1, *_cuts(points, 0, len(group) - 1, limit), len(group)]
+    cuts = [-1, *_cuts(points, 0, len(group) - 1, settings.split_distance), len(group)]
     runs = [range(a + 1, b) for a, b in itertools.pairwise(cuts) if b - a > 2]
     lines = [Piece(list(run), points[run.start : run.stop]) for run in runs]
     for k in range(len(runs) - 1):
-        if runs[k + 1].start == runs[k].stop + 1:
-            runs[k : k + 2] = _settled(points, lines[k : k + 2], *runs[k : k + 2])
+        runs[k : k + 2] = _settled(points, lines[k : k + 2], *runs[k : k + 2], 3.0 * settings.sigma)
+    if runs:
+        runs[0] = range(_last_near(lines[0], points, runs[0].start, -1, settings), runs[0].stop)
+        last = _last_near(lines[-1], points, runs[-1].stop - 1, 1, settings)
+        runs[-1] = range(runs[-1].start, last + 1)
     return [[group[i] for i in run] for run in runs]
 
 
+def _last_near(
+    line: Piece, points: FloatArray, i: int, step: int, settings: ExtractorSettings
+) -> int:
+    """The last point from i on, in steps, before the first that is far from a line."""
+    while 0 <= i + step < len(points) and abs(line.offset(points[i + step])) <= 3 * settings.sigma:
+        i += step
+    return i
+
+
 def _settled(
-    points: FloatArray, lines: list[Piece], before: range, after: range
+    points: FloatArray, lines: list[Piece], before: range, after: range, near: float
 ) -> tuple[range, range]:
     """Move the border between two runs until every point is with the line it is nearer to."""
 
-    def prefers_after(i: int) -> bool:
-        return abs(lines[0].offset(points[i])) > abs(lines[1].offset(points[i]))
+    def distance(line: int, i: int) -> float:
+        return abs(lines[line].offset(points[i]))
 
-    border = before.stop
-    if prefers_after(border):
-        while border > before.start + 2 and prefers_after(border - 1):
-            border -= 1
-    else:
-        border += 1
-        while border < after.stop - 2 and not prefers_after(border):
-            border += 1
-    return range(before.start, border), range(border, after.stop)
+    stop, start = before.stop, after.start
+    while stop < start and distance(0, stop) <= min(near, distance(1, stop)):
+        stop += 1
+    while stop < start and distance(1, start - 1) <= near:
+        start -= 1
+    if stop == start:
+        while stop > before.start + 2 and distance(0, stop - 1) > distance(1, stop - 1):
+            stop -= 1
+        while stop < after.stop - 2 and distance(1, stop) > distance(0, stop):
+            stop += 1
+        start = stop
+    return range(before.start, stop), range(start, after.stop)
 
 
 def _flagged(sweep: Sweep, group: list[int], beams: list[int]) -> Piece:
@@ -154,12 +176,14 @@ def _flagged(sweep: Sweep, group: list[int], beams: list[int]) -> Piece:
     )
 
 
-def _is_one_line(a: Piece, b: Piece, settings: ExtractorSettings) -> bool:
+def _merge_cost(a: Piece, b: Piece, settings: ExtractorSettings) -> float:
+    """What joining two pieces adds to the squared residuals; infinite if not one line."""
     if np.linalg.norm(b.start - a.end) > settings.merge_gap:
-        return False
+        return math.inf
     allowed = MERGE_CHI_SQUARE * settings.sigma**2
     allowed += min(len(a.beams), len(b.beams)) * settings.merge_offset**2
-    return _joined(a, b).scatter - a.scatter - b.scatter <= allowed
+    cost = _joined(a, b).scatter - a.scatter - b.scatter
+    return cost if cost <= allowed else math.inf
 
 
 def _joined(a: Piece, b: Piece) -> Piece:
