@@ -23,8 +23,10 @@ BEHIND, AHEAD = 2.0, 40.0
 """How far the sides are probed behind and ahead of the pose, metres."""
 
 PROBES = round((BEHIND + AHEAD) / SPACING) + 1
-USUAL_PROBES = round(10.0 / SPACING)
-"""The hallway's usual width is that of the first so many probes."""
+"""How many probes a side has."""
+
+NEAR = 8.0
+"""Where the hallway is as wide as usual: not farther ahead than this, metres."""
 
 REACH = 6.0
 """A side farther than this is none, metres."""
@@ -46,6 +48,9 @@ BODY_WIDTH = 0.7
 
 LANE = 0.1
 """Distance between the lanes, metres."""
+
+ASIDE = 0.85
+"""Ways that begin so far beside the robot still count as ahead of it, metres."""
 
 ALONG = math.sin(math.radians(15.0))
 """A wall nearer to the axis in direction runs along the hallway and does not end it."""
@@ -95,13 +100,15 @@ def survey(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: fl
     solid = _solid(walls, doors, x, y, heading)
     heading = prevailing_heading(solid, len(walls), x, y, heading)
     local = _in_frame(solid, x, y, heading)
-    left, right = _usual(local, 1.0), _usual(local, -1.0)
+    offset, straight = _way_ahead(local)
+    _shift(local, offset)
+    left, right = _usual(local, 1.0, straight), _usual(local, -1.0, straight)
     if left < REACH and right < REACH:
-        shift = 0.5 * (left - right)
-        x, y = x - math.sin(heading) * shift, y + math.cos(heading) * shift
-        local[:, 1] -= shift
-        local[:, 3] -= shift
-        left, right = _usual(local, 1.0), _usual(local, -1.0)
+        centre = 0.5 * (left - right)
+        offset += centre
+        _shift(local, centre)
+        left, right = _usual(local, 1.0, straight), _usual(local, -1.0, straight)
+    x, y = x - math.sin(heading) * offset, y + math.cos(heading) * offset
     end = _end(local, left, right)
     openings = [(True, 0.0, 0.0, 0.0) for _ in range(0)]
     left_side = _side(local, len(walls), 1.0, left, end, openings)
@@ -174,22 +181,54 @@ def _probe(local: FloatArray, sign: float, count: int) -> FloatArray:
 
 
 @njit(cache=True)
-def _usual(local: FloatArray, sign: float) -> float:
-    """The median distance of a side within a few metres; `REACH` where nothing is seen."""
-    side = _probe(local, sign, USUAL_PROBES)
-    seen = side[np.isfinite(side)]
-    return np.median(seen) if len(seen) > 0 else REACH
+def _shift(local: FloatArray, offset: float) -> None:
+    """Move the axis to its left."""
+    local[:, 1] -= offset
+    local[:, 3] -= offset
+
+
+@njit(cache=True)
+def _usual(local: FloatArray, sign: float, end: float) -> float:
+    """The usual distance of a side near the robot and before `end`; `REACH` where none is.
+
+    A third of the probes may meet furniture, and less than two thirds the depths of a junction.
+    """
+    side = _probe(local, sign, int((min(end, NEAR) + BEHIND) / SPACING) + 1)
+    seen = np.sort(side[np.isfinite(side)])
+    return seen[len(seen) // 3] if len(seen) > 0 else REACH
+
+
+@njit(cache=True)
+def _way_ahead(local: FloatArray) -> tuple[float, float]:
+    """The nearest way for a body that goes on about as far as any near x = 0.
+
+    Returns:
+        How far it lies to the left of the robot, and how far it goes on, metres.
+    """
+    ways = _ways(_lanes(local, -ASIDE, round(2.0 * ASIDE / LANE) + 1))
+    farthest, middle = ways.max(), (len(ways) - 1) // 2
+    for k in range(middle + 1):
+        for way in (middle - k, middle + k):
+            if ways[way] > farthest - 1.0 or ways[way] == farthest:
+                return (way - middle) * LANE, ways[way]
+    return 0.0, farthest
 
 
 @njit(cache=True)
 def _end(local: FloatArray, left: float, right: float) -> float:
-    """The farthest that any way as wide as a body goes on between the sides, metres."""
-    lanes = _lanes(local, LANE - right, max(1, int((left + right) / LANE) - 1))
+    """The farthest that any way for a body goes on between the sides, metres."""
+    ways = _ways(_lanes(local, LANE - right, max(1, int((left + right) / LANE) - 1)))
+    return float(ways.max())
+
+
+@njit(cache=True)
+def _ways(lanes: FloatArray) -> FloatArray:
+    """How far each way goes on that is as wide as a body: several lanes beside each other."""
     width = min(len(lanes), round(BODY_WIDTH / LANE))
-    farthest = 0.0
-    for first in range(len(lanes) - width + 1):
-        farthest = max(farthest, lanes[first : first + width].min())
-    return farthest
+    ways = np.empty(len(lanes) - width + 1)
+    for k in range(len(ways)):
+        ways[k] = lanes[k : k + width].min()
+    return ways
 
 
 @njit(cache=True)

@@ -77,10 +77,14 @@ def remember(
     """
     known_walls, known_doors, used = memory
     for i in range(counts[WALLS]):
-        used[0] = remember_wall(placed(walls[i], pose), known_walls, used[0])
+        wall = walls[i]
+        ends = (wall.start_x, wall.start_y, wall.end_x, wall.end_y)
+        used[0] = remember_wall(placed(ends, pose), known_walls, used[0])
     contradict_doors(ranges, angle_min, angle_increment, pose, known_doors[: used[1]])
     for i in range(counts[DOORS]):
-        used[1] = remember_door(placed(doors[i], pose), known_doors, used[1])
+        door = doors[i]
+        ends = (door.start_x, door.start_y, door.end_x, door.end_y)
+        used[1] = remember_door(placed(ends, pose), known_doors, used[1])
 
 
 @njit(cache=True)
@@ -128,16 +132,12 @@ def counting_doors(doors: Any) -> NDArray[np.bool_]:
 
 
 @njit(cache=True)
-def placed(entry: Any, frame: tuple[float, float, float]) -> Ends:
+def placed(ends: Ends, frame: tuple[float, float, float]) -> Ends:
     """The ends of a wall or door, moved from a frame to the frame's parent."""
+    x1, y1, x2, y2 = ends
     x, y, heading = frame
     c, s = math.cos(heading), math.sin(heading)
-    return (
-        x + c * entry.start_x - s * entry.start_y,
-        y + s * entry.start_x + c * entry.start_y,
-        x + c * entry.end_x - s * entry.end_y,
-        y + s * entry.end_x + c * entry.end_y,
-    )
+    return x + c * x1 - s * y1, y + s * x1 + c * y1, x + c * x2 - s * y2, y + s * x2 + c * y2
 
 
 @njit(cache=True)

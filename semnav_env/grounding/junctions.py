@@ -115,20 +115,17 @@ def _find_junction(
     """The junction that a reference names, or the goal of looking for it.
 
     Only junctions that open to the side of the turn count. Without a reference it is the next
-    one of any kind.
+    one of any kind. Whether a junction is a corner can hang on an opening that is hard to see; so
+    at the end of a hallway that has none of the kind a robot takes what else leads its way.
 
     Raises:
         GroundingError: there is no such place.
     """
     place = None if reference is None else reference.place
     ordinal = 1 if reference is None else reference.ordinal
-    junctions = [
-        junction
-        for junction in situation.hallway.junctions
-        if _is_ahead(junction, situation.hallway)
-        and _is_a(junction, place)
-        and _opens_to(junction, turning)
-    ]
+    junctions = _junctions(place, turning, situation.hallway)
+    if not junctions and situation.seen_to_end and not situation.complete:
+        junctions = _junctions(None, turning, situation.hallway)
     if len(junctions) >= ordinal:
         return junctions[ordinal - 1]
     name = _name(reference) + ("" if turning is None else f" that leads {turning}")
@@ -137,8 +134,16 @@ def _find_junction(
     return situation.seek(name)
 
 
-def _is_ahead(junction: Junction, hallway: Hallway) -> bool:
-    return junction.far > STILL_AHEAD and junction.centre < hallway.end
+def _junctions(place: Place | None, turning: Turning | None, hallway: Hallway) -> list[Junction]:
+    """The junctions ahead that are such a place and open to the side of the turn."""
+    return [
+        junction
+        for junction in hallway.junctions
+        if junction.far > STILL_AHEAD
+        and junction.centre < hallway.end
+        and _is_a(junction, place)
+        and _opens_to(junction, turning)
+    ]
 
 
 def _is_a(junction: Junction, place: Place | None) -> bool:

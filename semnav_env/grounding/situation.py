@@ -17,7 +17,7 @@ LOOK_AHEAD = 4.0
 END_MARGIN = 1.0
 """How far before the end of a hallway the robot's centre stops, metres."""
 
-AT_END = 1.4
+AT_END = 1.7
 """Within this distance of its end a hallway has been seen to its end, metres."""
 
 
