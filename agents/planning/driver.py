@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from semnav_env.agents.planning.follower import Progress, Steering, follow, stopping_pose
+from semnav_env.agents.planning.follower import Progress, Steering, follow
 from semnav_env.agents.planning.guard import SHARES, safe_share
 from semnav_env.agents.planning.nudge import best_nudge, path_clearances
-from semnav_env.agents.planning.path import Path
+from semnav_env.agents.planning.path import Path, joined
 from semnav_env.agents.planning.planner import PlannerSettings, Target, is_free, plan
 from semnav_env.agents.planning.track import FollowerSettings, Track
 from semnav_env.features.frames import (
@@ -137,15 +137,33 @@ class Driver:
     def _plan(
         self, points: FloatArray, target: Target, pose: Pose, velocity: tuple[float, float, float]
     ) -> None:
-        start = stopping_pose(pose, velocity, self.robot.max_acceleration)
-        if not is_free(points, np.array([start]), self.robot):
-            start = pose
+        """Plan from here, or while driving from where the old path allows a stop."""
+        kept = self._path_to_stop(points, pose, velocity)
+        start = pose if kept is None else kept.end
         self.path = plan(points, start, target, self.robot, self.planner)
+        if kept is not None:
+            self.path = joined(kept, self.path)
         self.plans += 1
         self._target, self._progress, self._shift = target, Progress(), (0.0, 0.0, 0.0)
         self._track = Track(self.path, self.robot, self.follower)
         if not self.path.complete:
             self._wait = self.retry_after
+
+    def _path_to_stop(
+        self, points: FloatArray, pose: Pose, velocity: tuple[float, float, float]
+    ) -> Path | None:
+        """The stretch of the old path that braking takes, if it is free; None if there is none."""
+        speed = math.hypot(velocity[0], velocity[1])
+        if self._track is None or self.path is None or speed < 0.1:
+            return None
+        braking = self.follower.braking * self.robot.max_acceleration
+        along, first = self._track.distance, self._progress.sample
+        distance = along[first] + speed**2 / (2.0 * braking) + 0.1 * speed
+        last = int(np.searchsorted(along, distance))
+        if last >= len(along) or last == first:
+            return None
+        kept = self.path.part(first, last, self._shift)
+        return kept if is_free(points, kept.poses, self.robot) else None
 
     def _remaining(self) -> float:
         assert self._track is not None

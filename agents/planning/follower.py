@@ -76,21 +76,6 @@ def follow(
     return Steering(0.0, 0.0, 0.0, progress, 0.0, True)
 
 
-def stopping_pose(
-    pose: Pose,
-    velocity: tuple[float, float, float],
-    acceleration: float,
-    delay: float = 1.0 / 15.0,
-) -> Pose:
-    """Where the robot comes to rest if it brakes now, driving on along its arc."""
-    forward, left, turn = velocity
-    time = math.hypot(forward, left) / acceleration / 2 + delay
-    heading = pose[2] + turn * time / 2
-    x = pose[0] + time * (forward * math.cos(heading) - left * math.sin(heading))
-    y = pose[1] + time * (forward * math.sin(heading) + left * math.cos(heading))
-    return x, y, pose[2] + turn * time
-
-
 def _turn(
     track: Track, leg: Leg, progress: Progress, axle: Pose, velocity: tuple[float, float, float]
 ) -> Steering | None:

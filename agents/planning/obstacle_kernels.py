@@ -182,22 +182,57 @@ def nearest(
 
 
 @njit(cache=True)
-def select(centres: NDArray[Any], sure: int, share: float) -> FloatArray:
-    """Positions of the centres that were hit often enough, also next to their neighbours."""
-    table = np.zeros((SIDE, SIDE))
+def select(centres: NDArray[Any], sure: int, share: float, blunt: float) -> FloatArray:
+    """Positions of the centres that were hit often enough, also next to their neighbours.
+
+    The last centre of a row averages over the end of what it stands for; so one with neighbours
+    on one side only gets a second point `blunt` metres farther out.
+    """
+    table = np.full((SIDE, SIDE), -1, dtype=np.int32)
     for k in range(len(centres)):
         j, i = slot(centres[k].x, centres[k].y)
-        table[j, i] = max(table[j, i], centres[k].hits)
-    points = np.empty((len(centres), 2))
+        if table[j, i] < 0 or centres[table[j, i]].hits < centres[k].hits:
+            table[j, i] = k
+    points = np.empty((2 * len(centres), 2))
     n = 0
     for k in range(len(centres)):
         centre = centres[k]
-        j, i = slot(centre.x, centre.y)
-        most = 0.0
-        for b in range(j - 1, j + 2):
-            for a in range(i - 1, i + 2):
-                most = max(most, table[b % SIDE, a % SIDE])
+        most, weight, x, y = neighbourhood(centres, table, k, share)
         if centre.hits >= sure and centre.hits >= share * most:
             points[n, 0], points[n, 1] = centre.x, centre.y
             n += 1
+            away = math.hypot(x, y)
+            if weight > 0 and away > 0.6 * weight:
+                points[n, 0], points[n, 1] = (
+                    centre.x - blunt * x / away,
+                    centre.y - blunt * y / away,
+                )
+                n += 1
     return points[:n]
+
+
+@njit(cache=True)
+def neighbourhood(
+    centres: NDArray[Any], table: NDArray[np.int32], k: int, share: float
+) -> tuple[float, float, float, float]:
+    """What lies around a centre.
+
+    Returns:
+        the most hits of one in the voxels beside it; of those up to two voxels away how many
+        there are, and the sum (x, y) of the unit vectors to them.
+    """
+    j, i = slot(centres[k].x, centres[k].y)
+    most, count, x, y = 0.0, 0.0, 0.0, 0.0
+    for b in range(j - 2, j + 3):
+        for a in range(i - 2, i + 3):
+            m = table[b % SIDE, a % SIDE]
+            if m < 0 or m == k:
+                continue
+            if abs(b - j) < 2 and abs(a - i) < 2:
+                most = max(most, centres[m].hits)
+            if centres[m].hits >= share * centres[k].hits:
+                dx, dy = centres[m].x - centres[k].x, centres[m].y - centres[k].y
+                away = math.hypot(dx, dy)
+                if away > 1e-6:
+                    count, x, y = count + 1.0, x + dx / away, y + dy / away
+    return most, count, x, y

@@ -31,6 +31,7 @@ class MemorySettings:
         through: metres by which a beam must pass behind a centre to count against it.
         sure: hits before a centre counts as an obstacle.
         share: a centre with less than this share of the hits of one beside it is noise.
+        blunt: metres by which the averaging shortens the ends of walls.
         capacity: centres; further ones are dropped.
     """
 
@@ -43,6 +44,7 @@ class MemorySettings:
     through: float = 0.15
     sure: int = 2
     share: float = 0.05
+    blunt: float = 0.018
     capacity: int = 8192
 
 
@@ -123,9 +125,8 @@ class ObstacleMemory:
 
     def points(self) -> FloatArray:
         """The obstacles, metres in the odometry frame, shape (N, 2)."""
-        chosen: FloatArray = select(
-            self._centres[: self._count], self.settings.sure, self.settings.share
-        )
+        s = self.settings
+        chosen: FloatArray = select(self._centres[: self._count], s.sure, s.share, s.blunt)
         return chosen
 
     def _advance(self, pose: Pose) -> None:

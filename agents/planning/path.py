@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -77,6 +77,19 @@ class Path:
         """Metres that the axle travels."""
         return float(np.hypot(self.moves[:, 0], self.moves[:, 1]).sum())
 
+    def part(self, first: int, last: int, frame: Pose) -> Path:
+        """The stretch between two samples, in the parent of `frame`, in which this path lies."""
+        shares = np.bincount(self.move_of, minlength=len(self.moves))
+        index = self.move_of[first:last]
+        x, y, heading = self.poses[first].tolist()
+        return replace(
+            self,
+            start=compose(frame, (x, y, heading)),
+            moves=self.moves[index] / shares[index, None],
+            complete=False,
+            clearance=self.clearance[first : last + 1],
+        )
+
     @property
     def end(self) -> Pose:
         """The centre's last pose."""
@@ -92,7 +105,7 @@ def sample(
     counts = np.empty(len(moves), dtype=np.int64)
     for k in range(len(moves)):
         travel = np.hypot(moves[k, 0], moves[k, 1])
-        counts[k] = max(1, np.ceil(max(travel / SPACING, abs(moves[k, 2]) / TURN_SPACING)))
+        counts[k] = max(1, np.ceil(max(travel / SPACING, abs(moves[k, 2]) / TURN_SPACING) - 1e-6))
     total = counts.sum()
     poses, kinds = np.empty((total + 1, 3)), np.empty(total, dtype=np.int64)
     index = np.empty(total, dtype=np.int64)
@@ -106,3 +119,13 @@ def sample(
             n += 1
         pose = moved(pose[0], pose[1], pose[2], move)
     return poses, kinds, index
+
+
+def joined(first: Path, then: Path) -> Path:
+    """One path of two, the second of which starts where the first ends."""
+    return replace(
+        then,
+        start=first.start,
+        moves=np.concatenate((first.moves, then.moves)),
+        clearance=np.concatenate((first.clearance, then.clearance[1:])),
+    )
