@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +17,7 @@ from semnav_env.agents.planning.motion import Costs, Margin, Triple
 from semnav_env.agents.planning.path import MOST_CLEARANCE, Path, sample
 from semnav_env.agents.planning.search import Aim, Problem, search
 from semnav_env.agents.planning.shorten import merged, rounded, shortened
-from semnav_env.features.frames import FloatArray, Pose, compose
+from semnav_env.features.frames import FloatArray, Point, Pose, compose
 from semnav_env.robots import RobotSpec
 
 
@@ -100,15 +101,8 @@ def plan(
     solid = _without_impossible(_checked_points(points), axle, body)
     field = field_of(solid, start[:2], _half_window(start, target, settings))
     costs = _costs(robot, settings)
-    ways = [
-        guidance_to(target.pose[:2], start[:2], field, body, margin, costs)
-        for margin in settings.margins
-    ]
-    order = np.argsort(
-        [way.seconds + k * settings.detour for k, way in enumerate(ways)], kind="stable"
-    )
     best: Path | None = None
-    for guidance in [ways[k] for k in order if ways[k].reachable] or ways[-1:]:
+    for guidance in _ways(target.pose[:2], start[:2], field, body, costs, settings):
         path = _search(field, body, start, target, robot, settings, guidance)
         if path.complete or not guidance.exact:
             return path
@@ -127,6 +121,27 @@ def is_free(points: ArrayLike, poses: FloatArray, robot: RobotSpec, margin: floa
         margin: metres.
     """
     return bool(all_clear(_checked_points(points), poses, robot.length, robot.width, margin))
+
+
+def _ways(
+    target: Point, start: Point, field: Field, body: Body, costs: Costs, settings: PlannerSettings
+) -> Iterator[Guidance]:
+    """The coarse ways for all margins, the most promising first; at least one.
+
+    No way is quicker than the one for the smallest margin, which often settles the matter.
+    """
+
+    def way(margin: float) -> Guidance:
+        return guidance_to(target, start, field, body, margin, costs)
+
+    widest, least = way(settings.margins[0]), way(settings.margins[-1])
+    settled = widest.seconds <= least.seconds + settings.detour < math.inf
+    if settled:
+        yield widest
+    ways = [widest, *map(way, settings.margins[1:-1]), least]
+    order = sorted(range(len(ways)), key=lambda k: ways[k].seconds + k * settings.detour)
+    reachable = [ways[k] for k in order if ways[k].reachable]
+    yield from (reachable[1:] if settled else reachable or [least])
 
 
 def _search(
