@@ -120,10 +120,9 @@ def nearest_wall(
         tilt = abs(facing)
         place = place if facing > 0.0 else -place
         slack = settings.corridor_wall_slack if tilt >= square else 0.0
-        if tilt < END_ON or not -slack * tilt <= place <= (wall.length + slack) * tilt:
-            continue
         reach = (dy * wall.along_x - dx * wall.along_y) / facing
-        if 0.0 < reach <= nearest:
+        hit = (tilt >= END_ON) & (place >= -slack * tilt) & (place <= (wall.length + slack) * tilt)
+        if hit & (reach > 0.0) & (reach <= nearest):  # one branch: they are hard to predict
             nearest = reach
             met = facing <= -square
     return nearest if met else -1.0

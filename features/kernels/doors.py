@@ -83,12 +83,9 @@ def has_door_width(start: Any, end: Any, increment: float, settings: Any) -> boo
     x, y = end.x - start.x, end.y - start.y
     square = x * x + y * y
     widest = settings.door_width_max + settings.door_width_tolerance
-    if (
-        end.beam - start.beam <= settings.door_beams
-        or square > (widest + 2.0 * LONGEST_SPACING) ** 2
-    ):
-        return False
-    if square < (settings.door_width_min - settings.door_width_tolerance) ** 2:
+    narrowest = settings.door_width_min - settings.door_width_tolerance
+    fits = (square >= narrowest**2) & (square <= (widest + 2.0 * LONGEST_SPACING) ** 2)
+    if not fits & (end.beam - start.beam > settings.door_beams):
         return False
     width = math.sqrt(square)
     x, y = x / width, y / width

@@ -67,10 +67,41 @@ def gather(xs: FloatArray, ys: FloatArray, first: int, last: int, piece: Any) ->
         syy += dy * dy
     count = last - first + 1
     piece.points, piece.first, piece.last = count, first, last
+    piece.fitted_first, piece.fitted_last = first, last
     piece.mean_x, piece.mean_y = x0 + sx / count, y0 + sy / count
     piece.xx = sxx - sx * sx / count
     piece.xy = sxy - sx * sy / count
     piece.yy = syy - sy * sy / count
+
+
+@njit(cache=True, error_model="numpy")
+def refit(xs: FloatArray, ys: FloatArray, piece: Any) -> None:
+    """Bring moments and line up to date after `first` or `last` moved by a few points."""
+    if piece.first == piece.fitted_first and piece.last == piece.fitted_last:
+        return
+    for i in range(piece.first, piece.fitted_first):
+        count_point(xs[i], ys[i], 1, piece)
+    for i in range(piece.fitted_last + 1, piece.last + 1):
+        count_point(xs[i], ys[i], 1, piece)
+    for i in range(piece.fitted_first, piece.first):
+        count_point(xs[i], ys[i], -1, piece)
+    for i in range(piece.last + 1, piece.fitted_last + 1):
+        count_point(xs[i], ys[i], -1, piece)
+    fit(xs, ys, piece)
+
+
+@njit(cache=True, error_model="numpy")
+def count_point(x: float, y: float, sign: int, piece: Any) -> None:
+    """Add a point to the moments of a piece (sign 1) or take it out (-1)."""
+    dx, dy = x - piece.mean_x, y - piece.mean_y
+    count = piece.points + sign
+    weight = sign * piece.points / count
+    piece.xx += weight * dx * dx
+    piece.xy += weight * dx * dy
+    piece.yy += weight * dy * dy
+    piece.mean_x += sign * dx / count
+    piece.mean_y += sign * dy / count
+    piece.points = count
 
 
 @njit(cache=True, error_model="numpy")

@@ -14,12 +14,15 @@ PIECE = np.dtype(
     [(name, "f8") for name in ("mean_x", "mean_y", "xx", "xy", "yy", "along_x", "along_y")]
     + [(name, "f8") for name in ("spread", "scatter", "start_x", "start_y", "end_x", "end_y")]
     + [("length", "f8")]
-    + [(name, "i8") for name in ("points", "first", "last", "flags", "wall")]
+    + [
+        (name, "i8")
+        for name in ("points", "first", "last", "fitted_first", "fitted_last", "flags", "wall")
+    ]
 )
 """A straight piece of the scan: `mean` and central second-moment sums `xx`, `xy`, `yy` of its
 points, unit direction `along`, sums of squares along (`spread`) and across (`scatter`) the line,
-projected ends and their distance, first and last point, `flags` as in `layout`, and its wall's
-index or -1."""
+projected ends and their distance, first and last point now and at the last fit, `flags` as in
+`layout`, and its wall's index or -1."""
 
 CANDIDATE = np.dtype(
     [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y", "score")] + [("state", "i8")]

@@ -10,7 +10,7 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
-from semnav_env.features.kernels.lines import absorb, fit, gather, offset, split
+from semnav_env.features.kernels.lines import absorb, fit, gather, offset, refit, split
 from semnav_env.features.kernels.segmentation import is_return
 
 MERGE_CHI_SQUARE = 13.8
@@ -46,8 +46,7 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
         if cuts > 2 and count > group_start:
             extend(xs, ys, near, first, last, pieces[group_start], pieces[count - 1])
             for k in range(group_start, count):
-                gather(xs, ys, pieces[k].first, pieces[k].last, pieces[k])
-                fit(xs, ys, pieces[k])
+                refit(xs, ys, pieces[k])
     return count
 
 

@@ -123,7 +123,8 @@ def _straight_runs(sweep: Sweep, group: list[int], settings: ExtractorSettings) 
     runs = [range(a + 1, b) for a, b in itertools.pairwise(cuts) if b - a > 2]
     lines = [Piece(list(run), points[run.start : run.stop]) for run in runs]
     for k in range(len(runs) - 1):
-        runs[k : k + 2] = _settled(points, lines[k : k + 2], *runs[k : k + 2], 3.0 * settings.sigma)
+        pair = _settled(points, lines[k : k + 2], runs[k], runs[k + 1], 3.0 * settings.sigma)
+        runs[k : k + 2] = pair
     if runs:
         runs[0] = range(_last_near(lines[0], points, runs[0].start, -1, settings), runs[0].stop)
         last = _last_near(lines[-1], points, runs[-1].stop - 1, 1, settings)
