@@ -1,0 +1,46 @@
+"""Shortest ways go around what is solid."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from semnav_env.maps import load_floor_plan
+from semnav_env.maps.geodesic import CLEARANCE, SPACING, Geodesic
+
+PLAN = load_floor_plan("office_cross")
+GEODESIC = Geodesic(PLAN)
+CORRIDOR = st.tuples(st.floats(0.5, 29.5), st.floats(8.5, 9.5))
+
+
+@given(CORRIDOR, CORRIDOR)
+@settings(max_examples=30)
+def test_a_way_is_at_least_the_straight_line_and_the_same_both_ways(
+    a: tuple[float, float], b: tuple[float, float]
+) -> None:
+    there, back = GEODESIC.to(b).length(a), GEODESIC.to(a).length(b)
+    assert there >= math.dist(a, b) - 2 * SPACING
+    assert there == pytest.approx(back, abs=4 * SPACING)
+
+
+def test_the_way_into_a_room_leads_through_its_door() -> None:
+    door = PLAN.door("west_south_2")
+    way = shapely.LineString(GEODESIC.to((6.0, 6.0)).way((1.5, 9.0)))
+    assert way.intersects(shapely.LineString([door.start, door.end]))
+
+
+def test_ways_keep_their_distance_from_everything_solid() -> None:
+    way = GEODESIC.to((25.0, 19.0)).way((1.5, 9.0))
+    solid = shapely.multilinestrings(PLAN.segments.reshape(-1, 2, 2))
+    assert shapely.distance(solid, shapely.points(way)).min() >= CLEARANCE - 1e-9
+    steps = np.hypot(*np.diff(way, axis=0).T)
+    assert steps.max() <= 2 * SPACING
+
+
+def test_a_closed_door_is_no_way_in() -> None:
+    assert GEODESIC.to((23.0, 6.0)).length((23.0, 9.0)) == math.inf

@@ -1,0 +1,115 @@
+"""The verifier says what happened, by the identity of doors and by places."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from semnav_env.commands import parse
+from semnav_env.features.frames import Pose
+from semnav_env.grounding import GroundingError
+from semnav_env.maps import load_floor_plan
+from semnav_env.maps.geodesic import Geodesic
+from semnav_env.verifier import Motion, Verdict, Verifier
+
+PLAN = load_floor_plan("office_cross")
+GEODESIC = Geodesic(PLAN)
+WEST: Pose = (1.3, 9.1, 0.0)
+
+
+def verifier(command: str, start: Pose = WEST) -> Verifier:
+    return Verifier(PLAN, GEODESIC, parse(command), start)
+
+
+def walk(judge: Verifier, *points: tuple[float, float], step: float = 0.1) -> Verifier:
+    """Move the robot's centre along straight lines, facing the way it goes."""
+    x, y = judge.start[:2]
+    for px, py in points:
+        heading = math.atan2(py - y, px - x)
+        for share in np.linspace(0.0, 1.0, max(2, int(math.dist((x, y), (px, py)) / step)))[1:]:
+            pose = (x + share * (px - x), y + share * (py - y), heading)
+            judge.update(Motion(pose, 1.0, 0.0, in_contact=False, seconds=1 / 15))
+        x, y = px, py
+    return judge
+
+
+@pytest.mark.parametrize(
+    ("command", "points", "verdicts"),
+    [
+        ("go through the first door on the right", [(3.4, 9.0), (3.4, 7.0)], ["done"]),
+        ("go through the second door on the right", [(3.4, 9.0), (3.4, 7.0)], ["wrong door"]),
+        ("go through the first door on the right", [(6.0, 9.0)], ["active"]),
+        (
+            "turn right at the intersection and go through the first door on the left",
+            [(15.0, 9.1), (15.0, 6.5), (15.0, 2.7), (17.0, 2.7)],
+            ["done", "done"],
+        ),
+        ("turn right at the intersection", [(15.0, 9.1), (15.0, 12.5)], ["wrong turn"]),
+        ("turn right at the intersection", [(20.0, 9.1)], ["wrong turn"]),
+        ("follow the hallway until the intersection", [(15.0, 9.1)], ["done"]),
+        ("follow the hallway until the end", [(15.0, 9.1)], ["active"]),
+        ("follow the hallway until the end", [(29.0, 9.1)], ["done"]),
+    ],
+)
+def test_walks_are_judged_by_what_was_crossed_and_reached(
+    command: str, points: list[tuple[float, float]], verdicts: list[str]
+) -> None:
+    assert list(walk(verifier(command), *points).verdicts) == verdicts
+
+
+def test_the_door_next_to_the_named_one_is_a_failure_however_near() -> None:
+    judge = walk(verifier("go through the second door on the right"), (3.4, 9.0), (3.4, 7.0))
+    assert judge.over
+    assert not judge.success
+    assert judge.crossed == ["west_south_1"]
+
+
+def test_a_closed_door_is_not_counted() -> None:
+    judge = verifier("go through the second door on the left", (28.6, 9.1, math.pi))
+    assert judge.planned_goals[0].door is not None
+    assert judge.planned_goals[0].door.name == "east_south_1"
+
+
+def test_what_is_not_there_is_named_with_what_is() -> None:
+    with pytest.raises(GroundingError, match="after 5"):
+        verifier("go through the ninth door on the right")
+
+
+def test_contacts_are_counted_when_they_begin() -> None:
+    judge = verifier("go through the first door on the right")
+    for touching in (False, True, True, False, True):
+        judge.update(Motion(WEST, 0.1, 0.0, touching, 1 / 15))
+    assert judge.collisions == 2
+
+
+def test_standing_still_for_ten_seconds_is_stopping_short() -> None:
+    judge = verifier("go through the first door on the right")
+    for _ in range(149):
+        judge.update(Motion(WEST, 0.0, 0.0, False, 1 / 15))
+    assert not judge.over
+    for _ in range(3):
+        judge.update(Motion(WEST, 0.0, 0.0, False, 1 / 15))
+    assert judge.failure is Verdict.STOPPED_SHORT
+
+
+def test_the_route_leads_through_every_goal_and_is_never_longer_than_a_walk() -> None:
+    judge = verifier("turn right at the intersection and go through the first door on the left")
+    assert judge.route[0] == pytest.approx(WEST[:2])
+    assert judge.route[-1] == pytest.approx((16.0, 2.7))
+    walk(judge, (15.0, 9.1), (15.0, 2.7), (16.3, 2.7))
+    assert judge.route_length <= judge.path_length * 1.09
+    assert judge.path_length == pytest.approx(13.7 + 6.4 + 1.3)
+
+
+def test_the_way_that_remains_shrinks_on_the_way_and_is_zero_at_the_end() -> None:
+    judge = verifier("go through the first door on the right")
+    lengths = [judge.remaining]
+    for x, y in ((2.4, 9.0), (3.4, 8.8), (3.4, 8.3)):
+        judge.update(Motion((x, y, 0.0), 1.0, 0.0, False, 1.0))
+        lengths.append(judge.remaining)
+    assert lengths == sorted(lengths, reverse=True)
+    judge.update(Motion((3.4, 7.9, 0.0), 1.0, 0.0, False, 1.0))
+    assert judge.success
+    assert judge.remaining == 0.0
