@@ -1,7 +1,7 @@
 """Small scenes made by hand: straight corridors along x, with doors, arms and what stands in them.
 
 The corridors begin at x = -3 and run to x = `length`; the left side lies at y = `half`. Behind
-every side lie rooms, 4 m deep.
+every side lie rooms, 4 m deep; arms are as long.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def corridor(
         walls += side(y, [*gaps, *arms], BACK, length)
         doors += [Door((a, y), (b, y)) for a, b in gaps]
         deep = DEPTH if y > 0 else -DEPTH
-        walls += side(y + deep, arms, BACK, length)  # the backs of the rooms
+        walls.append(Wall((BACK, y + deep), (length, y + deep)))  # the backs of rooms and arms
         for x in {x for arm in arms for x in arm}:
             walls.append(Wall((x, y), (x, y + deep)))
     walls.append(Wall((BACK, -half), (BACK, half)))
