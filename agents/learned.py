@@ -49,8 +49,9 @@ class LearnedAgent:
                 f"{folder}: the policy takes {widths[0]} values and gives {widths[-1]}; this "
                 f"version has {fitting[0]} and {fitting[1]}: train it anew"
             )
+        tensors = load_tensors(folder / POLICY)
         try:
-            policy = Policy.from_tensors(load_tensors(folder / POLICY), widths)
+            policy = Policy.from_tensors(tensors, widths)
         except ValueError as error:
             raise ValueError(f"{folder / POLICY}: {error}") from None
         return cls(policy, description.robot, description.repeat)

@@ -132,14 +132,17 @@ def _bar(console: Console) -> Progress:
 def _line(report: Report) -> str:
     return (
         f"{report.steps} decisions, {report.rate:.0f}/s, "
-        f"success {report.success:.0%}, reward {report.reward:.1f}"
+        f"success {report.success:.0%}, no contact {report.contact_free:.0%}, "
+        f"reward {report.reward:.1f}"
     )
 
 
 def _learned(report: Report | None) -> str:
     if report is None:
         return ""
-    return f", success {report.success:.0%} and reward {report.reward:.1f} while exploring"
+    return (
+        f", success {report.success:.0%} and no contact {report.contact_free:.0%} while exploring"
+    )
 
 
 @contextmanager

@@ -31,7 +31,13 @@ class Practice(gym.Env[Array, Array]):
 
     def __init__(self, preset: Preset) -> None:
         plan = preset.trials[0].floor_plan if preset.trials else preset.floor_plan
-        self.env = SemNavEnv(preset.robot, plan, observation="all", max_seconds=preset.max_seconds)
+        self.env = SemNavEnv(
+            preset.robot,
+            plan,
+            observation="all",
+            rewards=preset.rewards,
+            max_seconds=preset.max_seconds,
+        )
         self.preset = preset
         self.action_space = self.env.action_space
         self.observation_space = Box(-1.0, 1.0, (COMPACT_SIZE,), np.float32)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from semnav_env.agents.evaluation.suites import Trial, suite
+from semnav_env.tasks import RewardWeights
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,8 @@ class Preset:
         envs: environments practised in at once.
         steps: decisions to train for, unless told otherwise.
         ppo: how to learn.
+        rewards: what for. Contact costs more than in the environment itself: without that, a
+            policy soon learns to slide along the jambs.
     """
 
     name: str
@@ -63,6 +66,7 @@ class Preset:
     envs: int
     steps: int
     ppo: PPOSettings = PPOSettings()
+    rewards: RewardWeights = RewardWeights(contact=-0.5)
 
 
 PRESETS = {

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from stable_baselines3 import PPO
 
 from semnav_env.agents.learning.policy import check_tensors
+
+if TYPE_CHECKING:
+    from stable_baselines3 import PPO
 
 Tensors = dict[str, NDArray[Any]]
 

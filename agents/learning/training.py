@@ -7,6 +7,7 @@ import time
 from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
@@ -35,12 +36,14 @@ class Report:
         steps: decisions so far.
         rate: decisions per second lately.
         success: share of episodes in which the command was carried out.
+        contact_free: share of episodes without any contact.
         reward: mean sum of rewards of an episode.
     """
 
     steps: int
     rate: float
     success: float
+    contact_free: float
     reward: float
 
 
@@ -58,7 +61,9 @@ class Trainer:
         folder.mkdir(parents=True, exist_ok=True)
         torch.set_num_threads(1)  # so small a network only loses by more
         self.preset, self.folder, self.seed = preset, folder, seed
-        self._envs = VecMonitor(DummyVecEnv([partial(Practice, preset)] * preset.envs))
+        self._envs = VecMonitor(
+            DummyVecEnv([partial(Practice, preset)] * preset.envs), info_keywords=("collisions",)
+        )
         self.model = _model(preset, self._envs, _seed_from(seed, steps))
         self.model.set_logger(configure(str(folder / "tensorboard"), ["tensorboard"]))
 
@@ -77,8 +82,7 @@ class Trainer:
         _check_same(preset, description, folder)
         path = folder / TRAINING
         tensors = load_tensors(path)
-        steps = int(tensors["steps"]) if "steps" in tensors else 0
-        trainer = cls(preset, folder, description.seed, steps)
+        trainer = cls(preset, folder, description.seed, description.steps)
         try:
             read_state(trainer.model, tensors)
         except ValueError as error:
@@ -89,15 +93,20 @@ class Trainer:
         """Practise for one rollout and learn from it."""
         start, before = time.perf_counter(), self.steps
         size = self.model.n_steps * self.model.n_envs
-        self.model.learn(size, reset_num_timesteps=False)
-        rate = (self.steps - before) / (time.perf_counter() - start)
+        # None: the curves are written below, together with what only this class knows
+        self.model.learn(size, reset_num_timesteps=False, log_interval=None)  # type: ignore[arg-type]
         episodes = list(self.model.ep_info_buffer or ())
-        return Report(
-            self.steps,
-            rate,
-            _mean(list(self.model.ep_success_buffer or ())),
-            _mean([episode["r"] for episode in episodes]),
+        report = Report(
+            steps=self.steps,
+            rate=(self.steps - before) / (time.perf_counter() - start),
+            success=_mean(list(self.model.ep_success_buffer or ())),
+            contact_free=_mean([episode["collisions"] == 0 for episode in episodes]),
+            reward=_mean([episode["r"] for episode in episodes]),
         )
+        if episodes:
+            self.model.logger.record("rollout/contact_free", report.contact_free)
+        self.model.dump_logs()
+        return report
 
     def save(self) -> None:
         """Write the folder's files, each in one move."""
@@ -179,5 +188,5 @@ def _check_same(preset: Preset, description: Description, folder: Path) -> None:
             )
 
 
-def _mean(values: list[float]) -> float:
+def _mean(values: list[Any]) -> float:
     return float(np.mean(values)) if values else float("nan")

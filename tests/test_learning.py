@@ -1,0 +1,251 @@
+"""What a small policy sees, computes and is kept in; none of it needs torch."""
+
+import json
+import pickle
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from semnav_env.agents.learned import LearnedAgent
+from semnav_env.agents.learning.compact import COMPACT_SIZE, SECTORS, compact
+from semnav_env.agents.learning.files import AGENT, POLICY, Description, replace_file, save_tensors
+from semnav_env.agents.learning.policy import Policy
+from semnav_env.agents.learning.practice import Practice
+from semnav_env.agents.learning.presets import PRESETS, preset
+from semnav_env.env import SemNavEnv
+from semnav_env.observations import FAR, GOAL_SIZE
+from semnav_env.robots import ROBOTS
+
+pytest.importorskip("safetensors", reason='needs the extra "rl"')
+
+WIDTHS = (COMPACT_SIZE, 16, 2)
+
+
+def observation(scan, goal=None, velocity=(0, 0, 0)):
+    odometry = np.array([0, 0, 1, 0, *velocity], np.float32)
+    goal = np.zeros(GOAL_SIZE, np.float32) if goal is None else goal
+    return {"scan": np.asarray(scan, np.float32), "odometry": odometry, "goal": goal}
+
+
+def policy(seed=0, widths=WIDTHS):
+    rng = np.random.default_rng(seed)
+    shapes = list(pairwise(widths))
+    return Policy(
+        tuple(rng.normal(size=(o, i)).astype(np.float32) for i, o in shapes),
+        tuple(rng.normal(size=o).astype(np.float32) for _, o in shapes),
+    )
+
+
+def save(folder, a_policy, **changes):
+    folder.mkdir(exist_ok=True)
+    save_tensors(folder / POLICY, a_policy.tensors())
+    fields = {"robot": "wheelchair", "repeat": 3, "widths": WIDTHS, "preset": {}}
+    Description(**{**fields, "seed": 0, "steps": 5, **changes}).write(folder)
+    return folder
+
+
+@pytest.fixture
+def saved(tmp_path):
+    return save(tmp_path / "agent", policy())
+
+
+@given(
+    arrays(np.float32, st.integers(1, 900), elements=st.floats(0, 50, width=32)),
+    arrays(np.float32, GOAL_SIZE, elements=st.floats(-FAR, FAR, width=32)),
+    st.tuples(*[st.floats(-3, 3)] * 3),
+)
+def test_every_value_lies_between_minus_one_and_one(scan, goal, velocity):
+    goal[:4], goal[6:8], goal[-1] = 0, 1, 1
+    values = compact(observation(scan, goal, velocity))
+    assert values.shape == (COMPACT_SIZE,)
+    assert values.dtype == np.float32
+    assert np.abs(values).max() <= 1
+
+
+@given(st.integers(SECTORS, 900), st.data())
+def test_the_nearest_hit_shows_in_its_sector_alone(beams, data):
+    beam = data.draw(st.integers(0, beams - 1))
+    scan = np.full(beams, 10.0)
+    before = compact(observation(scan))
+    scan[beam] = 0.5
+    changed = np.flatnonzero(compact(observation(scan)) != before) - (COMPACT_SIZE - SECTORS)
+    assert len(changed) == 1
+    assert changed[0] == pytest.approx(beam * SECTORS / beams, abs=1)
+
+
+def test_a_place_keeps_its_direction():
+    goal = np.zeros(GOAL_SIZE, np.float32)
+    goal[4:6] = 30.0, 40.0
+    x, y = compact(observation(np.ones(54), goal))[4:6]
+    assert (x, y) == pytest.approx((30 / 51, 40 / 51))
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_the_observation_of_every_robot_becomes_compact(robot):
+    env = SemNavEnv(robot, observation="all")
+    first, _ = env.reset(seed=0)
+    assert np.abs(compact(first)).max() <= 1
+
+
+def test_practice_draws_the_trials_of_its_preset():
+    practice = Practice(preset("quick"))
+    drawn = {practice.reset(seed=seed)[1]["command"] for seed in range(20)}
+    assert len(drawn) == len(preset("quick").trials)
+    assert all(name == p.name for name, p in PRESETS.items())
+
+
+def test_practice_sums_the_rewards_of_the_steps_that_an_action_holds():
+    practice = Practice(preset("quick"))
+    practice.reset(seed=1)
+    twin = SemNavEnv(observation="all", rewards=practice.preset.rewards)
+    practice.env.reset(seed=1, options={"pose": (-2.5, -0.3, 0.24)})
+    twin.reset(seed=1, options={"pose": (-2.5, -0.3, 0.24)})
+    action = np.array([0.8, -0.1], np.float32)
+    seen, reward, *_ = practice.step(action)
+    steps = [twin.step(action) for _ in range(practice.preset.repeat)]
+    assert reward == sum(step[1] for step in steps)
+    assert np.array_equal(seen, compact(steps[-1][0]))
+
+
+def test_a_policy_is_what_its_formula_says():
+    net = policy(3)
+    values = np.linspace(-1, 1, COMPACT_SIZE, dtype=np.float32)
+    hidden = np.tanh(net.weights[0] @ values + net.biases[0])
+    expected = np.clip(net.weights[1] @ hidden + net.biases[1], -1, 1)
+    assert np.allclose(net.act(values), expected)
+
+
+@given(st.integers(0, 1000))
+def test_a_policy_comes_back_from_its_tensors(seed):
+    net = policy(seed)
+    again = Policy.from_tensors(net.tensors(), WIDTHS)
+    values = np.random.default_rng(seed).uniform(-1, 1, COMPACT_SIZE).astype(np.float32)
+    assert np.array_equal(net.act(values), again.act(values))
+
+
+def test_a_saved_agent_acts_as_the_policy_does_and_holds_each_action(saved):
+    agent, net = LearnedAgent.load(saved), policy()
+    env = SemNavEnv(observation=agent.observation)
+    seen, info = env.reset(seed=0)
+    agent.reset(info)
+    for step in range(9):
+        if step % 3 == 0:
+            expected = net.act(compact(seen))
+        action = agent.act(seen)
+        assert np.array_equal(action, expected)
+        seen, *_ = env.step(action)
+
+
+def test_a_new_episode_begins_with_a_new_action(saved):
+    agent = LearnedAgent.load(saved)
+    near, far = observation(np.full(811, 0.5)), observation(np.full(811, 9.0))
+    agent.act(near)
+    agent.reset({"robot_spec": ROBOTS["wheelchair"]})
+    assert np.array_equal(agent.act(far), policy().act(compact(far)))
+
+
+def test_another_robot_is_refused(saved):
+    with pytest.raises(ValueError, match="trained on 'wheelchair', not 'spot'"):
+        LearnedAgent.load(saved).reset({"robot_spec": ROBOTS["spot"]})
+
+
+def test_a_policy_that_does_not_fit_is_refused(tmp_path):
+    folder = save(tmp_path / "a", policy(widths=(3, 4, 2)), widths=(3, 4, 2))
+    with pytest.raises(ValueError, match=f"takes 3 values .* has {COMPACT_SIZE} and 2"):
+        LearnedAgent.load(folder)
+
+
+def edit(saved, **changes):
+    path = saved / AGENT
+    path.write_text(json.dumps({**json.loads(path.read_text()), **changes}))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"format": 2}, "has format 2; this version reads format 1"),
+        ({"widths": [COMPACT_SIZE, -1, 2]}, "'widths' must be"),
+        ({"widths": [COMPACT_SIZE, True, 2]}, "'widths' must be"),
+        ({"widths": "wide"}, "'widths' must be of type list"),
+        ({"repeat": 0}, "'repeat' must be at least 1"),
+        ({"repeat": 1.5}, "'repeat' must be of type int"),
+        ({"robot": "bicycle"}, "no robot named 'bicycle'"),
+    ],
+)
+def test_a_wrong_description_is_refused_by_name(saved, changes, message):
+    edit(saved, **changes)
+    with pytest.raises(ValueError, match=message):
+        LearnedAgent.load(saved)
+
+
+@pytest.mark.parametrize("text", ["", "[]", "nonsense", "[" * 100_000, '"\\ud800"'])
+def test_what_is_no_description_is_refused(saved, text):
+    (saved / AGENT).write_text(text)
+    with pytest.raises(ValueError, match=AGENT):
+        LearnedAgent.load(saved)
+
+
+def test_a_folder_without_an_agent_is_refused(tmp_path):
+    with pytest.raises(ValueError, match=r"holds no trained agent: there is no agent\.json"):
+        LearnedAgent.load(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("name", "tensor", "message"),
+    [
+        ("1.bias", np.zeros(3, np.float32), r"'1.bias' is float32 of shape \(3,\); it must be"),
+        ("1.bias", np.zeros(2, np.float64), "'1.bias' is float64"),
+        ("1.bias", np.full(2, np.nan, np.float32), "'1.bias' is not finite"),
+        ("2.bias", np.zeros(2, np.float32), "'2.bias' is unknown"),
+    ],
+)
+def test_wrong_weights_are_refused_by_name(saved, name, tensor, message):
+    save_tensors(saved / POLICY, {**policy().tensors(), name: tensor})
+    with pytest.raises(ValueError, match=message):
+        LearnedAgent.load(saved)
+
+
+def test_missing_weights_are_refused_by_name(saved):
+    tensors = policy().tensors()
+    del tensors["0.weight"]
+    save_tensors(saved / POLICY, tensors)
+    with pytest.raises(ValueError, match=r"'0.weight' is missing"):
+        LearnedAgent.load(saved)
+
+
+class Trap:
+    def __reduce__(self):
+        return pytest.fail, ("unpickled",)
+
+
+@pytest.mark.parametrize("data", [b"", b"\0" * 8, b"\xff" * 64, pickle.dumps(Trap())])
+def test_what_is_no_safetensors_file_is_refused_and_never_unpickled(saved, data):
+    (saved / POLICY).write_bytes(data)
+    with pytest.raises(ValueError, match="is not a safetensors file"):
+        LearnedAgent.load(saved)
+
+
+@given(cut=st.integers(0, 400))
+def test_a_file_cut_short_is_refused(tmp_path_factory, cut):
+    folder = save(tmp_path_factory.mktemp("cut"), policy())
+    whole = (folder / POLICY).read_bytes()
+    (folder / POLICY).write_bytes(whole[: len(whole) * cut // 401])
+    with pytest.raises(ValueError, match="is not a safetensors file"):
+        LearnedAgent.load(folder)
+
+
+def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
+    path = tmp_path / "file"
+    replace_file(path, b"old")
+
+    def broken(_):
+        raise OSError("disk full")
+
+    monkeypatch.setattr("os.fsync", broken)
+    with pytest.raises(OSError, match="disk full"):
+        replace_file(path, b"new")
+    assert path.read_bytes() == b"old"
