@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tyro.conf import Positional
 
-from semnav_env.commands import parse
+from semnav_env.commands import Command, CommandError, parse
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
@@ -20,7 +20,7 @@ class Arguments:
     """Say what a command refers to in a floor plan, clause by clause.
 
     Attributes:
-        command: the command.
+        command: a command, or just a place: "the second door on the right".
         map: a floor plan: a bundled name or a path.
         pose: where the robot stands, x,y,heading in metres and radians.
         robot: wheelchair or spot.
@@ -39,7 +39,7 @@ class Arguments:
         error = placement_error(floor_plan, robot_spec(self.robot), pose)
         if error is not None:
             raise ValueError(f"pose {self.pose}: {error}")
-        goals = plan_goals(floor_plan, parse(self.command), pose)
+        goals = plan_goals(floor_plan, understood(self.command), pose)
         rows = [
             {
                 "kind": goal.kind.name.lower(),
@@ -56,3 +56,18 @@ class Arguments:
                 door = f"  (door {row['door']})" if row["door"] else ""
                 print(f"{row['kind']:<6}{row['pose']}  {row['understood']}{door}")
         return 0
+
+
+def understood(text: str) -> Command:
+    """The command, or for a mere place the command to go there.
+
+    Raises:
+        CommandError: it is neither.
+    """
+    try:
+        return parse(text)
+    except CommandError as error:
+        try:
+            return parse(f"go to {text}")
+        except CommandError:
+            raise error from None
