@@ -20,6 +20,10 @@ STILL, TURN, FORWARD, REVERSE, SIDEWAYS = range(5)
 """Kinds of motion; a robot stops where the kind changes."""
 
 
+GRACE = 0.3
+"""Metres from the start over which the gap need not grow: the rear swings out before one leaves."""
+
+
 class Costs(NamedTuple):
     """What a move costs, in seconds.
 
@@ -45,7 +49,9 @@ class Costs(NamedTuple):
 
 
 class Margin(NamedTuple):
-    """The gap to keep: `full`, but only `start` + `growth` * distance close to where one starts.
+    """The gap to keep: `full`, but less close to where one starts.
+
+    There it is `start` up to `GRACE` metres away and grows by `growth` per metre from then on.
 
     A robot that stands closer to a wall than the margin must be able to leave.
 
@@ -69,7 +75,7 @@ def margin_at(margin: Margin, x: float, y: float) -> float:
     """Metres to keep at an axle position."""
     if margin.start >= margin.full:
         return margin.full
-    travelled = math.hypot(x - margin.x, y - margin.y)
+    travelled = max(0.0, math.hypot(x - margin.x, y - margin.y) - GRACE)
     return min(margin.full, margin.start + margin.growth * travelled)
 
 

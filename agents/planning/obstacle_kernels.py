@@ -31,6 +31,12 @@ CENTRES = np.dtype(
 VOXEL = 0.05
 """Metres."""
 
+BESIDE = 0.09
+"""Metres; a centre with far fewer hits than another this near is noise."""
+
+TOO_CLOSE = 0.035
+"""Metres; centres this close are joined."""
+
 SIDE = 256
 """Voxels along one side of the table, which wraps around: 12.8 m."""
 
@@ -54,7 +60,7 @@ def forget(
     radius: float,
     through: float,
 ) -> tuple[int, NDArray[np.int32]]:
-    """Drop centres that are old, far or seen through; join those that share a voxel.
+    """Drop centres that are old, far or seen through; join those that are close together.
 
     Returns:
         how many are left, in front of the array, and the table from voxels to them (-1: none).
@@ -75,8 +81,11 @@ def forget(
             if centre.hits < 1.0:
                 continue
         j, i = slot(centre.x, centre.y)
-        if table[j, i] >= 0:
-            join(centres[table[j, i]], centre)
+        near = nearest(centres, table, centre.x, centre.y, TOO_CLOSE)
+        if near < 0:
+            near = table[j, i]
+        if near >= 0:
+            join(centres[near], centre)
         else:
             table[j, i] = kept
             centres[kept] = centre
@@ -202,7 +211,7 @@ def select(centres: NDArray[Any], sure: int, share: float, blunt: float) -> Floa
             points[n, 0], points[n, 1] = centre.x, centre.y
             n += 1
             away = math.hypot(x, y)
-            if weight > 0 and away > 0.6 * weight:
+            if weight > 0 and away > 0.6 * weight and centre.hits >= 2.0 * share * most:
                 points[n, 0], points[n, 1] = (
                     centre.x - blunt * x / away,
                     centre.y - blunt * y / away,
@@ -218,7 +227,7 @@ def neighbourhood(
     """What lies around a centre.
 
     Returns:
-        the most hits of one in the voxels beside it; of those up to two voxels away how many
+        the most hits of one beside it; of those up to two voxels away how many
         there are, and the sum (x, y) of the unit vectors to them.
     """
     j, i = slot(centres[k].x, centres[k].y)
@@ -228,11 +237,10 @@ def neighbourhood(
             m = table[b % SIDE, a % SIDE]
             if m < 0 or m == k:
                 continue
-            if abs(b - j) < 2 and abs(a - i) < 2:
+            dx, dy = centres[m].x - centres[k].x, centres[m].y - centres[k].y
+            away = math.hypot(dx, dy)
+            if away < BESIDE:
                 most = max(most, centres[m].hits)
-            if centres[m].hits >= share * centres[k].hits:
-                dx, dy = centres[m].x - centres[k].x, centres[m].y - centres[k].y
-                away = math.hypot(dx, dy)
-                if away > 1e-6:
-                    count, x, y = count + 1.0, x + dx / away, y + dy / away
+            if centres[m].hits >= share * centres[k].hits and away > 1e-6:
+                count, x, y = count + 1.0, x + dx / away, y + dy / away
     return most, count, x, y

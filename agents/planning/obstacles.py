@@ -43,7 +43,7 @@ class MemorySettings:
     scans: int = 600
     through: float = 0.15
     sure: int = 2
-    share: float = 0.05
+    share: float = 0.12
     blunt: float = 0.018
     capacity: int = 8192
 

@@ -233,7 +233,7 @@ def _start_room(field: Field, body: Body, axle: Triple, full: float) -> float:
     margin = full
     while margin > -0.06 and not is_clear(field, body, *axle, margin):
         margin -= 0.005
-    return margin if margin == full else margin - 0.005
+    return margin if margin == full else margin - 0.01
 
 
 def _without_impossible(points: FloatArray, axle: Pose, body: Body) -> FloatArray:

@@ -1,0 +1,159 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from semnav_env.agents.planning.doorway import target_behind
+from semnav_env.agents.planning.driver import Driver
+from semnav_env.agents.planning.follower import Progress, follow
+from semnav_env.agents.planning.guard import safe_share
+from semnav_env.agents.planning.obstacles import points_of_segments
+from semnav_env.agents.planning.planner import Target, plan
+from semnav_env.agents.planning.track import Track
+from semnav_env.robots import SPOT, WHEELCHAIR
+from tests.kinematics import (
+    HALLWAY_STARTS,
+    Kinematics,
+    around,
+    corridor_with_door,
+    drive_knowing,
+    drive_seeing,
+    hallway_task,
+    room_with_pillar,
+)
+from tests.raycaster import polyline
+
+ROBOTS = pytest.mark.parametrize("robot", [WHEELCHAIR, SPOT], ids=lambda robot: robot.name)
+NOTHING = np.empty((0, 2))
+
+
+@ROBOTS
+@pytest.mark.parametrize("name", HALLWAY_STARTS)
+def test_with_everything_known_each_door_is_passed_close_to_the_path(robot, name):
+    segments, start, target = hallway_task(name)
+    drive = drive_knowing(segments, robot, around(start, np.random.default_rng(1)), target)
+    assert drive.arrived
+    assert drive.clearance > 0
+    assert drive.deviation < 0.06
+    assert drive.plans == 1
+
+
+@pytest.mark.parametrize(
+    ("robot", "name"), [(WHEELCHAIR, "north"), (WHEELCHAIR, "south_2"), (SPOT, "south_1")]
+)
+def test_with_noise_and_drift_doors_are_passed_without_contact(robot, name):
+    segments, start, target = hallway_task(name)
+    for seed in range(2):
+        rng = np.random.default_rng(seed)
+        drive = drive_seeing(segments, robot, around(start, rng), target, rng)
+        assert drive.arrived
+        assert drive.clearance > 0
+        assert math.dist(drive.pose[:2], target.pose[:2]) < target.position_tolerance + 0.25
+
+
+@ROBOTS
+def test_a_door_on_the_side_of_a_narrow_corridor_is_entered(robot):
+    segments, door = corridor_with_door(1.65, 1.0)
+    drive = drive_knowing(segments, robot, (0.0, 0.8, 0.0), target_behind(door, (0.0, 0.8)))
+    assert drive.arrived
+    assert drive.clearance > 0.03
+
+
+@ROBOTS
+def test_a_pillar_is_passed(robot):
+    target = Target((5.0, 2.2, 0.0))
+    drive = drive_knowing(room_with_pillar(), robot, (1.0, 1.9, 0.0), target)
+    assert drive.arrived
+    assert drive.clearance > 0.05
+    assert math.dist(drive.pose[:2], target.pose[:2]) < 0.15
+
+
+@ROBOTS
+def test_an_open_corridor_is_driven_at_cruising_speed(robot):
+    walls = np.concatenate((polyline((-2, -1.2), (12, -1.2)), polyline((-2, 1.2), (12, 1.2))))
+    drive = drive_knowing(walls, robot, (0.0, 0.0, 0.0), Target((9.0, 0.0, 0.0)))
+    assert drive.arrived
+    assert drive.seconds < 13.0
+
+
+@ROBOTS
+@pytest.mark.parametrize("offset", [0.08, -0.08])
+def test_a_robot_beside_its_path_comes_back_to_it(robot, offset):
+    path = plan(NOTHING, (0.0, 0.0, 0.0), Target((5.0, 0.0, 0.0)), robot)
+    track, progress = Track(path, robot), Progress()
+    world = Kinematics(np.array([[(99, 99), (99, 98)]]), robot, (0.0, offset, 0.0), rng())
+    for _ in range(40):
+        steering = follow(track, progress, world.pose, tuple(world.velocity.tolist()))
+        progress = steering.progress
+        world.step(steering.command)
+    assert abs(world.pose[1]) < 0.015
+    assert abs(world.pose[2]) < math.radians(2.0)
+
+
+def test_a_turn_on_the_spot_stays_on_the_spot():
+    path = plan(NOTHING, (0.0, 0.0, 0.0), Target((0.18, 0.18, math.pi / 2), 0.03, 0.05), WHEELCHAIR)
+    track, progress = Track(path, WHEELCHAIR), Progress()
+    world = Kinematics(np.array([[(99, 99), (99, 98)]]), WHEELCHAIR, (0.0, 0.0, 0.0), rng())
+    for _ in range(120):
+        steering = follow(track, progress, world.pose, tuple(world.velocity.tolist()))
+        progress = steering.progress
+        if steering.done:
+            break
+        world.step(steering.command)
+    assert steering.done
+    assert math.dist(world.pose[:2], path.end[:2]) < 0.03
+    assert abs(world.pose[2] - path.end[2]) < 0.03
+
+
+def test_commands_keep_to_the_limits_of_the_follower():
+    segments, start, target = hallway_task("south_1")
+    path = plan(points_of_segments(segments.reshape(-1, 4)), start, target, WHEELCHAIR)
+    track = Track(path, WHEELCHAIR)
+    assert track.speed.max() <= track.settings.cruise
+    assert track.speed[-1] == 0.0
+    bends = np.abs(track.curvature) * np.minimum(track.speed[1:], track.speed[:-1])
+    assert bends.max() <= track.settings.turn_rate + 1e-9
+
+
+def test_a_wall_that_appears_on_the_path_is_driven_around():
+    driver, pose = Driver(WHEELCHAIR), (0.0, 0.0, 0.0)
+    target = Target((5.0, 0.0, 0.0))
+    driver.drive(NOTHING, target, pose)
+    before = driver.path
+    box = points_of_segments(polyline((2.0, -0.3), (2.0, 0.3)).reshape(-1, 4))
+    for _ in range(driver.check_every):
+        driver.drive(box, target, pose)
+    assert driver.path is not before
+    assert driver.path.complete
+    assert np.abs(driver.path.poses[:, 1]).max() > 0.6
+
+
+def test_a_target_that_moves_is_followed_and_one_that_trembles_is_not():
+    driver, pose = Driver(WHEELCHAIR), (0.0, 0.0, 0.0)
+    driver.drive(NOTHING, Target((5.0, 0.0, 0.0)), pose)
+    driver.drive(NOTHING, Target((5.01, 0.01, 0.01)), pose)
+    assert driver.plans == 1
+    driver.drive(NOTHING, Target((5.0, 1.0, 0.0)), pose)
+    assert driver.plans == 2
+
+
+def test_where_no_way_leads_on_the_robot_stands_and_is_not_done():
+    driver, wall = Driver(WHEELCHAIR), points_of_segments(np.array([[0.7, -30.0, 0.7, 30.0]]))
+    for _ in range(30):
+        steering = driver.drive(wall, Target((3.0, 0.0, 0.0)), (0.0, 0.0, 0.0))
+        assert not steering.done
+    assert driver.plans < 10
+
+
+def test_a_command_into_a_wall_is_slowed_and_one_along_it_is_not():
+    wall = np.stack((np.full(50, 0.72), np.linspace(-1.0, 1.0, 50)), axis=1)
+    assert safe_share(wall, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) < 1.0
+    assert safe_share(wall, (1.0, 0.0, 0.0), (1.2, 0.0, 0.0), WHEELCHAIR) == 0.0
+    assert safe_share(wall, (-1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) == 1.0
+    assert safe_share(NOTHING, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) == 1.0
+
+
+def rng():
+    return np.random.default_rng(0)
