@@ -7,9 +7,10 @@ what `ground` returns, so the pictures cannot say anything else than the program
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,7 +21,7 @@ from matplotlib.patches import Circle, Wedge
 from semnav_env.commands import parse
 from semnav_env.commands.clauses import Side
 from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import Point, Pose, compose, relative
+from semnav_env.features.frames import Point, Pose, compose
 from semnav_env.features.hallway import Hallway, hallway
 from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import Goal, GoalKind, ground
@@ -33,7 +34,7 @@ from semnav_env.robots import WHEELCHAIR
 IMAGES = Path(__file__).parent / "images"
 COLOURS = {Side.LEFT: "tab:blue", Side.RIGHT: "tab:orange", Side.AHEAD: "tab:purple"}
 LETTERS = {Side.LEFT: "L", Side.RIGHT: "R", Side.AHEAD: "A"}
-NORTH, WEST, SOUTH = math.pi / 2, math.pi, -math.pi / 2
+NORTH = math.pi / 2
 OFFICE_PLAN = load_floor_plan("office_cross")
 HEIDELBERG_PLAN = load_floor_plan("heidelberg_hallway")
 OFFICE = OFFICE_PLAN.scene
@@ -63,160 +64,145 @@ NICHES = Scene(
 """A recess and an arm, each with a door in its back, and a door in the end."""
 
 
+CROPS = {
+    "corridor": ((-0.5, 30.5), (6.5, 11.7)),
+    "west": ((-0.3, 7.8), (6.9, 11.3)),
+    "niches": ((-0.5, 12.8), (-1.5, 4.6)),
+    "crossing": ((10.5, 19.5), (4.5, 13.5)),
+    "T": ((8.5, 17.5), (-4.5, 4.5)),
+    "bend": ((12.5, 21.5), (12.5, 21.5)),
+    "arms": ((-0.5, 16.0), (-4.5, 4.5)),
+    "dead end": ((22.5, 30.5), (5.5, 12.5)),
+    "door end": ((5.0, 13.0), (-2.5, 4.5)),
+    "rooms": ((-0.3, 8.5), (4.0, 11.5)),
+    "heidelberg": ((-2.0, 14.0), (-4.0, 6.0)),
+}
+"""What a panel shows: x and y from where to where, metres."""
+
+Draw: TypeAlias = Callable[[Axes], None]
+Panel: TypeAlias = tuple[str, str, Draw]
+"""Title, crop, and what to draw."""
+
+
 def draw_rules() -> None:
     """Draw and save every picture."""
-    _save("doors", [_counting_doors], (11.0, 3.2))
-    _save("half", [_before_the_middle, _behind_the_middle], (9.0, 3.0))
-    _save("sides", [_recess_and_arm], (8.0, 3.6))
-    _save("junctions", [_crossing, _t_junction, _bend], (10.0, 4.0))
-    _save("turns", [_turn_left, _turn_right_again], (10.0, 3.6))
-    _save("end", [_end_of_corridor, _end_at_bend, _end_at_door], (10.0, 3.6))
-    _save("goals", [_through, _to, _into_an_arm], (10.0, 4.2))
-    _save("seek", [_seek_first, _seek_later], (10.0, 4.6))
-
-
-def _counting_doors(ax: Axes) -> None:
-    begin = (1.3, 9.1, 0.0)
-    _draw_scene(ax, OFFICE)
-    _draw_doors(ax, OFFICE, hallway(OFFICE, begin))
-    _draw_robot(ax, begin)
-    for door in OFFICE_PLAN.doors:
-        if not door.open:
-            _label(ax, (door.midpoint[0], door.midpoint[1] - 0.5), "closed", "tab:red")
-    _crop(ax, "counted from the arrow: L on the left, R on the right", (-0.5, 30.5), (6.5, 11.7))
-
-
-def _half(ax: Axes, x: float, title: str) -> None:
-    begin = (x, 9.1, 0.0)
-    _draw_scene(ax, OFFICE)
-    _draw_doors(ax, OFFICE, hallway(OFFICE, begin))
-    _draw_robot(ax, begin)
-    ax.axvline(x, color="tab:red", lw=0.8, ls=":")
-    _crop(ax, title, (-0.3, 7.8), (6.9, 11.3))
-
-
-def _before_the_middle(ax: Axes) -> None:
-    _half(ax, 2.5, "most of its opening is ahead: it is the first")
-
-
-def _behind_the_middle(ax: Axes) -> None:
-    _half(ax, 2.9, "less than half is ahead: the next one is the first")
-
-
-def _recess_and_arm(ax: Axes) -> None:
-    begin = (0.8, 0.0, 0.0)
-    _draw_scene(ax, NICHES)
-    _draw_doors(ax, NICHES, hallway(NICHES, begin))
-    _draw_robot(ax, begin)
-    _crop(
-        ax, "the door in the recess counts, the one in the arm does not", (-0.5, 12.8), (-1.5, 4.6)
+    start, crossing, bend = (1.3, 9.1, 0.0), (11.0, 9.1, 0.0), (15.0, 14.8, NORTH)
+    arms, niche, far = (0.8, 0.0, 0.0), (6.0, 0.0, 0.0), (24.0, 9.1, 0.0)
+    title = "counted from the arrow: L on the left, R on the right"
+    _save("doors", (11.0, 3.2), (title, "corridor", _doors(OFFICE, start)))
+    _save(
+        "half",
+        (9.0, 3.0),
+        ("most of its opening is ahead: it is the first", "west", _doors(OFFICE, (2.5, 9.1, 0.0))),
+        ("less than half is ahead: it does not count", "west", _doors(OFFICE, (2.9, 9.1, 0.0))),
+    )
+    title = "the door in the recess counts, the one in the arm does not"
+    _save("sides", (8.0, 3.6), (title, "niches", _doors(NICHES, arms)))
+    _save(
+        "junctions",
+        (10.0, 4.0),
+        ("a crossing", "crossing", _junctions(OFFICE, crossing)),
+        ("a T", "T", _junctions(ARMS, (10.0, 0.0, 0.0))),
+        ("a bend", "bend", _junctions(OFFICE, bend)),
+    )
+    left, second = "turn left at the intersection", "turn right at the second intersection"
+    _save(
+        "turns",
+        (10.0, 3.6),
+        (left, "arms", _goal(ARMS, arms, left)),
+        (second, "arms", _goal(ARMS, arms, second)),
+    )
+    end = "go to the end of the hallway"
+    _save(
+        "end",
+        (10.0, 3.6),
+        ("a dead end", "dead end", _goal(OFFICE, far, end)),
+        ("a bend (and a T)", "bend", _goal(OFFICE, bend, end)),
+        ("a door across the hallway", "door end", _goal(NICHES, niche, end)),
+    )
+    door = "the second door on the right"
+    _save(
+        "goals",
+        (10.0, 4.2),
+        ("through: PASS", "rooms", _goal(OFFICE, start, f"go through {door}")),
+        ("to: REACH", "rooms", _goal(OFFICE, start, f"go to {door}")),
+        ("a turn: REACH", "crossing", _goal(OFFICE, crossing, left)),
+    )
+    _save(
+        "seek",
+        (10.0, 4.6),
+        ("after 1 m the third door has not been seen", "heidelberg", _perceived(1.0)),
+        ("after 5 m it has", "heidelberg", _perceived(5.0)),
     )
 
 
-def _junctions(ax: Axes, scene: Scene, begin: Pose, title: str) -> None:
-    seen = hallway(scene, begin)
-    _draw_scene(ax, scene)
-    _draw_axis(ax, seen)
-    _draw_robot(ax, begin)
-    for junction in seen.junctions:
-        ways = {"left": junction.left, "right": junction.right, "ahead": junction.ahead}
-        name = "corner" if junction.is_corner else "intersection"
-        text = f"{name}\n{', '.join(way for way, there in ways.items() if there)}"
-        _label(ax, seen.place(junction.centre)[:2], text, "tab:red")
-    ax.set_title(title)
+def _doors(scene: Scene, begin: Pose) -> Draw:
+    """The doors as they are counted from a pose."""
+
+    def draw(ax: Axes) -> None:
+        _draw_scene(ax, scene)
+        _draw_doors(ax, scene, hallway(scene, begin))
+        _draw_robot(ax, begin)
+        for door in OFFICE_PLAN.doors if scene is OFFICE else ():
+            if not door.open:
+                _label(ax, (door.midpoint[0], door.midpoint[1] - 0.5), "closed", "tab:red")
+
+    return draw
 
 
-def _crossing(ax: Axes) -> None:
-    _junctions(ax, OFFICE, (11.0, 9.1, 0.0), "")
-    _crop(ax, "a crossing", (10.5, 19.5), (4.5, 13.5))
+def _junctions(scene: Scene, begin: Pose) -> Draw:
+    """What kind of junction lies ahead of a pose, and where it leads."""
+
+    def draw(ax: Axes) -> None:
+        seen = hallway(scene, begin)
+        _draw_scene(ax, scene)
+        _draw_axis(ax, seen)
+        _draw_robot(ax, begin)
+        for junction in seen.junctions:
+            ways = {"left": junction.left, "right": junction.right, "ahead": junction.ahead}
+            name = "corner" if junction.is_corner else "intersection"
+            text = f"{name}\n{', '.join(way for way, there in ways.items() if there)}"
+            _label(ax, seen.place(junction.centre)[:2], text, "tab:red")
+
+    return draw
 
 
-def _t_junction(ax: Axes) -> None:
-    _junctions(ax, ARMS, (10.0, 0.0, 0.0), "")
-    _crop(ax, "a T", (8.5, 17.5), (-4.5, 4.5))
+def _goal(scene: Scene, begin: Pose, text: str) -> Draw:
+    """The goal of a clause."""
+
+    def draw(ax: Axes) -> None:
+        (clause,) = parse(text).clauses
+        goal = ground(clause, scene, begin, complete=True)
+        _draw_scene(ax, scene)
+        _draw_robot(ax, begin)
+        _draw_goal(ax, goal)
+        if goal.hallway is not None:
+            _draw_axis(ax, goal.hallway)
+
+    return draw
 
 
-def _bend(ax: Axes) -> None:
-    _junctions(ax, OFFICE, (15.0, 14.8, NORTH), "")
-    _crop(ax, "a bend", (12.5, 21.5), (12.5, 21.5))
-
-
-def _goal(ax: Axes, scene: Scene, begin: Pose, text: str, title: str = "") -> Goal:
-    (clause,) = parse(text).clauses
-    goal = ground(clause, scene, begin, complete=True)
-    _draw_scene(ax, scene)
-    _draw_robot(ax, begin)
-    _draw_goal(ax, goal)
-    if goal.hallway is not None:
-        _draw_axis(ax, goal.hallway)
-    ax.set_title(title or text)
-    return goal
-
-
-def _turn_left(ax: Axes) -> None:
-    _goal(ax, ARMS, (0.8, 0.0, 0.0), "turn left at the intersection")
-
-
-def _turn_right_again(ax: Axes) -> None:
-    _goal(ax, ARMS, (0.8, 0.0, 0.0), "turn right at the second intersection")
-
-
-def _end_of_corridor(ax: Axes) -> None:
-    _goal(ax, OFFICE, (24.0, 9.1, 0.0), "go to the end of the hallway")
-    _crop(ax, "a dead end", (22.5, 30.5), (5.5, 12.5))
-
-
-def _end_at_bend(ax: Axes) -> None:
-    _goal(ax, OFFICE, (15.0, 15.0, NORTH), "go to the end of the hallway")
-    _crop(ax, "a bend (and a T)", (12.5, 20.5), (14.0, 21.0))
-
-
-def _end_at_door(ax: Axes) -> None:
-    _goal(ax, NICHES, (6.0, 0.0, 0.0), "go to the end of the hallway")
-    _crop(ax, "a door across the hallway", (5.0, 13.0), (-2.5, 4.5))
-
-
-def _through(ax: Axes) -> None:
-    _goal(ax, OFFICE, (1.3, 9.1, 0.0), "go through the second door on the right")
-    _crop(ax, "through: PASS", (-0.3, 8.5), (4.0, 11.5))
-
-
-def _to(ax: Axes) -> None:
-    _goal(ax, OFFICE, (1.3, 9.1, 0.0), "go to the second door on the right")
-    _crop(ax, "to: REACH", (-0.3, 8.5), (4.0, 11.5))
-
-
-def _into_an_arm(ax: Axes) -> None:
-    _goal(ax, OFFICE, (11.0, 9.1, 0.0), "turn left at the intersection")
-    _crop(ax, "a turn: REACH", (10.2, 19.0), (6.5, 14.0))
-
-
-def _seek(ax: Axes, metres: float, title: str) -> None:
+def _perceived(metres: float) -> Draw:
     """What a robot has understood after so many metres of the Heidelberg hallway."""
-    start, heading = (-2.5, -0.3, 0.24), 0.24
-    lidar = Lidar(HEIDELBERG_PLAN, mount=WHEELCHAIR.lidar_mount)
-    perception = Perception(lidar, ExtractorSettings())
-    perception.begin(parse("go through the third door on the right"))
-    for step, along in enumerate(np.arange(0.0, metres + 0.05, 0.05)):
-        pose = compose(start, (float(along), 0.0, 0.0))
-        perception.sense(pose, relative(start, pose), (0.75, 0.0, 0.0), (0, 0, step))
-    goal, scene = perception.follower.goal, perception.scene()
-    origin = (0.0, 0.0, -heading)
-    _draw_scene(ax, HEIDELBERG_PLAN.scene.seen_from(start).seen_from(origin), "0.8", doors=False)
-    turned = scene.seen_from(origin)
-    _draw_scene(ax, turned, "tab:red")
-    _draw_doors(ax, turned, hallway(turned, (0.0, 0.0, heading)))
-    _draw_robot(ax, relative(origin, relative(start, pose)))
-    _draw_mark(ax, relative(origin, goal.pose), goal.kind)
-    _crop(ax, f"{title}: {goal.because}", (-2.0, 14.0), (-4.0, 6.0))
 
+    def draw(ax: Axes) -> None:
+        start = (-2.5, -0.3, 0.24)
+        perception = Perception(
+            Lidar(HEIDELBERG_PLAN, mount=WHEELCHAIR.lidar_mount), ExtractorSettings()
+        )
+        perception.begin(parse("go through the third door on the right"))
+        for step, along in enumerate(np.arange(0.0, metres, 0.05)):
+            odometry = (float(along), 0.0, 0.0)
+            perception.sense(compose(start, odometry), odometry, (0.75, 0.0, 0.0), (0, 0, step))
+        page = (0.0, 0.0, start[2])
+        scene, goal = perception.scene().placed(page), perception.follower.goal
+        _draw_scene(ax, HEIDELBERG_PLAN.scene.seen_from(start).placed(page), "0.8", doors=False)
+        _draw_scene(ax, scene, "tab:red")
+        _draw_doors(ax, scene, hallway(scene, page))
+        _draw_robot(ax, compose(page, odometry))
+        _draw_mark(ax, compose(page, goal.pose), goal.kind)
 
-def _seek_first(ax: Axes) -> None:
-    _seek(ax, 1.0, "after 1 m")
-
-
-def _seek_later(ax: Axes) -> None:
-    _seek(ax, 5.0, "after 5 m")
+    return draw
 
 
 def _draw_scene(ax: Axes, scene: Scene, colour: str = "black", doors: bool = True) -> None:
@@ -294,23 +280,20 @@ def _draw_mark(ax: Axes, pose: Pose, kind: GoalKind) -> None:
     ax.text(x, y, kind.name, color="tab:purple", clip_on=True, **style)
 
 
-def _crop(ax: Axes, title: str, x: tuple[float, float], y: tuple[float, float]) -> None:
-    ax.set_title(title)
-    ax.set_xlim(*x)
-    ax.set_ylim(*y)
-
-
-def _save(name: str, panels: Sequence[object], size: tuple[float, float]) -> None:
+def _save(name: str, size: tuple[float, float], *panels: Panel) -> None:
     figure = Figure(figsize=size)
     FigureCanvasAgg(figure)
     axes = figure.subplots(1, len(panels), squeeze=False)[0]
-    for ax, draw in zip(axes, panels, strict=True):
+    for ax, (title, crop, draw) in zip(axes, panels, strict=True):
         draw(ax)
+        ax.set_title(title, fontsize=9)
+        ax.set_xlim(*CROPS[crop][0])
+        ax.set_ylim(*CROPS[crop][1])
         ax.set_aspect("equal")
         ax.axis("off")
-        ax.title.set_fontsize(9)
     figure.subplots_adjust(wspace=0.1)
-    figure.savefig(IMAGES / f"rule_{name}.png", dpi=100, bbox_inches="tight", pad_inches=0.1)
+    path = IMAGES / f"rule_{name}.png"
+    figure.savefig(path, dpi=100, bbox_inches="tight", pad_inches=0.1)
 
 
 if __name__ == "__main__":
