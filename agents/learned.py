@@ -10,9 +10,16 @@ from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
 from semnav_env.agents.learning.compact import COMPACT_SIZE, compact
-from semnav_env.agents.learning.files import POLICY, Description, load_tensors
+from semnav_env.agents.learning.files import AGENT, POLICY, Description, load_tensors
 from semnav_env.agents.learning.policy import Policy
 from semnav_env.robots import robot_spec
+
+PRETRAINED = Path(__file__).with_name("pretrained")
+
+
+def pretrained_names() -> tuple[str, ...]:
+    """Names of the trained agents that come with the package, sorted."""
+    return tuple(sorted(path.parent.name for path in PRETRAINED.glob(f"*/{AGENT}")))
 
 
 class LearnedAgent:
@@ -33,14 +40,14 @@ class LearnedAgent:
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
-        """The agent in a folder that `semnav train` wrote.
+        """The agent in a folder that `semnav train` wrote, or one of `pretrained_names`.
 
         Raises:
             ValueError: there is none, it is damaged, or it does not fit this version.
             OSError: a file cannot be read.
             ImportError: safetensors is not installed.
         """
-        folder = Path(path)
+        folder = PRETRAINED / path if path in pretrained_names() else Path(path)
         description = Description.read(folder)
         fitting = (COMPACT_SIZE, robot_spec(description.robot).action_size)
         widths = description.widths

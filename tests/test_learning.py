@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from semnav_env.agents.learned import LearnedAgent
+from semnav_env.agents.evaluation.runner import run_episode
+from semnav_env.agents.learned import LearnedAgent, pretrained_names
 from semnav_env.agents.learning.compact import COMPACT_SIZE, SECTORS, compact
 from semnav_env.agents.learning.files import AGENT, POLICY, Description, replace_file, save_tensors
 from semnav_env.agents.learning.policy import Policy
@@ -109,6 +110,21 @@ def test_practice_sums_the_rewards_of_the_steps_that_an_action_holds():
     steps = [twin.step(action) for _ in range(practice.preset.repeat)]
     assert reward == sum(step[1] for step in steps)
     assert np.array_equal(seen, compact(steps[-1][0]))
+
+
+def test_the_agents_that_come_along_can_be_loaded_by_name():
+    assert "quick" in pretrained_names()
+    assert all(LearnedAgent.load(name).policy.weights for name in pretrained_names())
+
+
+def test_the_quick_agent_does_what_it_was_trained_for():
+    trials = preset("quick").trials[:3]
+    results = [
+        run_episode(SemNavEnv(observation="all"), LearnedAgent.load("quick"), trial, seed)
+        for trial in trials
+        for seed in (0, 1)
+    ]
+    assert sum(result.success for result in results) >= 5  # 150 of 150 when it was trained
 
 
 def test_a_policy_is_what_its_formula_says():

@@ -3,6 +3,7 @@
 import os
 import pickle
 import signal
+import sys
 import threading
 import time
 from dataclasses import replace
@@ -220,6 +221,14 @@ def test_an_interrupted_training_is_saved(capsys, tmp_path):
     assert code == 130
     assert text.startswith("interrupted; ")
     assert Trainer.resume(TINY, tmp_path).steps == Description.read(tmp_path).steps
+
+
+def test_without_the_extra_the_error_says_what_to_install(capsys, tmp_path, monkeypatch):
+    monkeypatch.delitem(sys.modules, "semnav_env.agents.learning.training")
+    monkeypatch.setitem(sys.modules, "stable_baselines3", None)
+    code, _, err = run(capsys, "train", "quick", "--out", tmp_path / "none")
+    assert code == 2
+    assert err == 'semnav: training needs stable_baselines3: pip install "semnav-env[rl]"\n'
 
 
 @pytest.mark.parametrize(
