@@ -137,7 +137,8 @@ def _holonomic(
     """The path's direction, and straight back to it where the robot is off to one side."""
     direction = _direction(track, leg, progress.sample)
     heading = float(track.path.axle_poses[progress.sample, 2]) + error
-    side = float(np.clip(-track.settings.stiffness * across, -0.25, 0.25))
+    off = -across if leg.kind == REVERSE else across
+    side = float(np.clip(-track.settings.stiffness * off, -0.25, 0.25))
     c, s = math.cos(direction - heading), math.sin(direction - heading)
     forward, left = speed * c - side * s, speed * s + side * c
     limit = track.settings.sideways

@@ -9,13 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from semnav_env.agents.planning.aim import Aim, trimmed
 from semnav_env.agents.planning.collision import Body, Field, body_of, field_of, is_clear
 from semnav_env.agents.planning.free import all_clear, clearances
 from semnav_env.agents.planning.guidance import Guidance, guidance_to
 from semnav_env.agents.planning.lanes import lane_anchors
 from semnav_env.agents.planning.motion import Costs, Margin, Triple
 from semnav_env.agents.planning.path import MOST_CLEARANCE, Path, sample
-from semnav_env.agents.planning.search import Aim, Problem, search
+from semnav_env.agents.planning.search import Problem, search
 from semnav_env.agents.planning.shorten import merged, rounded, shortened
 from semnav_env.features.frames import FloatArray, Point, Pose, compose
 from semnav_env.robots import RobotSpec
@@ -175,7 +176,7 @@ def _search(
             break
     hurried = costs._replace(stop=0.25 * costs.stop)
     moves = shortened(field, body, axle, merged(moves), margin, hurried)
-    moves = rounded(field, body, axle, moves, margin, costs)
+    moves = trimmed(problem.aim, axle, rounded(field, body, axle, moves, margin, costs))
     clearance = clearances(field, body, sample(axle, moves)[0], MOST_CLEARANCE)
     complete = bool(found and guidance.exact)
     return Path(start, moves, robot.axle, complete, full, clearance, expansions)

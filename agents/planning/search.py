@@ -16,8 +16,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from semnav_env.agents.planning.aim import Aim, arrived, target_from
 from semnav_env.agents.planning.collision import Body, Field
-from semnav_env.agents.planning.connect import connection, cost_of_moves, last_kind, wrapped
+from semnav_env.agents.planning.connect import connection, cost_of_moves, last_kind
 from semnav_env.agents.planning.heuristic import seconds_at
 from semnav_env.agents.planning.motion import (
     STILL,
@@ -40,30 +41,11 @@ POSITION_BIN = 0.1
 HEADING_BINS = 48
 """Bins of heading in a full turn."""
 
+POLISH = 150
+"""States that are still expanded, to find a better way, once the target has been connected to."""
+
 ANCHOR_REACH = 3.0
 """Metres; farther anchors are not connected to."""
-
-
-class Aim(NamedTuple):
-    """Where the robot's centre is to go.
-
-    Attributes:
-        x: metres.
-        y: metres.
-        heading: radians; any if `any_heading`.
-        position_tolerance: metres.
-        heading_tolerance: radians.
-        any_heading: whether the heading does not matter.
-        axle: x of the axle in the robot frame, metres.
-    """
-
-    x: float
-    y: float
-    heading: float
-    position_tolerance: float
-    heading_tolerance: float
-    any_heading: bool
-    axle: float
 
 
 class Problem(NamedTuple):
@@ -132,24 +114,6 @@ def seconds_left(problem: Problem, pose: Triple) -> float:
 
 
 @njit(cache=True)
-def arrived(aim: Aim, pose: Triple) -> bool:
-    """Whether an axle pose meets the aim's tolerances."""
-    x, y = pose[0] - aim.axle * math.cos(pose[2]), pose[1] - aim.axle * math.sin(pose[2])
-    if math.hypot(aim.x - x, aim.y - y) > aim.position_tolerance:
-        return False
-    return aim.any_heading or abs(wrapped(aim.heading - pose[2])) <= aim.heading_tolerance
-
-
-@njit(cache=True)
-def target_from(aim: Aim, pose: Triple) -> Triple:
-    """The axle pose to connect to; one that is approached straight on if the heading is free."""
-    heading = aim.heading
-    if aim.any_heading:
-        heading = math.atan2(aim.y - pose[1], aim.x - pose[0])
-    return aim.x + aim.axle * math.cos(heading), aim.y + aim.axle * math.sin(heading), heading
-
-
-@njit(cache=True)
 def new_tree(start: Triple, anchors: FloatArray, capacity: int, cells: int) -> Tree:
     """A tree of the start alone, with room for `capacity` nodes."""
     tree = Tree(
@@ -177,11 +141,14 @@ def pose_of(tree: Tree, node: int) -> Triple:
 
 @njit(cache=True)
 def connect(
-    problem: Problem, tree: Tree, heap: list[tuple[float, int]], node: int, end: Triple, to: int
+    problem: Problem, tree: Tree, heap: list[tuple[float, int]], node: int, to: int
 ) -> None:
-    """Reach the node `to` at pose `end` by turn, drive, turn, where that is cheaper and free."""
+    """Reach the node `to` by turn, drive, turn, where that is cheaper and free."""
     limit = tree.cost[to] - tree.cost[node]
     for backwards in (False, True):
+        end = pose_of(tree, to)
+        if to == TARGET:
+            end = target_from(problem.aim, pose_of(tree, node), backwards)
         moves = connection(pose_of(tree, node), end, backwards)
         cost = cost_of_moves(
             problem.field,
@@ -250,7 +217,8 @@ def search(
     tree = new_tree(start, anchors, capacity, cells)
     heap = [(0.0, 0)]
     expanded, best, least = 0, 0, seconds_left(problem, start)
-    while heap and expanded < max_expansions:
+    limit = max_expansions
+    while heap and expanded < limit:
         _, node = heapq.heappop(heap)
         if tree.done[node]:
             continue
@@ -262,7 +230,9 @@ def search(
         left = seconds_left(problem, pose)
         if left < least:
             best, least = node, left
-        connect(problem, tree, heap, node, target_from(problem.aim, pose), TARGET)
+        connect(problem, tree, heap, node, TARGET)
+        if limit == max_expansions and tree.cost[TARGET] < math.inf:
+            limit = min(limit, expanded + POLISH)
         if node < 2 + len(anchors) or expanded % 4 == 0:
             for k in range(2, 2 + len(anchors)):
                 end = pose_of(tree, k)
@@ -270,9 +240,10 @@ def search(
                     not tree.done[k]
                     and math.hypot(end[0] - pose[0], end[1] - pose[1]) < ANCHOR_REACH
                 ):
-                    connect(problem, tree, heap, node, end, k)
+                    connect(problem, tree, heap, node, k)
         step(problem, tree, heap, node)
-    return moves_to(problem, tree, best), False, expanded
+    connected = tree.cost[TARGET] < math.inf
+    return moves_to(problem, tree, TARGET if connected else best), connected, expanded
 
 
 @njit(cache=True)
