@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -96,8 +96,8 @@ def plan(
     settings = settings or PlannerSettings()
     if not settings.margins or not settings.efforts:
         raise ValueError("settings need at least one of `margins` and one of `efforts`")
-    _check_pose("start", start)
-    _check_pose("target", target.pose)
+    start = _checked_pose("start", start)
+    target = replace(target, pose=_checked_pose("target", target.pose))
     body, axle = body_of(robot), compose(start, (robot.axle, 0.0, 0.0))
     solid = _without_impossible(_checked_points(points), axle, body)
     field = field_of(solid, start[:2], _half_window(start, target, settings))
@@ -256,6 +256,8 @@ def _checked_points(points: ArrayLike) -> FloatArray:
     return array[np.isfinite(array).all(axis=1)]
 
 
-def _check_pose(name: str, pose: Pose) -> None:
+def _checked_pose(name: str, pose: Pose) -> Pose:
+    """The pose in plain floats, for which alone the kernels are compiled."""
     if len(pose) != 3 or not all(math.isfinite(value) for value in pose):
         raise ValueError(f"{name} is {pose}; a pose is three finite numbers (x, y, heading)")
+    return float(pose[0]), float(pose[1]), float(pose[2])
