@@ -8,14 +8,11 @@ rays meet first is the hallway's side. Works on perceived (remembered) and true 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
-
-import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
 from semnav_env.features.kernels.hallway import BEHIND, SPACING, first_gap, stands_in, survey
-from semnav_env.features.scene import Door, Scene, Wall
+from semnav_env.features.scene import Door, Scene, ends_of
 
 GOES_ON = 1.2
 """A hallway goes on behind a junction if it is longer than this there, metres."""
@@ -141,7 +138,7 @@ def hallway(scene: Scene, pose: Pose) -> Hallway:
         pose: where and which way, in the scene's frame; the axis is the direction, within 45
             degrees of the heading, that most of the wall in view runs along.
     """
-    seen = survey(_ends(scene.walls), _ends(scene.doors), *pose)
+    seen = survey(ends_of(scene.walls), ends_of(scene.doors), *pose)
     openings = [Opening(*opening) for opening in seen.openings]
     return Hallway(
         (seen.x, seen.y, wrap_angle(seen.heading)),
@@ -155,13 +152,8 @@ def hallway(scene: Scene, pose: Pose) -> Hallway:
 
 def doorway_at(scene: Scene, pose: Pose) -> Door | None:
     """The door that a robot at `pose` stands in, looking through it; None if it does not."""
-    doors = zip(scene.doors, _ends(scene.doors), strict=True)
+    doors = zip(scene.doors, ends_of(scene.doors), strict=True)
     return next((door for door, ends in doors if stands_in(ends, *pose)), None)
-
-
-def _ends(items: Iterable[Wall | Door]) -> FloatArray:
-    flat = [value for item in items for point in (item.start, item.end) for value in point]
-    return np.array(flat, dtype=np.float64).reshape(-1, 4)
 
 
 def _junctions(openings: list[Opening], end: float) -> tuple[Junction, ...]:

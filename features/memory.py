@@ -12,7 +12,7 @@ from semnav_env.features.kernels.memory import (
     counting_walls,
     remember,
 )
-from semnav_env.features.scene import Door, Scene, Wall
+from semnav_env.features.scene import Door, PlainWalls, Scene
 
 MAX_WALLS, MAX_DOORS = 512, 64
 """When so many are remembered, a new one replaces the one that was seen least."""
@@ -68,12 +68,13 @@ class SceneMemory:
 
     def scene(self) -> Scene:
         """The walls and doors that count, in the memory's frame, in the order first seen."""
-        walls = [Wall((a, b), (c, d)) for a, b, c, d, *_ in self._counting_walls().tolist()]
+        walls = self._counting_walls()
+        ends = np.stack([walls[name] for name in ("start_x", "start_y", "end_x", "end_y")], axis=1)
         doors = [
             Door((a, b), (c, d), sightings=hits)
             for a, b, c, d, hits, _ in self._counting_doors().tolist()
         ]
-        return Scene(tuple(walls), tuple(doors))
+        return Scene(PlainWalls(ends), tuple(doors))
 
     def _counting_walls(self) -> NDArray[np.void]:
         walls = self._walls[: self._used[0]]

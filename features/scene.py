@@ -7,11 +7,14 @@ compared and the same grounding serves both.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from typing import overload
 
-from semnav_env.features.frames import Point, Pose, to_local, to_parent
+import numpy as np
+
+from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent
 
 
 class CornerKind(IntEnum):
@@ -55,6 +58,40 @@ class Wall:
     def heading(self) -> float:
         """Direction from start to end, radians (Barbret (1.6))."""
         return math.atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
+
+
+class PlainWalls(Sequence[Wall]):
+    """Walls of which only the ends are known; a `Wall` is made when it is asked for.
+
+    A memory and a floor plan hold hundreds of walls, and grounding needs only their ends.
+
+    Args:
+        ends: x and y of start and end, metres, shape (n, 4); not copied.
+    """
+
+    def __init__(self, ends: FloatArray) -> None:
+        self.ends = ends
+
+    @overload
+    def __getitem__(self, index: int) -> Wall: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Wall, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Wall | tuple[Wall, ...]:
+        if isinstance(index, slice):
+            return tuple(PlainWalls(self.ends[index]))
+        x1, y1, x2, y2 = self.ends[index].tolist()
+        return Wall((x1, y1), (x2, y2))
+
+    def __len__(self) -> int:
+        return len(self.ends)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and tuple(self) == tuple(other)
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +159,7 @@ class Scene:
     A scene from `extract` is in the frame of the scan; `placed` and `seen_from` change frames.
     """
 
-    walls: tuple[Wall, ...] = ()
+    walls: Sequence[Wall] = ()
     doors: tuple[Door, ...] = ()
     corners: tuple[Corner, ...] = ()
     corridors: tuple[Corridor, ...] = ()
@@ -142,3 +179,11 @@ class Scene:
             tuple(replace(c, point=move(c.point)) for c in self.corners),
             tuple(replace(c, start=move(c.start), end=move(c.end)) for c in self.corridors),
         )
+
+
+def ends_of(items: Iterable[Wall | Door]) -> FloatArray:
+    """Coordinates x and y of start and end of walls or doors, shape (n, 4), metres."""
+    if isinstance(items, PlainWalls):
+        return items.ends.copy()
+    flat = [value for item in items for point in (item.start, item.end) for value in point]
+    return np.array(flat, dtype=np.float64).reshape(-1, 4)

@@ -234,10 +234,13 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
 
     def _velocity(self, action: ArrayLike) -> Pose:
         """The action as (forward, left, turn) in SI units."""
-        shape = np.shape(action)
-        if shape != self.action_space.shape:
-            raise ValueError(f"the action has shape {shape}; it must be {self.action_space.shape}")
-        values = np.asarray(action, dtype=np.float64).tolist()
+        array = np.asarray(action)
+        if array.dtype.kind != "f":
+            array = array.astype(np.float64)
+        if array.shape != (self.robot.action_size,):
+            wanted = (self.robot.action_size,)
+            raise ValueError(f"the action has shape {array.shape}; it must be {wanted}")
+        values = array.tolist()
         if not all(map(math.isfinite, values)):
             raise ValueError(f"the action is {values}; it must be finite, in [-1, 1]")
         scaled = [max(-1.0, min(1.0, v)) * s for v, s in zip(values, self._scale, strict=True)]

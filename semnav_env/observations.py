@@ -140,7 +140,7 @@ class Observer:
             row: `ROW_SIZE` values and, behind them, the scan; shape (ROW_SIZE + beams,).
             tokens: of the command.
         """
-        fresh = row.copy().view(self._dtype)[0]
+        fresh = row.view(self._dtype).reshape(()).copy()
         packed = {name: fresh[name] for name in self._names}
         packed["command"] = tokens.copy()
         return packed

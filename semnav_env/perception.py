@@ -1,8 +1,4 @@
-"""The robot's senses: from its pose to features, memory and the goal it makes out.
-
-One compiled call does what is done at every step: cast the beams, add the noise, extract the
-features, write them into the observation and join them with what was seen before.
-"""
+"""From the robot's pose to features, memory and the goal that it makes out."""
 
 from __future__ import annotations
 
@@ -10,28 +6,19 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
-from numpy.typing import NDArray
 
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import FloatArray, Pose, compose
-from semnav_env.features.kernels.chain import extract_arrays
-from semnav_env.features.kernels.memory import remember
-from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
+from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
-from semnav_env.lidar.lidar import Lidar, sense
-from semnav_env.observations import (
-    ROW_SIZE,
-    door_ends,
-    write_features,
-    write_remembered,
-    write_state,
-)
+from semnav_env.lidar.lidar import Lidar
+from semnav_env.observations import ROW_SIZE, door_ends, write_state
+from semnav_env.senses import join_senses, observe
 
-LOOK_EVERY = 0.4
+LOOK_EVERY = 0.5
 """A clause is grounded anew after so many metres, or so many radians, on the way."""
 
 LOOK_AT_LEAST = 15
@@ -39,77 +26,6 @@ LOOK_AT_LEAST = 15
 
 FIRST_SCANS = 3
 """After so many scans the first features count, see `SceneMemory`."""
-
-
-@njit(cache=True)
-def observe(
-    lidar_world: tuple[float, float, float],
-    lidar_odom: tuple[float, float, float],
-    robot_odom: tuple[float, float, float],
-    mount: tuple[float, float, float],
-    lidar: Any,
-    beams: FloatArray,
-    key: tuple[int, int, int],
-    record: np.ndarray,
-    scratch: Any,
-    ranges: FloatArray,
-    features: Features,
-    remembered: Any,
-    row: NDArray[np.float32],
-) -> None:
-    """Scan, extract, remember and write the observation row (but for goal and odometry).
-
-    Args:
-        lidar_world: true pose of the lidar, world frame.
-        lidar_odom: its pose by odometry.
-        robot_odom: pose of the robot's centre by odometry.
-        mount: pose of the lidar in the robot frame.
-        lidar: `Lidar.arrays`.
-        beams: cosine and sine of each beam, shape (n, 2).
-        key: (seed, episode, step) of the noise.
-        record: `ExtractorSettings.as_record()`.
-        scratch: of the extractor.
-        ranges: written, shape (n,).
-        features: written.
-        remembered: (walls, doors, used) of the memory, updated.
-        row: written.
-    """
-    grid, starts, ends, directions, sensor = lidar
-    x, y, heading = lidar_world
-    seed, episode, step = key
-    sense(x, y, heading, grid, starts, ends, directions, sensor, seed, episode, step, ranges)
-    limits = sensor[0]
-    extract_arrays(
-        ranges,
-        beams,
-        limits.angle_increment,
-        limits.range_min,
-        limits.range_max,
-        record,
-        scratch,
-        features.walls,
-        features.doors,
-        features.corners,
-        features.corridors,
-        features.counts,
-    )
-    write_features(row, features, mount)
-    remember(
-        features.walls,
-        features.doors,
-        features.counts,
-        ranges,
-        limits.angle_min,
-        limits.angle_increment,
-        lidar_odom,
-        remembered,
-    )
-    _, doors, used = remembered
-    write_remembered(row, doors, used[1], robot_odom)
-    for i in range(len(ranges)):
-        measured = ranges[i]
-        valid = limits.range_min <= measured < limits.range_max
-        row[ROW_SIZE + i] = measured if valid else limits.range_max
 
 
 class Perception:
@@ -137,6 +53,27 @@ class Perception:
         self._beams = np.ascontiguousarray(lidar.spec.directions.T)
         self._record = settings.as_record()
         self._scratch = allocate_scratch(beams)
+        self._join()
+
+    def _join(self) -> None:
+        self._senses = join_senses(
+            self.lidar.arrays,
+            self._beams,
+            self._record,
+            self._scratch,
+            self.lidar.mount,
+            self.ranges,
+            self.features,
+            self.memory.arrays,
+            self.row,
+        )
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "_senses"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._join()
 
     def begin(self, command: Command) -> None:
         """Start an episode: forget the last one."""
@@ -158,21 +95,8 @@ class Perception:
             key: (seed, episode, step) of the noise.
         """
         mount = self.lidar.mount
-        observe(
-            compose(true_pose, mount),
-            compose(odometry, mount),
-            odometry,
-            mount,
-            self.lidar.arrays,
-            self._beams,
-            key,
-            self._record,
-            self._scratch,
-            self.ranges,
-            self.features,
-            self.memory.arrays,
-            self.row,
-        )
+        lidar_world, lidar_odom = compose(true_pose, mount), compose(odometry, mount)
+        observe(self._senses, lidar_world, lidar_odom, odometry, key)
         self._think(odometry, math.hypot(velocity[0], velocity[1]), key[2])
         follower, goal = self.follower, self.follower.goal
         write_state(

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -46,8 +46,7 @@ class Verdict(StrEnum):
 FAILURES = (Verdict.WRONG_DOOR, Verdict.WRONG_TURN, Verdict.STOPPED_SHORT, Verdict.OUT_OF_TIME)
 
 
-@dataclass(frozen=True)
-class Motion:
+class Motion(NamedTuple):
     """What the verifier is told after each step.
 
     Attributes:

@@ -17,7 +17,9 @@ from tests.hand_made import L_LEFT, L_RIGHT, ROOM, SIDE_ARMS, T_JUNCTION, X_JUNC
 
 START: Pose = (0.0, 0.0, 0.0)
 
-starts = st.tuples(st.floats(-1.0, 1.0), st.floats(-0.4, 0.4), st.floats(-0.5, 0.5))
+# No probe shall meet the very end of a wall: the walls end at full tenths of a metre.
+xs = st.floats(-1.0, 1.0).filter(lambda x: abs(10.0 * x - round(10.0 * x)) > 1e-6)
+starts = st.tuples(xs, st.floats(-0.4, 0.4), st.floats(-0.5, 0.5))
 frames = st.tuples(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0), st.floats(-math.pi, math.pi))
 scenes = st.sampled_from(
     [corridor(left=(3, 6), right=(4,)), T_JUNCTION, L_LEFT, X_JUNCTION, SIDE_ARMS, ROOM]

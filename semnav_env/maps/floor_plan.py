@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from shapely import Polygon, STRtree, linestrings
 
 from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.scene import Door, Scene, Wall
+from semnav_env.features.scene import Door, PlainWalls, Scene
 
 
 class Material(StrEnum):
@@ -139,8 +139,8 @@ class FloorPlan:
     @cached_property
     def scene(self) -> Scene:
         """All walls (glass included) and all open doors, world frame."""
-        walls = tuple(Wall((x1, y1), (x2, y2)) for x1, y1, x2, y2 in self.segments.tolist())
-        return Scene(walls, tuple(door.as_door() for door in self.doors if door.open))
+        doors = tuple(door.as_door() for door in self.doors if door.open)
+        return Scene(PlainWalls(self.segments), doors)
 
     def door(self, name: str) -> PlanDoor:
         """The door of that name.

@@ -1,0 +1,130 @@
+"""What is done at every step, in one compiled call on arrays that were handed over once.
+
+Handing an array to a compiled function costs a third of a microsecond, and there are some
+thirty of them: more than all the work. So they are put into one structure beforehand.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit, types
+from numba.experimental import structref
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.chain import extract_arrays
+from semnav_env.features.kernels.memory import remember
+from semnav_env.lidar.lidar import sense
+from semnav_env.observations import ROW_SIZE, write_features, write_remembered
+
+
+@structref.register
+class SensesType(types.StructRef):
+    """How compiled code sees `Senses`."""
+
+    def preprocess_fields(self, fields: Any) -> Any:
+        """Fields of a general type, not of a literal value."""
+        return tuple((name, types.unliteral(kind)) for name, kind in fields)
+
+
+class Senses(structref.StructRefProxy):
+    """The arrays of one robot's senses.
+
+    Attributes:
+        lidar: `Lidar.arrays`.
+        beams: cosine and sine of each beam, shape (n, 2).
+        record: `ExtractorSettings.as_record()`.
+        scratch: of the extractor.
+        mount: pose of the lidar in the robot frame.
+        ranges: written at every step, metres, shape (n,).
+        features: written at every step.
+        remembered: (walls, doors, used) of the memory, updated at every step.
+        row: the observation, written at every step.
+    """
+
+    lidar: Any
+    beams: FloatArray
+    record: np.ndarray
+    scratch: Any
+    mount: Pose
+    ranges: FloatArray
+    features: Any
+    remembered: Any
+    row: NDArray[np.float32]
+
+
+structref.define_proxy(Senses, SensesType, list(Senses.__annotations__))
+
+
+@njit(cache=True)
+def join_senses(
+    lidar: Any,
+    beams: FloatArray,
+    record: np.ndarray,
+    scratch: Any,
+    mount: Pose,
+    ranges: FloatArray,
+    features: Any,
+    remembered: Any,
+    row: NDArray[np.float32],
+) -> Senses:
+    """The arrays as one structure; they are shared, not copied."""
+    return Senses(lidar, beams, record, scratch, mount, ranges, features, remembered, row)
+
+
+@njit(cache=True)
+def observe(
+    senses: Senses,
+    lidar_world: Pose,
+    lidar_odom: Pose,
+    robot_odom: Pose,
+    key: tuple[int, int, int],
+) -> None:
+    """Scan, extract, remember and write the observation row (but for goal and odometry).
+
+    Args:
+        senses: the arrays to read and write.
+        lidar_world: true pose of the lidar, world frame.
+        lidar_odom: its pose by odometry.
+        robot_odom: pose of the robot's centre by odometry.
+        key: (seed, episode, step) of the noise.
+    """
+    ranges, features, row = senses.ranges, senses.features, senses.row
+    grid, starts, ends, directions, sensor = senses.lidar
+    x, y, heading = lidar_world
+    seed, episode, step = key
+    sense(x, y, heading, grid, starts, ends, directions, sensor, seed, episode, step, ranges)
+    limits = sensor[0]
+    extract_arrays(
+        ranges,
+        senses.beams,
+        limits.angle_increment,
+        limits.range_min,
+        limits.range_max,
+        senses.record,
+        senses.scratch,
+        features.walls,
+        features.doors,
+        features.corners,
+        features.corridors,
+        features.counts,
+    )
+    write_features(row, features, senses.mount)
+    remember(
+        features.walls,
+        features.doors,
+        features.counts,
+        ranges,
+        limits.angle_min,
+        limits.angle_increment,
+        lidar_odom,
+        senses.remembered,
+    )
+    _, doors, used = senses.remembered
+    write_remembered(row, doors, used[1], robot_odom)
+    for i in range(len(ranges)):
+        measured = ranges[i]
+        valid = limits.range_min <= measured < limits.range_max
+        row[ROW_SIZE + i] = measured if valid else limits.range_max
