@@ -168,18 +168,14 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         """
         if not self._started:
             raise RuntimeError("call reset() before step()")
-        self.world.step(self._velocity(action))
-        self.odometry.update(self.world.pose)
+        world = self.world
+        world.step(self._velocity(action))
+        pose, (forward, left, turning) = world.pose, world.velocity
+        self.odometry.update(pose)
         self._steps += 1
         self._sense()
-        forward, left, turning = self.world.velocity
-        motion = Motion(
-            self.world.pose,
-            (forward * forward + left * left) ** 0.5,
-            turning,
-            self.world.in_contact,
-            1.0 / CONTROL_HZ,
-        )
+        speed = (forward * forward + left * left) ** 0.5
+        motion = Motion(pose, speed, turning, world.in_contact, 1.0 / CONTROL_HZ)
         terms = self.task.step(motion)
         verifier = self.task.verifier
         truncated = not verifier.over and self._steps >= self.max_steps
@@ -243,10 +239,11 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         values = array.tolist()
         if not all(map(math.isfinite, values)):
             raise ValueError(f"the action is {values}; it must be finite, in [-1, 1]")
-        scaled = [max(-1.0, min(1.0, v)) * s for v, s in zip(values, self._scale, strict=True)]
-        return (
-            (scaled[0], 0.0, scaled[1]) if len(scaled) == 2 else (scaled[0], scaled[1], scaled[2])
-        )
+        first, *middle, last = [
+            (1.0 if v > 1.0 else -1.0 if v < -1.0 else v) * limit
+            for v, limit in zip(values, self._scale, strict=True)
+        ]
+        return first, middle[0] if middle else 0.0, last
 
     def _sense(self) -> None:
         key = (self._noise_seed, 0, self._steps)

@@ -118,10 +118,12 @@ class Observer:
         self.mode = mode
         self.beams = beams
         self.range_max = range_max
-        self._dtype = np.dtype(
-            [(e.name, np.float32, e.shape) for e in ENTRIES] + [("scan", np.float32, (beams,))]
-        )
-        self._names = [name for name in MODES[mode] if name != "command"]
+        places = {e.name: slice(_STARTS[e.name], _STARTS[e.name] + e.size) for e in ENTRIES}
+        places["scan"] = slice(ROW_SIZE, ROW_SIZE + beams)
+        self._places = [(name, places[name]) for name in MODES[mode] if name != "command"]
+        self._tables = [
+            (e.name, e.shape) for e in ENTRIES if len(e.shape) > 1 and e.name in MODES[mode]
+        ]
 
     @property
     def space(self) -> Dict:
@@ -140,8 +142,10 @@ class Observer:
             row: `ROW_SIZE` values and, behind them, the scan; shape (ROW_SIZE + beams,).
             tokens: of the command.
         """
-        fresh = row.view(self._dtype).reshape(()).copy()
-        packed = {name: fresh[name] for name in self._names}
+        fresh = row.copy()
+        packed: dict[str, NDArray[Any]] = {name: fresh[place] for name, place in self._places}
+        for name, shape in self._tables:
+            packed[name] = packed[name].reshape(shape)
         packed["command"] = tokens.copy()
         return packed
 

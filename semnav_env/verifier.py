@@ -105,17 +105,18 @@ class Verifier:
 
     def update(self, motion: Motion) -> bool:
         """Note one step; returns whether a clause was completed by it."""
-        self.path_length += math.dist(motion.pose[:2], self._last[:2])
-        self.collisions += motion.in_contact and not self._in_contact
-        self._in_contact = motion.in_contact
-        still = motion.speed < STILL and abs(motion.turn_rate) < STILL
-        self._still = self._still + motion.seconds if still else 0.0
+        pose, speed, turn_rate, in_contact, seconds = motion
+        self.path_length += math.dist(pose[:2], self._last[:2])
+        self.collisions += in_contact and not self._in_contact
+        self._in_contact = in_contact
+        still = speed < STILL and abs(turn_rate) < STILL
+        self._still = self._still + seconds if still else 0.0
         goal = self.follower.goal
-        completed = self.follower.advance(self._scene, motion.pose, motion.speed)
+        completed = self.follower.advance(self._scene, pose, speed)
         if completed and not self.follower.done:
             self._ways = self._ways_to_goal()
-        self._judge(goal, completed, motion.pose)
-        self._last = motion.pose
+        self._judge(goal, completed, pose)
+        self._last = pose
         return completed
 
     def out_of_time(self) -> None:
@@ -189,14 +190,14 @@ class Verifier:
             return False
         along, offset = to_local(goal.hallway.frame, (pose[0], pose[1]))
         for junction in goal.hallway.junctions:
-            for opening in junction.openings:
-                named = goal.junction is junction and self._is_named(opening)
-                inside = opening.far > 0.5 and opening.near < along < opening.far
+            for opening in (junction.left, junction.right):
+                if opening is None or not opening.near < along < opening.far:
+                    continue
                 depth = (offset if opening.left else -offset) - opening.offset
-                if inside and not named and depth > ASTRAY:
+                named = goal.junction is junction and self._is_named(opening)
+                if depth > ASTRAY and opening.far > 0.5 and not named:
                     return True
-        passed = goal.junction
-        return passed is not None and along > max(o.far for o in passed.openings) + 2 * ASTRAY
+        return goal.junction is not None and along > goal.junction.far + 2 * ASTRAY
 
     def _is_named(self, opening: Opening) -> bool:
         clause = self.command.clauses[min(self.follower.active, len(self.command.clauses) - 1)]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from semnav_env.commands import Command
 from semnav_env.commands.clauses import Follow, Stop
-from semnav_env.features.frames import Pose, relative
+from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.ground import ground
@@ -47,6 +47,7 @@ class Follower:
     impossible: str | None = field(default=None, init=False)
     _last: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     _farthest: Pose = field(default=(0.0, 0.0, 0.0), init=False)
+    _farthest_along: float = field(default=0.0, init=False)
 
     def start(self, scene: Scene, pose: Pose) -> None:
         """Begin with the first clause."""
@@ -71,8 +72,9 @@ class Follower:
         """
         completed = not self.done and self._completed(pose, speed)
         self._last = pose
-        if relative(self.begin, pose)[0] > relative(self.begin, self._farthest)[0]:
-            self._farthest = pose
+        along = to_local(self.begin, (pose[0], pose[1]))[0]
+        if along > self._farthest_along:
+            self._farthest, self._farthest_along = pose, along
         if completed:
             self._begin_next(scene(), pose)
         return completed
@@ -109,6 +111,7 @@ class Follower:
         while not self.done and self._is_only_a_direction(self.active):
             self.active += 1
         self.begin, self._farthest = begin, pose
+        self._farthest_along = to_local(begin, (pose[0], pose[1]))[0]
         self.look(scene, pose)
 
     def _is_only_a_direction(self, index: int) -> bool:
