@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.memory import (
     REMEMBERED,
-    counting_doors,
-    counting_walls,
+    doors_that_count,
+    how_many_count,
     remember,
+    walls_that_count,
 )
 from semnav_env.features.scene import Door, PlainWalls, Scene
 
@@ -64,22 +65,13 @@ class SceneMemory:
     @property
     def size(self) -> tuple[int, int]:
         """How many walls and doors count."""
-        return len(self._counting_walls()), len(self._counting_doors())
+        return how_many_count(*self.arrays)
 
     def scene(self) -> Scene:
         """The walls and doors that count, in the memory's frame, in the order first seen."""
-        walls = self._counting_walls()
-        ends = np.stack([walls[name] for name in ("start_x", "start_y", "end_x", "end_y")], axis=1)
-        doors = [
-            Door((a, b), (c, d), sightings=hits)
-            for a, b, c, d, hits, _ in self._counting_doors().tolist()
+        walls, doors, used = self.arrays
+        counting = [
+            Door((x1, y1), (x2, y2), sightings=hits)
+            for (x1, y1, x2, y2), hits in doors_that_count(doors, used)
         ]
-        return Scene(PlainWalls(ends), tuple(doors))
-
-    def _counting_walls(self) -> NDArray[np.void]:
-        walls = self._walls[: self._used[0]]
-        return walls[counting_walls(walls)]
-
-    def _counting_doors(self) -> NDArray[np.void]:
-        doors = self._doors[: self._used[1]]
-        return doors[counting_doors(doors)]
+        return Scene(PlainWalls(walls_that_count(walls, used)), tuple(counting))

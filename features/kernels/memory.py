@@ -7,7 +7,6 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.layout import DOORS, WALLS
@@ -114,21 +113,38 @@ def door_counts(doors: Any, k: int) -> bool:
 
 
 @njit(cache=True)
-def counting_walls(walls: Any) -> NDArray[np.bool_]:
-    """Which of the remembered walls count, shape (n,)."""
-    mask = np.empty(len(walls), dtype=np.bool_)
-    for k in range(len(walls)):
-        mask[k] = wall_counts(walls, k)
-    return mask
+def how_many_count(walls: Any, doors: Any, used: Any) -> tuple[int, int]:
+    """How many of the remembered walls and doors count."""
+    wall_total, door_total = 0, 0
+    for k in range(used[0]):
+        wall_total += wall_counts(walls, k)
+    for k in range(used[1]):
+        door_total += door_counts(doors[: used[1]], k)
+    return wall_total, door_total
 
 
 @njit(cache=True)
-def counting_doors(doors: Any) -> NDArray[np.bool_]:
-    """Which of the remembered doors count, shape (n,)."""
-    mask = np.empty(len(doors), dtype=np.bool_)
-    for k in range(len(doors)):
-        mask[k] = door_counts(doors, k)
-    return mask
+def walls_that_count(walls: Any, used: Any) -> FloatArray:
+    """The ends of the remembered walls that count, shape (n, 4), metres."""
+    ends = np.empty((used[0], 4))
+    count = 0
+    for k in range(used[0]):
+        if wall_counts(walls, k):
+            wall = walls[k]
+            ends[count] = wall.start_x, wall.start_y, wall.end_x, wall.end_y
+            count += 1
+    return ends[:count].copy()
+
+
+@njit(cache=True)
+def doors_that_count(doors: Any, used: Any) -> list[tuple[Ends, int]]:
+    """The ends of the remembered doors that count, and how often each was seen."""
+    known = doors[: used[1]]
+    return [
+        ((door.start_x, door.start_y, door.end_x, door.end_y), door.hits)
+        for k, door in enumerate(known)
+        if door_counts(known, k)
+    ]
 
 
 @njit(cache=True)
