@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import math
-from pathlib import Path
 
 import numpy as np
 
 from semnav_env.features import Scan
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.maps import load_floor_plan
 
-REFERENCE = Path(__file__).resolve().parents[2] / "shared" / "reference"
 FIELD_OF_VIEW = math.radians(270.0)
 
 
@@ -59,8 +57,7 @@ def scan_of(
 
 
 def heidelberg() -> tuple[FloatArray, dict[str, FloatArray]]:
-    """The hallway's segments and its doors (jambs, shape (2, 2)) by name."""
-    plan = json.loads((REFERENCE / "heidelberg_hallway.json").read_text())
-    pillar = polygon(*plan["pillar"])
-    segments = np.concatenate((np.array(plan["walls"]), np.array(plan["door_leaves"]), pillar))
-    return segments, {door["id"]: np.array(door["ends"]) for door in plan["doors"]}
+    """What the measured hallway's drawing shows, as segments, and its doors' jambs by name."""
+    plan = load_floor_plan("heidelberg_hallway")
+    drawn = [polyline(*surface.points) for surface in plan.surfaces if not surface.assumed]
+    return np.concatenate(drawn), {d.name: np.array([d.start, d.end]) for d in plan.doors}

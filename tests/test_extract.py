@@ -315,10 +315,7 @@ def test_everything_in_a_scene_is_plain_python() -> None:
 
 
 def test_the_doors_of_a_real_hallway_are_seen_from_it() -> None:
-    try:
-        segments, doors = heidelberg()
-    except FileNotFoundError:
-        pytest.skip("the reference hallway is not beside this checkout")
+    segments, doors = heidelberg()
     rng = np.random.default_rng(1)
     sightings = found = false = detections = 0
     for x in np.linspace(-2.5, 7.0, 60):
