@@ -15,6 +15,9 @@ from semnav_env.features.kernels.segmentation import is_return
 END_ON = 0.1
 """Sine of the angle below which a probe passes along a wall instead of meeting it."""
 
+ROUNDING = 1e-6
+"""More than rounding can add to a distance, metres."""
+
 
 @njit(cache=True, error_model="numpy")
 def find_corridors(
@@ -47,19 +50,11 @@ def find_corridors(
         if corner.kind == OUTER or corner.x**2 + corner.y**2 > farthest**2:
             continue
         ending, starting = scratch.corner_ends[c, 0], scratch.corner_ends[c, 1]
+        near = find_near_walls(corner, ending, starting, walls, settings, scratch)
         for probe in range(2):
             along_x, along_y = probe_direction(corner.kind, ending, starting, probe, scratch)
             reach = nearest_wall(
-                corner.x,
-                corner.y,
-                along_x,
-                along_y,
-                ending,
-                starting,
-                walls,
-                square,
-                settings,
-                scratch,
+                corner.x, corner.y, along_x, along_y, near, square, settings, scratch
             )
             if reach < 0.0 or found == len(corridors):
                 continue
@@ -92,28 +87,45 @@ def probe_direction(
 
 
 @njit(cache=True, error_model="numpy")
+def find_near_walls(
+    corner: Any, ending: int, starting: int, walls: int, settings: Any, scratch: Any
+) -> int:
+    """Note in `scratch.near_pieces` the walls that a probe could reach; returns how many.
+
+    The two walls at the corner are not among them.
+    """
+    reach = settings.corridor_probe + settings.corridor_wall_slack + ROUNDING
+    near = 0
+    for k in range(walls):
+        wall = scratch.pieces[scratch.wall_piece[k]]
+        dx = 0.5 * (wall.start_x + wall.end_x) - corner.x
+        dy = 0.5 * (wall.start_y + wall.end_y) - corner.y
+        farthest = reach + 0.5 * wall.length
+        is_near = (dx * dx + dy * dy <= farthest * farthest) & (k != ending) & (k != starting)
+        scratch.near_pieces[near] = scratch.wall_piece[k]
+        near += is_near
+    return near
+
+
+@njit(cache=True, error_model="numpy")
 def nearest_wall(
     x: float,
     y: float,
     along_x: float,
     along_y: float,
-    ending: int,
-    starting: int,
-    walls: int,
+    near: int,
     square: float,
     settings: Any,
     scratch: Any,
 ) -> float:
-    """Distance along a probe to the first wall it meets, or -1.
+    """Distance along a probe to the first of the `near` walls that it meets, or -1.
 
     -1 too if that wall is met from behind or too far from square, or beyond the probe.
     """
     nearest = settings.corridor_probe
     met = False
-    for k in range(walls):
-        if k in (ending, starting):
-            continue
-        wall = scratch.pieces[scratch.wall_piece[k]]
+    for k in range(near):
+        wall = scratch.pieces[scratch.near_pieces[k]]
         dx, dy = wall.start_x - x, wall.start_y - y
         facing = along_y * wall.along_x - along_x * wall.along_y
         place = along_x * dy - along_y * dx

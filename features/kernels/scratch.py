@@ -51,6 +51,7 @@ class Scratch(NamedTuple):
         end_jambs: where an opening may end, dtype `JAMB`.
         candidates: possible doors, dtype `CANDIDATE`.
         wall_piece: the piece of each wall, shape of the wall array.
+        near_pieces: the pieces of the walls near a corner, shape of the wall array.
         corner_ends: the walls that end and start at each corner or -1, two columns.
     """
 
@@ -65,6 +66,7 @@ class Scratch(NamedTuple):
     end_jambs: np.ndarray
     candidates: np.ndarray
     wall_piece: NDArray[np.int64]
+    near_pieces: NDArray[np.int64]
     corner_ends: NDArray[np.int64]
 
 
@@ -100,6 +102,7 @@ def allocate_scratch(beams: int) -> Scratch:
         end_jambs=np.zeros(JAMBS, JAMB),
         candidates=np.zeros(DOOR_CANDIDATES, CANDIDATE),
         wall_piece=np.zeros(CAPACITY["walls"], np.int64),
+        near_pieces=np.zeros(CAPACITY["walls"], np.int64),
         corner_ends=np.zeros((CAPACITY["corners"], 2), np.int64),
     )
 

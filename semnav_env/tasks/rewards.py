@@ -28,12 +28,13 @@ class RewardWeights:
 
     def apply(self, terms: RewardTerms) -> dict[str, float]:
         """Each term times its weight, by name."""
+        progress, clause, success, failure, contact = terms
         return {
-            "progress": self.progress * terms.progress,
-            "clause": self.clause * terms.clause,
-            "success": self.success * terms.success,
-            "failure": self.failure * terms.failure,
-            "contact": self.contact * terms.contact,
+            "progress": self.progress * progress,
+            "clause": self.clause * clause,
+            "success": self.success * success,
+            "failure": self.failure * failure,
+            "contact": self.contact * contact,
             "time": self.time,
         }
 

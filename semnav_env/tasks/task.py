@@ -70,19 +70,22 @@ class CommandTask:
 
     def step(self, motion: Motion) -> dict[str, float]:
         """Judge a step; returns the weighted reward terms by name."""
-        was_over = self.verifier.over
-        completed = self.verifier.update(motion)
-        remaining = self.verifier.remaining
+        verifier = self.verifier
+        was_over = verifier.over
+        completed = verifier.update(motion)
+        remaining = verifier.remaining
         progress = self._remaining - (0.0 if completed else remaining)
         self._remaining = remaining
-        over = self.verifier.over and not was_over
+        success = failure = False
+        if verifier.over and not was_over:
+            success, failure = verifier.success, not verifier.success
         return self.weights.apply(
             RewardTerms(
-                progress=progress if math.isfinite(progress) else 0.0,
-                clause=float(completed),
-                success=float(over and self.verifier.success),
-                failure=float(over and not self.verifier.success),
-                contact=float(motion.in_contact),
+                progress if math.isfinite(progress) else 0.0,
+                float(completed),
+                float(success),
+                float(failure),
+                float(motion.in_contact),
             )
         )
 
