@@ -47,21 +47,22 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     infinity and other shapes raise `ValueError`. Accelerations are bounded by the robot.
 
     ## Observation Space
-    A `Dict` of fixed shape; lengths in metres, features and goal in the robot frame (x forward,
-    y left, origin at the centre of the footprint). Row i of a feature counts where its mask is 1.
+    A `Dict` of flat arrays; lengths in metres, features and goal in the robot frame (x forward,
+    y left, origin at the centre of the footprint). Row i of a feature counts where its mask is 1;
+    `observations.table(observation, "walls")` gives those rows.
 
-    | entry | shape | meaning |
+    | entry | size | meaning |
     |---|---|---|
-    | walls, walls_mask | (48, 4), (48,) | start and end; the robot is to the left |
-    | doors, doors_mask | (16, 4), (16,) | the jambs of open doors in this scan |
-    | corners, corners_mask | (48, 3), (48,) | x, y, kind: 0 outer, 1 inner, 2 potential |
-    | corridors, corridors_mask | (24, 2), (24,) | midpoints of corridor entrances |
-    | remembered_doors, .._mask | (16, 4), (16,) | doors seen in three or more scans so far |
-    | command | (8, 5) | the command as tokens, see `commands.tokens.encode` |
-    | clause | (8,) | one-hot: the clause that the robot believes to be under way |
-    | odometry | (7,) | x, y, cosine and sine of heading; speed forward, left and turning |
-    | goal | (13,) | seek, reach, pass or stop; x, y, cosine, sine; jambs; has a door |
-    | scan | (beams,) | ranges; no return reads as the lidar's range |
+    | walls, walls_mask | 48 * 4, 48 | x, y of start and end; the robot is to the left |
+    | doors, doors_mask | 16 * 4, 16 | x, y of the jambs of open doors in this scan |
+    | corners, corners_mask | 48 * 3, 48 | x, y, kind: 0 outer, 1 inner, 2 potential |
+    | corridors, corridors_mask | 24 * 2, 24 | x, y of midpoints of corridor entrances |
+    | remembered_doors, .._mask | 16 * 4, 16 | doors seen in three or more scans so far |
+    | command | 8 * 5 | the command as tokens, see `commands.tokens.encode` |
+    | clause | 8 | one-hot: the clause that the robot believes to be under way |
+    | odometry | 7 | x, y, cosine and sine of heading; speed forward, left and turning |
+    | goal | 13 | seek, reach, pass or stop; x, y, cosine, sine; jambs; has a door |
+    | scan | beams | ranges; no return reads as the lidar's range |
 
     `observation="semantic"` has all but the scan; `"raw"` has scan, command, clause and odometry;
     `"all"` has everything; `"truth"` has the entries of "semantic" without errors: features from an

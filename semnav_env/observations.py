@@ -1,7 +1,8 @@
 """What an agent observes: entries of fixed shape, packed into one row per step.
 
-An entry's name, shape and bounds stand in one place, so a value and its space cannot drift apart.
-The features of a scan come with masks: row i of `walls` means something where `walls_mask[i]` is 1.
+An entry's name, size and bounds stand in one place, so a value and its space cannot drift apart.
+Every entry is flat, as stable-baselines3 likes it; `table` gives the rows of a feature. Features
+come with masks: row i of `walls` means something where `walls_mask[i]` is 1.
 All lengths are in metres; features and the goal are in the robot frame.
 """
 
@@ -38,40 +39,37 @@ GOAL_SIZE = _KINDS + 4 + 5
 
 @dataclass(frozen=True)
 class Entry:
-    """One array of the observation.
+    """One flat array of the observation; `table` gives its rows.
 
     Attributes:
         name: its key.
-        shape: fixed.
+        size: number of values.
         low: smallest value.
         high: largest value.
+        columns: values that belong together, as the four of a wall.
     """
 
     name: str
-    shape: tuple[int, ...]
+    size: int
     low: float
     high: float
+    columns: int = 1
 
-    @property
-    def size(self) -> int:
-        """Number of values."""
-        return math.prod(self.shape)
+
+def _features(name: str, rows: int, columns: int, bound: float) -> tuple[Entry, Entry]:
+    table = Entry(name, rows * columns, -bound, bound, columns)
+    return table, Entry(f"{name}_mask", rows, 0, 1)
 
 
 ENTRIES = (
-    Entry("walls", (N_WALLS, 4), -REACH, REACH),
-    Entry("walls_mask", (N_WALLS,), 0, 1),
-    Entry("doors", (N_DOORS, 4), -REACH, REACH),
-    Entry("doors_mask", (N_DOORS,), 0, 1),
-    Entry("corners", (N_CORNERS, 3), -REACH, REACH),
-    Entry("corners_mask", (N_CORNERS,), 0, 1),
-    Entry("corridors", (N_CORRIDORS, 2), -REACH, REACH),
-    Entry("corridors_mask", (N_CORRIDORS,), 0, 1),
-    Entry("remembered_doors", (N_REMEMBERED, 4), -FAR, FAR),
-    Entry("remembered_doors_mask", (N_REMEMBERED,), 0, 1),
-    Entry("clause", (MAX_CLAUSES,), 0, 1),
-    Entry("odometry", (7,), -FAR, FAR),
-    Entry("goal", (GOAL_SIZE,), -FAR, FAR),
+    *_features("walls", N_WALLS, 4, REACH),
+    *_features("doors", N_DOORS, 4, REACH),
+    *_features("corners", N_CORNERS, 3, REACH),
+    *_features("corridors", N_CORRIDORS, 2, REACH),
+    *_features("remembered_doors", N_REMEMBERED, 4, FAR),
+    Entry("clause", MAX_CLAUSES, 0, 1),
+    Entry("odometry", 7, -FAR, FAR),
+    Entry("goal", GOAL_SIZE, -FAR, FAR),
 )
 """Everything but the scan and the command's tokens, in the order of the row."""
 
@@ -121,18 +119,16 @@ class Observer:
         places = {e.name: slice(_STARTS[e.name], _STARTS[e.name] + e.size) for e in ENTRIES}
         places["scan"] = slice(ROW_SIZE, ROW_SIZE + beams)
         self._places = [(name, places[name]) for name in MODES[mode] if name != "command"]
-        self._tables = [
-            (e.name, e.shape) for e in ENTRIES if len(e.shape) > 1 and e.name in MODES[mode]
-        ]
 
     @property
     def space(self) -> Dict:
         """The Gymnasium space of what `pack` returns."""
         spaces: dict[str, Box[Any]] = {
-            entry.name: Box(entry.low, entry.high, entry.shape, np.float32) for entry in ENTRIES
+            entry.name: Box(entry.low, entry.high, (entry.size,), np.float32) for entry in ENTRIES
         }
         spaces["scan"] = Box(0.0, self.range_max, (self.beams,), np.float32)
-        spaces["command"] = token_space()
+        tokens = token_space()
+        spaces["command"] = Box(tokens.low.ravel(), tokens.high.ravel(), dtype=np.int64)
         return Dict({name: spaces[name] for name in MODES[self.mode]})
 
     def pack(self, row: NDArray[np.float32], tokens: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
@@ -144,10 +140,25 @@ class Observer:
         """
         fresh = row.copy()
         packed: dict[str, NDArray[Any]] = {name: fresh[place] for name, place in self._places}
-        for name, shape in self._tables:
-            packed[name] = packed[name].reshape(shape)
-        packed["command"] = tokens.copy()
+        packed["command"] = tokens.ravel().copy()
         return packed
+
+
+def table(observation: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
+    """The rows of a feature that count, such as walls or doors, shape (n, columns).
+
+    Args:
+        observation: of the environment.
+        name: "walls", "doors", "corners", "corridors" or "remembered_doors".
+
+    Raises:
+        ValueError: no such feature.
+    """
+    columns = {entry.name: entry.columns for entry in ENTRIES if entry.columns > 1}
+    if name not in columns:
+        raise ValueError(f"no feature {name!r}; there are: {', '.join(columns)}")
+    rows = observation[name].reshape(-1, columns[name])
+    return rows[observation[f"{name}_mask"] > 0.5]
 
 
 @njit(cache=True)

@@ -73,5 +73,5 @@ def test_an_agent_can_be_used_for_one_episode_after_another() -> None:
 
 
 def test_an_unknown_agent_is_an_error_that_lists_the_known_ones() -> None:
-    with pytest.raises(ValueError, match="scripted, oracle"):
+    with pytest.raises(ValueError, match="scripted, oracle, office, quick"):
         make_agent("psychic")

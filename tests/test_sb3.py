@@ -1,7 +1,5 @@
 """The environment as stable-baselines3 takes it."""
 
-import warnings
-
 import numpy as np
 import pytest
 
@@ -19,10 +17,7 @@ from stable_baselines3.common.env_checker import check_env  # noqa: E402
 @pytest.mark.parametrize("robot", ROBOTS)
 @pytest.mark.parametrize("mode", MODES)
 def test_the_environment_passes_the_checker(robot, mode):
-    with warnings.catch_warnings():
-        # advice for networks that expect pictures: tables such as walls (48, 4) are flattened
-        warnings.filterwarnings("ignore", message=".*has an unconventional shape")
-        check_env(SemNavEnv(robot, observation=mode), skip_render_check=False)
+    check_env(SemNavEnv(robot, observation=mode), skip_render_check=False)
 
 
 @pytest.mark.parametrize("preset", PRESETS.values(), ids=PRESETS)
