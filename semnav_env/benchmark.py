@@ -1,4 +1,4 @@
-"""How long the parts of a step take, each as the median of several runs in one process."""
+"""How long a step, its parts and a reset take: medians of several runs in one process."""
 
 from __future__ import annotations
 
@@ -17,6 +17,9 @@ from semnav_env.features.hallway import hallway
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.lidar.raster import cast
 from semnav_env.perception import Perception
+
+RESETS = 20
+"""Resets timed in a run; one takes as long as many steps."""
 
 
 @dataclass(frozen=True)
@@ -56,24 +59,28 @@ def benchmark(floor_plan: str, robot: str, observation: str, runs: int, steps: i
     assert isinstance(bare, SemNavEnv)
     env.reset(seed=0)
     actions = _smooth_actions(bare, steps)
-    parts: list[tuple[str, Callable[[], None]]] = [
+    parts: list[tuple[str, Callable[[], float]]] = [
         ("step (gymnasium.make)", lambda: _drive(env, actions)),
         ("step (SemNavEnv)", lambda: _drive(bare, actions)),
         *_kernel_parts(bare, steps),
+        ("reset", lambda: _seconds_per_call(lambda _: bare.reset(), RESETS)),
     ]
     for _, part in parts:
         part()
-    seconds: dict[str, list[float]] = {name: [] for name, _ in parts}
-    for _ in range(runs):
-        for name, part in parts:
-            begin = time.perf_counter()
-            part()
-            seconds[name].append((time.perf_counter() - begin) / steps)
-    whole = median(seconds[parts[0][0]])
+    runs_by_part = [[part() for _, part in parts] for _ in range(runs)]
+    seconds = [median(column) for column in zip(*runs_by_part, strict=True)]
     return [
-        Timing(name, 1e6 * median(seconds[name]), median(seconds[name]) / whole)
-        for name, _ in parts
+        Timing(name, 1e6 * each, each / seconds[0])
+        for (name, _), each in zip(parts, seconds, strict=True)
     ]
+
+
+def _seconds_per_call(call: Callable[[int], object], times: int) -> float:
+    """The mean; `call` is given the number of the call."""
+    begin = time.perf_counter()
+    for i in range(times):
+        call(i)
+    return (time.perf_counter() - begin) / times
 
 
 def _smooth_actions(env: SemNavEnv, steps: int) -> np.ndarray:
@@ -83,15 +90,19 @@ def _smooth_actions(env: SemNavEnv, steps: int) -> np.ndarray:
     return np.repeat(drawn, 15, axis=0)[:steps]
 
 
-def _drive(env: gym.Env[Any, Any], actions: np.ndarray) -> None:
-    """Step through the actions; episodes that end are begun anew (the time counts)."""
+def _drive(env: gym.Env[Any, Any], actions: np.ndarray) -> float:
+    """Seconds per step; episodes that end are begun anew while the clock stands still."""
+    begin = time.perf_counter()
     for action in actions:
         _, _, terminated, truncated, _ = env.step(action)
         if terminated or truncated:
+            stopped = time.perf_counter()
             env.reset()
+            begin += time.perf_counter() - stopped
+    return (time.perf_counter() - begin) / len(actions)
 
 
-def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], None]]]:
+def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], float]]]:
     """The parts of a step by themselves, at the environment's present pose."""
     perception, pose = Perception(env.perception.lidar, env.extractor), env.world.pose
     perception.begin(env.task.verifier.command)
@@ -103,12 +114,8 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], No
     extraction = perception.extraction_arguments()
     scene = env.floor_plan.scene
 
-    def repeat(call: Callable[[int], object], times: int = steps) -> Callable[[], None]:
-        def run() -> None:
-            for i in range(times):
-                call(i)
-
-        return run
+    def repeat(call: Callable[[int], object]) -> Callable[[], float]:
+        return lambda: _seconds_per_call(call, steps)
 
     return [
         ("scan without noise", repeat(lambda i: cast(*(*lidar_pose, *arrays, out)))),
