@@ -11,7 +11,8 @@ import math
 from dataclasses import dataclass
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
-from semnav_env.features.kernels.hallway import BEHIND, SPACING, first_gap, stands_in, survey
+from semnav_env.features.kernels.hallway import first_gap, stands_in, survey
+from semnav_env.features.kernels.probing import BEHIND, SPACING
 from semnav_env.features.scene import Door, Scene, ends_of
 
 GOES_ON = 1.2

@@ -13,7 +13,17 @@ from semnav_env.features.frames import Pose, compose, wrap_angle
 from semnav_env.features.hallway import Hallway, doorway_at, hallway
 from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.maps import load_floor_plan
-from tests.hand_made import L_LEFT, L_RIGHT, ROOM, SIDE_ARMS, T_JUNCTION, X_JUNCTION, box, corridor
+from tests.hand_made import (
+    L_LEFT,
+    L_RIGHT,
+    ROOM,
+    SIDE_ARMS,
+    T_JUNCTION,
+    X_JUNCTION,
+    box,
+    corridor,
+    polyline,
+)
 
 START: Pose = (0.0, 0.0, 0.0)
 
@@ -234,3 +244,11 @@ def test_the_corridors_of_the_cross(
     seen = hallway(load_floor_plan("office_cross").scene, pose)
     assert ways_on(seen) == expected
     assert seen.end == pytest.approx(end, abs=0.05)
+
+
+@pytest.mark.parametrize("x", [-0.9, 0.0, 0.9])
+def test_a_robot_in_a_junction_looks_along_the_hallway_that_leads_on(x: float) -> None:
+    walls = polyline((1.0, -6.0), (1.0, -0.5), (9.0, -0.5), (9.0, 0.5), (-1.0, 0.5), (-1.0, -6.0))
+    seen = hallway(Scene((*walls, Wall((-1.0, -6.0), (1.0, -6.0)))), (x, 0.1, 0.0))
+    assert seen.frame[1] == pytest.approx(0.0, abs=0.1)
+    assert seen.place(seen.end)[0] == pytest.approx(9.0)

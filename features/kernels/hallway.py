@@ -1,8 +1,7 @@
 """Numba kernels that look along the sides of a hallway.
 
-`survey` puts an axis through the hallway and probes it by rays across the axis, one every
-`SPACING` metres, and by lanes along it, one every `LANE` metres. In the frame of the axis x runs
-along the hallway and y to its left; the pose asked for lies at x = 0.
+`survey` puts an axis through the hallway. In its frame x runs along the hallway and y to its left;
+the robot lies at x = 0.
 """
 
 from __future__ import annotations
@@ -15,21 +14,24 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.heading import prevailing_heading
+from semnav_env.features.kernels.probing import (
+    BEHIND,
+    DOORWAY,
+    REACH,
+    SPACING,
+    farthest_way,
+    in_frame,
+    probe,
+    shift,
+    usual_distances,
+    way_ahead,
+)
 
-SPACING = 0.1
-"""Distance between the probes of the sides along the axis, metres."""
-
-BEHIND, AHEAD = 2.0, 40.0
-"""How far the sides are probed behind and ahead of the pose, metres."""
+AHEAD = 40.0
+"""How far ahead of the robot the sides are probed, metres."""
 
 PROBES = round((BEHIND + AHEAD) / SPACING) + 1
 """How many probes a side has."""
-
-NEAR = 8.0
-"""Where the hallway is as wide as usual: not farther ahead than this, metres."""
-
-REACH = 6.0
-"""A side farther than this is none, metres."""
 
 RECESS = 1.5
 """A side may step back this far and still be the side, metres; farther is an opening or a gap."""
@@ -42,21 +44,6 @@ OPENING_WIDTH = 1.35
 
 LEAF = 1.2
 """Longer than any door leaf, metres: so far a wall leads out at an edge of an opening."""
-
-BODY_WIDTH = 0.7
-"""A hallway ends where no way of this width goes on, metres."""
-
-LANE = 0.1
-"""Distance between the lanes, metres."""
-
-ASIDE = 0.85
-"""Ways that begin so far beside the robot still count as ahead of it, metres."""
-
-ALONG = math.sin(math.radians(15.0))
-"""A wall nearer to the axis in direction runs along the hallway and does not end it."""
-
-DOORWAY = 0.5
-"""Nearer than this to a door that lies across the way, one stands in the doorway, metres."""
 
 Openings: TypeAlias = list[tuple[bool, float, float, float]]
 """For each opening: on the left?, near and far edge along the axis, distance of its side."""
@@ -99,17 +86,17 @@ def survey(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: fl
     """
     solid = _solid(walls, doors, x, y, heading)
     heading = prevailing_heading(solid, len(walls), x, y, heading)
-    local = _in_frame(solid, x, y, heading)
-    offset, straight = _way_ahead(local)
-    _shift(local, offset)
-    left, right = _usual(local, 1.0, straight), _usual(local, -1.0, straight)
+    local = in_frame(solid, x, y, heading)
+    offset, straight = way_ahead(local)
+    shift(local, offset)
+    left, right = usual_distances(local, straight)
     if left < REACH and right < REACH:
         centre = 0.5 * (left - right)
         offset += centre
-        _shift(local, centre)
-        left, right = _usual(local, 1.0, straight), _usual(local, -1.0, straight)
+        shift(local, centre)
+        left, right = usual_distances(local, straight)
     x, y = x - math.sin(heading) * offset, y + math.cos(heading) * offset
-    end = _end(local, left, right)
+    end = farthest_way(local, left, right)
     openings = [(True, 0.0, 0.0, 0.0) for _ in range(0)]
     left_side = _side(local, len(walls), 1.0, left, end, openings)
     right_side = _side(local, len(walls), -1.0, right, end, openings)
@@ -152,104 +139,6 @@ def _solid(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: fl
 
 
 @njit(cache=True)
-def _in_frame(segments: FloatArray, x: float, y: float, heading: float) -> FloatArray:
-    c, s = math.cos(heading), math.sin(heading)
-    local = np.empty_like(segments)
-    for i in range(len(segments)):
-        for k in (0, 2):
-            dx, dy = segments[i, k] - x, segments[i, k + 1] - y
-            local[i, k], local[i, k + 1] = c * dx + s * dy, c * dy - s * dx
-    return local
-
-
-@njit(cache=True)
-def _probe(local: FloatArray, sign: float, count: int) -> FloatArray:
-    """How far the first `count` rays from the axis to one side go (`sign` 1: left, -1: right)."""
-    side = np.full(count, np.inf)
-    for i in range(len(local)):
-        x1, y1, x2, y2 = local[i, 0], sign * local[i, 1], local[i, 2], sign * local[i, 3]
-        if max(y1, y2) < 0.0 or abs(x2 - x1) < 1e-9:
-            continue
-        slope = (y2 - y1) / (x2 - x1)
-        first = math.ceil((min(x1, x2) + BEHIND) / SPACING)
-        last = math.floor((max(x1, x2) + BEHIND) / SPACING)
-        for k in range(max(first, 0), min(last, count - 1) + 1):
-            distance = y1 + slope * (k * SPACING - BEHIND - x1)
-            if 0.0 <= distance < side[k] and distance <= REACH:
-                side[k] = distance
-    return side
-
-
-@njit(cache=True)
-def _shift(local: FloatArray, offset: float) -> None:
-    """Move the axis to its left."""
-    local[:, 1] -= offset
-    local[:, 3] -= offset
-
-
-@njit(cache=True)
-def _usual(local: FloatArray, sign: float, end: float) -> float:
-    """The usual distance of a side near the robot and before `end`; `REACH` where none is.
-
-    A third of the probes may meet furniture, and less than two thirds the depths of a junction.
-    """
-    side = _probe(local, sign, int((min(end, NEAR) + BEHIND) / SPACING) + 1)
-    seen = np.sort(side[np.isfinite(side)])
-    return seen[len(seen) // 3] if len(seen) > 0 else REACH
-
-
-@njit(cache=True)
-def _way_ahead(local: FloatArray) -> tuple[float, float]:
-    """The nearest way for a body that goes on about as far as any near x = 0.
-
-    Returns:
-        How far it lies to the left of the robot, and how far it goes on, metres.
-    """
-    ways = _ways(_lanes(local, -ASIDE, round(2.0 * ASIDE / LANE) + 1))
-    farthest, middle = ways.max(), (len(ways) - 1) // 2
-    for k in range(middle + 1):
-        for way in (middle - k, middle + k):
-            if ways[way] > farthest - 1.0 or ways[way] == farthest:
-                return (way - middle) * LANE, ways[way]
-    return 0.0, farthest
-
-
-@njit(cache=True)
-def _end(local: FloatArray, left: float, right: float) -> float:
-    """The farthest that any way for a body goes on between the sides, metres."""
-    ways = _ways(_lanes(local, LANE - right, max(1, int((left + right) / LANE) - 1)))
-    return float(ways.max())
-
-
-@njit(cache=True)
-def _ways(lanes: FloatArray) -> FloatArray:
-    """How far each way goes on that is as wide as a body: several lanes beside each other."""
-    width = min(len(lanes), round(BODY_WIDTH / LANE))
-    ways = np.empty(len(lanes) - width + 1)
-    for k in range(len(ways)):
-        ways[k] = lanes[k : k + width].min()
-    return ways
-
-
-@njit(cache=True)
-def _lanes(local: FloatArray, start: float, count: int) -> FloatArray:
-    """How far each lane goes on from x = 0; the lanes lie at y = start + k * `LANE`."""
-    lanes = np.full(count, np.inf)
-    for i in range(len(local)):
-        x1, y1, x2, y2 = local[i, 0], local[i, 1], local[i, 2], local[i, 3]
-        if max(x1, x2) < 0.0 or abs(y2 - y1) <= ALONG * math.hypot(x2 - x1, y2 - y1):
-            continue
-        slope = (x2 - x1) / (y2 - y1)
-        first = max(math.ceil((min(y1, y2) - start) / LANE), 0)
-        last = min(math.floor((max(y1, y2) - start) / LANE), count - 1)
-        for k in range(first, last + 1):
-            x = x1 + slope * (start + k * LANE - y1)
-            if x >= 0.0:
-                lanes[k] = min(lanes[k], x)
-    return lanes
-
-
-@njit(cache=True)
 def _side(
     local: FloatArray, walls: int, sign: float, usual: float, end: float, openings: Openings
 ) -> FloatArray:
@@ -267,7 +156,7 @@ def _side(
         Distance of the side at each probe; inf where it is not seen, has a gap or an opening,
         and behind the end.
     """
-    raw = _probe(local, sign, PROBES)
+    raw = probe(local, sign, PROBES)
     side = np.full(PROBES, np.inf)
     last = PROBES if math.isinf(end) else min(PROBES, int((end + BEHIND) / SPACING) + 1)
     first, before = -1, usual
