@@ -53,6 +53,8 @@ class Arguments:
 
     def run(self) -> int:
         """Drive, film and report."""
+        if self.seed < 0:
+            raise ValueError(f"seed is {self.seed}; it must be 0 or more")
         agent = make_agent(self.agent)
         filmed = self.save is not None or self.picture is not None
         mode = "human" if self.show else "rgb_array" if filmed else None
@@ -101,6 +103,8 @@ class Arguments:
             print(json.dumps(outcome))
             return
         verdict = "done" if info["is_success"] else " / ".join(outcome["verdicts"])
+        pose = ",".join(f"{value:.2f}" for value in start["pose"])
+        print(f"from {pose} in {start['floor_plan'].name}")
         print(
             f'"{start["command"]}": {verdict} after {seconds:.1f} s and '
             f"{info['path_length']:.1f} m, {info['collisions']} collisions"

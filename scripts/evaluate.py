@@ -42,6 +42,8 @@ class Arguments:
         """Run, and print success and contacts per command."""
         if self.seeds < 1 or self.workers < 1:
             raise ValueError("seeds and workers must be at least 1")
+        if self.first_seed < 0:
+            raise ValueError(f"first_seed is {self.first_seed}; it must be 0 or more")
         trials = suite(self.suite)
         seeds = range(self.first_seed, self.first_seed + self.seeds)
         total = len(trials) * len(seeds)
@@ -71,7 +73,7 @@ class Arguments:
         console.print(table)
         for row in summaries:
             for failure in row.failures:
-                console.print(f"{row.name}: {failure}", highlight=False)
+                console.print(f"{row.name}: {failure}", highlight=False, soft_wrap=True)
 
 
 def _summary(command: str, results: list[Result]) -> Summary:

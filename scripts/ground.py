@@ -69,5 +69,6 @@ def understood(text: str) -> Command:
     except CommandError as error:
         try:
             return parse(f"go to {text}")
-        except CommandError:
-            raise error from None
+        except CommandError as place_error:
+            further = (place_error.position or 0) - len("go to ") > (error.position or 0)
+            raise place_error if further else error from None

@@ -35,7 +35,7 @@ class Arguments:
     learned is saved, and --resume goes on from there.
 
     Attributes:
-        preset: what to learn: quick.
+        preset: what to learn: quick or office.
         out: folder of the agent; runs/PRESET if not given.
         steps: decisions to have trained for at the end; the preset's own number if not given.
         minutes: to train for, this time.

@@ -141,6 +141,9 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
                 (`CommandError`) or cannot be carried out from there (`GroundingError`).
         """
         super().reset(seed=seed)
+        self._started = False
+        if not isinstance(options, dict | None):
+            raise ValueError(f"options are a dict with {', '.join(OPTIONS)}, not {options!r}")
         options = dict(options or {})
         unknown = [name for name in options if name not in OPTIONS]
         if unknown:
@@ -155,7 +158,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self._noise_seed = int(self.np_random.integers(2**62))
         self._steps, self._started = 0, True
         self._sense()
-        self._scribe.begin()
+        self._scribe.begin(start)
         return self._observation(), self._reset_info(start)
 
     def step(
@@ -174,6 +177,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         pose, (forward, left, turning) = world.pose, world.velocity
         self.odometry.update(pose)
         self._steps += 1
+        self._scribe.note(self.world.pose)
         self._sense()
         speed = (forward * forward + left * left) ** 0.5
         motion = Motion(pose, speed, turning, world.in_contact, 1.0 / CONTROL_HZ)
@@ -261,7 +265,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             "robot_spec": self.robot,
             "lidar_spec": self.lidar_spec,
             "pose": start,
-            "route": verifier.route.copy(),
+            "route": verifier.route_points,
             "route_length": verifier.route_length,
         }
 
@@ -279,7 +283,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             info |= {
                 "is_success": verifier.success,
                 "crossed_doors": tuple(verifier.crossed),
-                "route": verifier.route.copy(),
+                "route": verifier.route_points,
                 "route_length": verifier.route_length,
                 "impossible": self.perception.follower.impossible,
             }

@@ -156,6 +156,11 @@ class Verifier:
         return np.vstack(ways) if ways else np.array([self.start[:2]])
 
     @property
+    def route_points(self) -> tuple[Point, ...]:
+        """The true route as plain points, which a vector environment can hand on."""
+        return tuple((x, y) for x, y in self.route.tolist())
+
+    @property
     def route_length(self) -> float:
         """Length of the true route, metres."""
         steps = np.diff(self.route, axis=0)

@@ -165,3 +165,30 @@ def _no_display() -> dict[str, str]:
 
     hidden = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
     return {name: value for name, value in os.environ.items() if name not in hidden}
+
+
+@pytest.mark.parametrize("mode", ["sync", "async"])
+def test_it_runs_in_gymnasiums_vector_environments(mode: str) -> None:
+    envs = gym.make_vec(
+        "semnav_env:SemNav-v0", num_envs=2, vectorization_mode=mode, max_seconds=1.0
+    )
+    try:
+        envs.reset(seed=0)
+        for _ in range(40):
+            observation, *_ = envs.step(envs.action_space.sample())
+        assert envs.observation_space.contains(observation)
+    finally:
+        envs.close()
+
+
+def test_a_failed_reset_leaves_nothing_to_step() -> None:
+    env = fresh("semantic")
+    with pytest.raises(GroundingError):
+        env.reset(options=START | {"command": "go through the ninth door on the right"})
+    with pytest.raises(RuntimeError, match="reset"):
+        env.step(np.zeros(2))
+
+
+def test_options_that_are_no_dict_are_refused() -> None:
+    with pytest.raises(ValueError, match="options are a dict"):
+        SemNavEnv().reset(options="turn left")  # type: ignore[arg-type]

@@ -35,6 +35,7 @@ class Frame:
         active_clause: index into `command`; those before are done. len(command): all are done.
         status: lines of text below the command, such as "t = 12.4 s".
         in_contact: the body touches something.
+        failed: the active clause has failed.
 
     Raises:
         ValueError: a pose that is not finite, points that are not of shape (n, 2), or numbers for
@@ -56,6 +57,7 @@ class Frame:
     active_clause: int = 0
     status: tuple[str, ...] = ()
     in_contact: bool = False
+    failed: bool = False
 
     def __post_init__(self) -> None:
         """Check what would otherwise fail deep inside the drawing."""

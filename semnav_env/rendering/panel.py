@@ -106,7 +106,7 @@ def _draw_command(column: Column, top: float, bottom: float, frame: Frame) -> No
         column.canvas.text((inner.left, y + 6.0), f"{shown[0].index} before", palette.MUTED, 11.0)
     y += 16.0 if shown and shown[0].index > 0 else 0.0
     for entry in shown:
-        _draw_entry(column, inner, y, entry, frame.active_clause)
+        _draw_entry(column, inner, y, entry, frame)
         y += entry.height
     after = len(frame.command) - 1 - shown[-1].index if shown else 0
     if after > 0:
@@ -139,14 +139,18 @@ def _fitting(entries: Sequence[Entry], active: int, room: float) -> list[Entry]:
     return sorted(shown, key=lambda entry: entry.index)
 
 
-def _draw_entry(column: Column, inner: Column, y: float, entry: Entry, active: int) -> None:
-    canvas = column.canvas
+def _draw_entry(column: Column, inner: Column, y: float, entry: Entry, frame: Frame) -> None:
+    canvas, active = column.canvas, frame.active_clause
     if entry.index == active:
         ground = Viewport(column.left - 8.0, y, column.width + 16.0, entry.height - 3.0)
         canvas.box(ground, palette.ACTIVE_EDGE, 7.0)
         ground = Viewport(ground.left + 4.0, y, ground.width - 4.0, ground.height)
         canvas.box(ground, palette.ACTIVE, 5.0)
-    _draw_mark(canvas, (column.left + 11.0, y + 15.0), entry.index - active, entry.index + 1)
+    at = column.left + 11.0, y + 15.0
+    if entry.index == active and frame.failed:
+        _draw_cross(canvas, at)
+    else:
+        _draw_mark(canvas, at, entry.index - active, entry.index + 1)
     colour = palette.INK if entry.index == active else palette.MUTED
     y += 15.0
     for line in entry.lines:
@@ -155,6 +159,14 @@ def _draw_entry(column: Column, inner: Column, y: float, entry: Entry, active: i
     for note in entry.notes:
         canvas.text((inner.left, y), note, palette.MUTED, 11.0)
         y += 16.0
+
+
+def _draw_cross(canvas: Canvas, at: tuple[float, float]) -> None:
+    """For a clause that has failed."""
+    x, y = at
+    canvas.discs([at], 9.0, palette.CONTACT)
+    for sign in (1.0, -1.0):
+        canvas.stroke([(x - 3.6, y - 3.6 * sign), (x + 3.6, y + 3.6 * sign)], palette.WHITE, 2.0)
 
 
 def _draw_mark(canvas: Canvas, at: tuple[float, float], relative: int, number: int) -> None:

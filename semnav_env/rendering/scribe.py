@@ -51,9 +51,13 @@ class Scribe:
         self._viewer: Viewer | None = None
         self._trail: list[Point] = []
 
-    def begin(self) -> None:
+    def begin(self, start: Pose) -> None:
         """Start a new trail."""
-        self._trail = []
+        self._trail = [start[:2]]
+
+    def note(self, pose: Pose) -> None:
+        """Go on with the trail."""
+        self._trail.append(pose[:2])
 
     def draw(self, env: Stage, mode: str) -> NDArray[np.uint8] | None:
         """The picture, or None in "human" mode, where it goes to a window."""
@@ -82,7 +86,6 @@ class Scribe:
         odometry_frame = compose(pose, relative(believed, (0.0, 0.0, 0.0)))
         lidar = compose(pose, perception.lidar.mount)
         remembered = perception.scene()
-        self._trail.append(pose[:2])
         return Frame(
             floor_plan=env.floor_plan,
             robot=env.robot,
@@ -99,6 +102,7 @@ class Scribe:
             active_clause=verifier.follower.active,
             status=_status(env.seconds, verifier),
             in_contact=env.world.in_contact,
+            failed=verifier.failure is not None,
         )
 
 

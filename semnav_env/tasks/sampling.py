@@ -47,19 +47,15 @@ def sample_feasible(
 
 def _draw(rng: np.random.Generator, most_clauses: int) -> Command:
     last = _last_clause(rng)
-    ways = int(rng.integers(0, most_clauses))
-    return Command((*(_way_clause(rng) for _ in range(ways)), last))
+    turns = tuple(_turn(rng) for _ in range(int(rng.integers(0, most_clauses))))
+    along = (Follow(),) if 0 < len(turns) < most_clauses - 1 and rng.random() < 0.3 else ()
+    return Command((*along, *turns, last))
 
 
-def _way_clause(rng: np.random.Generator) -> Clause:
+def _turn(rng: np.random.Generator) -> Clause:
     turning = (Turning.LEFT, Turning.RIGHT)[rng.integers(2)]
     place = (Place.INTERSECTION, Place.CORNER)[rng.integers(2)]
-    clauses: tuple[Clause, ...] = (
-        Turn(turning, PlaceReference(place, int(rng.integers(1, 3)))),
-        Turn(turning, PlaceReference(place)),
-        Follow(),
-    )
-    return clauses[rng.integers(len(clauses))]
+    return Turn(turning, PlaceReference(place, (1, 1, 1, 2)[rng.integers(4)]))
 
 
 def _last_clause(rng: np.random.Generator) -> Clause:

@@ -99,9 +99,11 @@ class CommandTask:
             drawn = command or sample_feasible(self.floor_plan, start, rng)
             if drawn is not None and (command is None or self._is_feasible(command, start)):
                 return start, drawn
+        told = "no command" if command is None else f'"{command}"'
+        where = "any corridor" if pose is None else f"the pose {pose}"
+        tries = f"{START_TRIES} draws"
         raise ValueError(
-            f"{self.floor_plan.name}: no start pose and command found that fit each other "
-            f"(pose {pose or 'free'}, command {str(command) if command else 'free'})"
+            f"{told} can be carried out from {where} of {self.floor_plan.name} ({tries})"
         )
 
     def _is_feasible(self, command: Command, start: Pose) -> bool:
