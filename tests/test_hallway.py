@@ -252,3 +252,18 @@ def test_a_robot_in_a_junction_looks_along_the_hallway_that_leads_on(x: float) -
     seen = hallway(Scene((*walls, Wall((-1.0, -6.0), (1.0, -6.0)))), (x, 0.1, 0.0))
     assert seen.frame[1] == pytest.approx(0.0, abs=0.1)
     assert seen.place(seen.end)[0] == pytest.approx(9.0)
+
+
+@pytest.mark.parametrize("slant", [-0.1, 0.0, 0.1])
+def test_an_arm_that_leads_off_at_an_angle_is_an_opening(slant: float) -> None:
+    half, deep = 1.0, 3.2
+    walls = [
+        Wall((-3.0, half), (5.0, half)),
+        Wall((5.0, half), (5.0 + slant * (deep - half), deep)),
+        Wall((7.0, half), (7.0 + slant * (deep - half), deep)),
+        *polyline((7.0, half), (12.0, half), (12.0, -half), (-3.0, -half)),
+    ]
+    (junction,) = hallway(Scene(tuple(walls)), START).junctions
+    assert junction.left is not None
+    assert junction.left.offset == pytest.approx(half)
+    assert (junction.left.near, junction.left.far) == pytest.approx((5.0, 7.0), abs=0.26)

@@ -36,8 +36,11 @@ PROBES = round((BEHIND + AHEAD) / SPACING) + 1
 RECESS = 1.5
 """A side may step back this far and still be the side, metres; farther is an opening or a gap."""
 
+LEVEL = 0.05
+"""A side that steps back by less from one probe to the next runs on, metres."""
+
 RECENT = 2.0
-"""A side steps back from the farthest that it lay within this stretch before, metres."""
+"""A side steps back from where it lay in this stretch before, metres."""
 
 OPENING_WIDTH = 1.35
 """Where a side steps back for longer than this it may be an opening, metres; shorter, a doorway."""
@@ -159,29 +162,33 @@ def _side(
     raw = probe(local, sign, PROBES)
     side = np.full(PROBES, np.inf)
     last = PROBES if math.isinf(end) else min(PROBES, int((end + BEHIND) / SPACING) + 1)
-    first, before = -1, usual
+    first, reference = -1, usual
     for k in range(last):
-        reference = before if first >= 0 else _recent(side, k, usual)
-        if raw[k] <= reference + RECESS:
+        level = k > 0 and side[k - 1] < np.inf and raw[k] < side[k - 1] + LEVEL
+        if first < 0 and not level:
+            reference = _recent(side, k, usual)
+        if level or raw[k] <= reference + RECESS:
             if first >= 0:
                 _note_opening(local[:walls], sign, first, k, reference, openings)
             first = -1
             side[k] = raw[k]
         elif first < 0:
-            first, before = k, reference
+            first = k
     if first >= 0 and math.isfinite(end):
-        _note_opening(local[:walls], sign, first, last, before, openings)
+        _note_opening(local[:walls], sign, first, last, reference, openings)
     return side
 
 
 @njit(cache=True)
 def _recent(side: FloatArray, k: int, usual: float) -> float:
-    """The farthest that a side lay just before probe k: furniture stands before it."""
-    farthest = -1.0
-    for i in range(max(0, k - round(RECENT / SPACING)), k):
-        if math.isfinite(side[i]):
-            farthest = max(farthest, side[i])
-    return farthest if farthest >= 0.0 else usual
+    """How far a side lay just before probe k.
+
+    That is the upper quartile: furniture stands before a side, and where an opening begins a few
+    probes may meet the wall that leads out.
+    """
+    lately = side[max(0, k - round(RECENT / SPACING)) : k]
+    seen = np.sort(lately[np.isfinite(lately)])
+    return seen[3 * (len(seen) - 1) // 4] if len(seen) > 0 else usual
 
 
 @njit(cache=True)

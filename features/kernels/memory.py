@@ -12,14 +12,8 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.layout import DOORS, WALLS
 
 REMEMBERED = np.dtype(
-    [
-        ("start_x", "f8"),
-        ("start_y", "f8"),
-        ("end_x", "f8"),
-        ("end_y", "f8"),
-        ("hits", "i8"),
-        ("misses", "i8"),
-    ]
+    [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y")]
+    + [(name, "i8") for name in ("hits", "misses")]
 )
 """A remembered wall or door: its ends, how often it was seen, how often contradicted."""
 
