@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
-from gymnasium.spaces import Box
 from numpy.typing import ArrayLike, NDArray
 
+from semnav_env.actions import Actions
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Pose
 from semnav_env.lidar.lidar import Lidar
@@ -126,8 +125,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self._observer = Observer(observation, self.lidar_spec.beams, self.lidar_spec.range_max)
         self._default_plan = floor_plan
         self._enter(load_floor_plan(floor_plan))
-        self._scale = _speed_limits(self.robot)
-        self.action_space = Box(-1.0, 1.0, (self.robot.action_size,), np.float32)
+        self._actions = Actions(self.robot)
+        self.action_space = self._actions.space
         self.observation_space = self._observer.space
         self._started = False
 
@@ -173,7 +172,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         if not self._started:
             raise RuntimeError("call reset() before step()")
         world = self.world
-        world.step(self._velocity(action))
+        world.step(self._actions.velocity(action))
         pose, (forward, left, turning) = world.pose, world.velocity
         self.odometry.update(pose)
         self._steps += 1
@@ -233,23 +232,6 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             lidar = Lidar(floor_plan, self.lidar_spec, self.robot.lidar_mount)
             self.perception = Perception(lidar, self.extractor)
 
-    def _velocity(self, action: ArrayLike) -> Pose:
-        """The action as (forward, left, turn) in SI units."""
-        array = np.asarray(action)
-        if array.dtype.kind != "f":
-            array = array.astype(np.float64)
-        if array.shape != (self.robot.action_size,):
-            wanted = (self.robot.action_size,)
-            raise ValueError(f"the action has shape {array.shape}; it must be {wanted}")
-        values = array.tolist()
-        if not all(map(math.isfinite, values)):
-            raise ValueError(f"the action is {values}; it must be finite, in [-1, 1]")
-        first, *middle, last = [
-            (1.0 if v > 1.0 else -1.0 if v < -1.0 else v) * limit
-            for v, limit in zip(values, self._scale, strict=True)
-        ]
-        return first, middle[0] if middle else 0.0, last
-
     def _sense(self) -> None:
         key = (self._noise_seed, 0, self._steps)
         self.perception.sense(self.world.pose, self.believed_pose, self.world.velocity, key)
@@ -265,8 +247,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             "robot_spec": self.robot,
             "lidar_spec": self.lidar_spec,
             "pose": start,
-            "route": verifier.route_points,
-            "route_length": verifier.route_length,
+            **verifier.true_route(),
         }
 
     def _info(self, terms: dict[str, float], over: bool) -> dict[str, Any]:
@@ -280,17 +261,6 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             "pose": self.world.pose,
         }
         if over:
-            info |= {
-                "is_success": verifier.success,
-                "crossed_doors": tuple(verifier.crossed),
-                "route": verifier.route_points,
-                "route_length": verifier.route_length,
-                "impossible": self.perception.follower.impossible,
-            }
+            info |= verifier.outcome()
+            info["impossible"] = self.perception.follower.impossible
         return info
-
-
-def _speed_limits(robot: RobotSpec) -> tuple[float, ...]:
-    if robot.holonomic:
-        return robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate
-    return robot.max_speed, robot.max_turn_rate

@@ -6,7 +6,7 @@ import math
 from enum import StrEnum
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -155,10 +155,15 @@ class Verifier:
         ways = [self._geodesic.to(b).way(a) for a, b in pairwise(points)]
         return np.vstack(ways) if ways else np.array([self.start[:2]])
 
-    @property
-    def route_points(self) -> tuple[Point, ...]:
-        """The true route as plain points, which a vector environment can hand on."""
-        return tuple((x, y) for x, y in self.route.tolist())
+    def true_route(self) -> dict[str, Any]:
+        """The true route as plain points, for vector environments stack arrays, and its length."""
+        points = tuple((x, y) for x, y in self.route.tolist())
+        return {"route": points, "route_length": self.route_length}
+
+    def outcome(self) -> dict[str, Any]:
+        """What is known at the end, for `info`."""
+        crossed = tuple(self.crossed)
+        return {"is_success": self.success, "crossed_doors": crossed, **self.true_route()}
 
     @property
     def route_length(self) -> float:

@@ -99,12 +99,10 @@ class CommandTask:
             drawn = command or sample_feasible(self.floor_plan, start, rng)
             if drawn is not None and (command is None or self._is_feasible(command, start)):
                 return start, drawn
-        told = "no command" if command is None else f'"{command}"'
-        where = "any corridor" if pose is None else f"the pose {pose}"
-        tries = f"{START_TRIES} draws"
-        raise ValueError(
-            f"{told} can be carried out from {where} of {self.floor_plan.name} ({tries})"
-        )
+        name = self.floor_plan.name
+        if command is not None:
+            raise ValueError(f'no start found in {name} from which "{command}" can be carried out')
+        raise ValueError(f"no command found that can be carried out in {name} from {pose or 'it'}")
 
     def _is_feasible(self, command: Command, start: Pose) -> bool:
         try:
