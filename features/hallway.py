@@ -83,7 +83,7 @@ class Hallway:
     Attributes:
         frame: the axis: a pose on its centre line beside the pose asked for, looking along it.
         left: distance from the axis to the left side at each probe, shape (n,); inf where it is
-            not seen, has a gap or an opening, and behind the end.
+            not seen, has a gap or an opening, and beyond the hallway's ends.
         right: the same to the right.
         half_width: usual distance from the axis to the sides, metres.
         end: where the hallway ends along the axis, metres; inf if that is not seen.

@@ -25,6 +25,7 @@ from semnav_env.features.kernels.probing import (
     shift,
     usual_distances,
     way_ahead,
+    way_back,
 )
 
 AHEAD = 40.0
@@ -92,17 +93,19 @@ def survey(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: fl
     local = in_frame(solid, x, y, heading)
     offset, straight = way_ahead(local)
     shift(local, offset)
-    left, right = usual_distances(local, straight)
+    back = way_back(local)
+    left, right = usual_distances(local, back, straight)
     if left < REACH and right < REACH:
         centre = 0.5 * (left - right)
         offset += centre
         shift(local, centre)
-        left, right = usual_distances(local, straight)
+        left, right = usual_distances(local, back, straight)
     x, y = x - math.sin(heading) * offset, y + math.cos(heading) * offset
     end = farthest_way(local, left, right)
     openings = [(True, 0.0, 0.0, 0.0) for _ in range(0)]
-    left_side = _side(local, len(walls), 1.0, left, end, openings)
-    right_side = _side(local, len(walls), -1.0, right, end, openings)
+    left_raw, right_raw = probe(local, 1.0, back, PROBES), probe(local, -1.0, back, PROBES)
+    left_side = _side(left_raw, local[: len(walls)], 1.0, left, (back, end), openings)
+    right_side = _side(right_raw, local[: len(walls)], -1.0, right, (back, end), openings)
     return Survey(x, y, heading, left_side, right_side, 0.5 * (left + right), end, openings)
 
 
@@ -143,39 +146,44 @@ def _solid(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: fl
 
 @njit(cache=True)
 def _side(
-    local: FloatArray, walls: int, sign: float, usual: float, end: float, openings: Openings
+    raw: FloatArray,
+    walls: FloatArray,
+    sign: float,
+    usual: float,
+    stretch: tuple[float, float],
+    openings: Openings,
 ) -> FloatArray:
-    """Follow one side to the hallway's end; note the openings where it steps back.
+    """Follow one side along the hallway; note the openings where it steps back.
 
     Args:
-        local: walls first, then doors, in the frame of the axis.
-        walls: how many walls.
+        raw: what the rays to that side met, metres.
+        walls: in the frame of the axis.
         sign: 1 for the left side, -1 for the right.
         usual: distance of the side where it is not known better, metres.
-        end: of the hallway, metres.
+        stretch: how far the hallway goes back, and where it ends, metres.
         openings: appended to.
 
     Returns:
         Distance of the side at each probe; inf where it is not seen, has a gap or an opening,
-        and behind the end.
+        and beyond the stretch.
     """
-    raw = probe(local, sign, PROBES)
+    back, end = stretch
     side = np.full(PROBES, np.inf)
     last = PROBES if math.isinf(end) else min(PROBES, int((end + BEHIND) / SPACING) + 1)
     first, reference = -1, usual
-    for k in range(last):
+    for k in range(max(0, math.ceil((BEHIND - back) / SPACING)), last):
         level = k > 0 and side[k - 1] < np.inf and raw[k] < side[k - 1] + LEVEL
         if first < 0 and not level:
             reference = _recent(side, k, usual)
         if level or raw[k] <= reference + RECESS:
             if first >= 0:
-                _note_opening(local[:walls], sign, first, k, reference, openings)
+                _note_opening(walls, sign, first, k, reference, openings)
             first = -1
             side[k] = raw[k]
         elif first < 0:
             first = k
     if first >= 0 and math.isfinite(end):
-        _note_opening(local[:walls], sign, first, last, reference, openings)
+        _note_opening(walls, sign, first, last, reference, openings)
     return side
 
 

@@ -56,15 +56,17 @@ def in_frame(segments: FloatArray, x: float, y: float, heading: float) -> FloatA
 
 
 @njit(cache=True)
-def probe(local: FloatArray, sign: float, count: int) -> FloatArray:
+def probe(local: FloatArray, sign: float, back: float, count: int) -> FloatArray:
     """How far the first `count` rays go to one side, at most `REACH`, metres; inf beyond.
 
     Args:
         local: segments in the frame of the axis, shape (n, 4).
         sign: 1 for the left side, -1 for the right.
+        back: how far the hallway goes back, metres; no ray starts behind that.
         count: of rays; ray k starts at x = k * `SPACING` - `BEHIND`.
     """
     side = np.full(count, np.inf)
+    start = max(0, math.ceil((BEHIND - back) / SPACING))
     for i in range(len(local)):
         x1, y1, x2, y2 = local[i, 0], sign * local[i, 1], local[i, 2], sign * local[i, 3]
         if max(y1, y2) < 0.0 or abs(x2 - x1) < 1e-9:
@@ -72,7 +74,7 @@ def probe(local: FloatArray, sign: float, count: int) -> FloatArray:
         slope = (y2 - y1) / (x2 - x1)
         first = math.ceil((min(x1, x2) + BEHIND) / SPACING)
         last = math.floor((max(x1, x2) + BEHIND) / SPACING)
-        for k in range(max(first, 0), min(last, count - 1) + 1):
+        for k in range(max(first, start), min(last, count - 1) + 1):
             distance = y1 + slope * (k * SPACING - BEHIND - x1)
             if 0.0 <= distance < side[k] and distance <= REACH:
                 side[k] = distance
@@ -87,29 +89,30 @@ def shift(local: FloatArray, offset: float) -> None:
 
 
 @njit(cache=True)
-def usual_distances(local: FloatArray, straight: float) -> tuple[float, float]:
+def usual_distances(local: FloatArray, back: float, straight: float) -> tuple[float, float]:
     """How far the left and the right side usually lie from the axis, metres.
 
     Args:
         local: segments in the frame of the axis, which lies on a way ahead.
-        straight: how far that way goes on, metres.
+        back: how far it goes back, metres.
+        straight: how far it goes on, metres.
     """
     middle = round(REACH / LANE)
     lanes = _lanes(local, -middle * LANE, 2 * middle + 1, DOORWAY)
-    left = _usual(local, 1.0, straight, _room(lanes[middle:], straight))
-    right = _usual(local, -1.0, straight, _room(lanes[middle::-1], straight))
+    count = int((min(straight, NEAR) + BEHIND) / SPACING) + 1
+    left = _usual(probe(local, 1.0, back, count), _room(lanes[middle:], straight))
+    right = _usual(probe(local, -1.0, back, count), _room(lanes[middle::-1], straight))
     return left, right
 
 
 @njit(cache=True)
-def _usual(local: FloatArray, sign: float, end: float, room: float) -> float:
-    """The usual distance of a side near the robot and before `end`; `REACH` where none is.
+def _usual(side: FloatArray, room: float) -> float:
+    """The usual distance of a side; `REACH` where none is seen.
 
     A third of the probes may meet furniture, and two thirds the depths of a junction. More of
     them do where a robot stands in the junction; so a side is not far beyond the `room` for
     going on, either.
     """
-    side = probe(local, sign, int((min(end, NEAR) + BEHIND) / SPACING) + 1)
     seen = np.sort(side[np.isfinite(side)])
     usual = seen[len(seen) // 3] if len(seen) > 0 else REACH
     return room if usual > room + FURNITURE else usual
@@ -144,6 +147,15 @@ def way_ahead(local: FloatArray) -> tuple[float, float]:
 def _goes_on(distance: float, farthest: float) -> bool:
     """Whether a distance is about as long as another; both may be infinite."""
     return distance == farthest or distance > farthest - 1.0
+
+
+@njit(cache=True)
+def way_back(local: FloatArray) -> float:
+    """How far any way for a body near the axis goes back, metres."""
+    turned = local.copy()
+    turned[:, 0] *= -1.0
+    turned[:, 2] *= -1.0
+    return farthest_way(turned, BODY_WIDTH, BODY_WIDTH)
 
 
 @njit(cache=True)
