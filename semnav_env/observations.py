@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from semnav_env.commands import MAX_CLAUSES, token_space
 from semnav_env.features.frames import Pose
 from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
+from semnav_env.features.kernels.memory import door_counts
 from semnav_env.features.kernels.scratch import Features
 from semnav_env.grounding.goal import Goal, GoalKind
 
@@ -200,8 +201,8 @@ def write_remembered(
     x, y = -(c * pose[0] - s * pose[1]), -(s * pose[0] + c * pose[1])
     k = 0
     for i in range(used):
-        door = doors[i]
-        if k < N_REMEMBERED and door.hits >= 3 and 2 * door.misses <= door.hits:
+        if k < N_REMEMBERED and door_counts(doors[:used], i):
+            door = doors[i]
             _write_ends(row, _REMEMBERED + 4 * k, door, x, y, c, s)
             row[_REMEMBERED + 4 * N_REMEMBERED + k] = 1.0
             k += 1
