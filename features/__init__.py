@@ -5,15 +5,28 @@ Needs NumPy and Numba only, so it runs on a robot's own logs without the simulat
 
 from semnav_env.features.extract import extract
 from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Corner, CornerKind, Corridor, Door, Scene, Wall
+from semnav_env.features.scene import (
+    Arc,
+    Corner,
+    CornerKind,
+    Corridor,
+    Door,
+    Leaf,
+    Rejection,
+    Scene,
+    Wall,
+)
 from semnav_env.features.settings import ExtractorSettings
 
 __all__ = [
+    "Arc",
     "Corner",
     "CornerKind",
     "Corridor",
     "Door",
     "ExtractorSettings",
+    "Leaf",
+    "Rejection",
     "Scan",
     "Scene",
     "Wall",

@@ -1,4 +1,4 @@
-"""What a scan or a map says in words: walls, doors, corners and corridors.
+"""What a scan or a map says in words: walls, doors, corners, corridors and arcs.
 
 The extractor and the floor plan give the same types, so perceived and true scenes can be
 compared and the same grounding serves both.
@@ -6,58 +6,39 @@ compared and the same grounding serves both.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from enum import IntEnum
-from typing import overload
+from typing import Any, TypeVar, overload
 
 import numpy as np
 
+from semnav_env.features.elements import (
+    Arc,
+    Corner,
+    CornerKind,
+    Corridor,
+    Door,
+    Leaf,
+    Rejection,
+    Wall,
+)
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent
 
+__all__ = [
+    "Arc",
+    "Corner",
+    "CornerKind",
+    "Corridor",
+    "Door",
+    "Leaf",
+    "PlainWalls",
+    "Rejection",
+    "Scene",
+    "Wall",
+    "ends_of",
+]
 
-class CornerKind(IntEnum):
-    """The corner types of Barbret 2021, section 3.2.1."""
-
-    OUTER = 0
-    INNER = 1
-    POTENTIAL = 2
-
-
-@dataclass(frozen=True, slots=True)
-class Wall:
-    """A straight wall, directed so that its free side, where the scanner is, lies to its left.
-
-    Attributes:
-        start: first end, (x, y) in metres.
-        end: last end.
-        start_rupture: the beam before the start had no usable return.
-        end_rupture: the beam after the end had no usable return.
-        start_break: the range jumps before the start.
-        end_break: the range jumps after the end.
-        beams: how many beams support the wall; 0 for a wall of a floor plan.
-        residual: root mean square distance of its points to the line, metres.
-    """
-
-    start: Point
-    end: Point
-    start_rupture: bool = False
-    end_rupture: bool = False
-    start_break: bool = False
-    end_break: bool = False
-    beams: int = 0
-    residual: float = 0.0
-
-    @property
-    def length(self) -> float:
-        """Metres."""
-        return math.dist(self.start, self.end)
-
-    @property
-    def heading(self) -> float:
-        """Direction from start to end, radians (Barbret (1.6))."""
-        return math.atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
+_Item = TypeVar("_Item", Wall, Door, Corner, Corridor, Arc, Rejection)
 
 
 class PlainWalls(Sequence[Wall]):
@@ -95,74 +76,19 @@ class PlainWalls(Sequence[Wall]):
 
 
 @dataclass(frozen=True, slots=True)
-class Door:
-    """An open doorway: the gap from the end of one wall to the start of the next.
-
-    Attributes:
-        start: the jamb where a wall ends, (x, y) in metres.
-        end: the jamb where the next wall starts; the scanner is on the left of start-end.
-        name: the door's name in its floor plan; None for a perceived door.
-        sightings: in how many scans it was seen; 1 in a single scan's scene.
-    """
-
-    start: Point
-    end: Point
-    name: str | None = None
-    sightings: int = 1
-
-    @property
-    def midpoint(self) -> Point:
-        """Middle of the opening, (x, y) in metres."""
-        return (self.start[0] + self.end[0]) / 2, (self.start[1] + self.end[1]) / 2
-
-    @property
-    def width(self) -> float:
-        """Distance between the jambs, metres."""
-        return math.dist(self.start, self.end)
-
-
-@dataclass(frozen=True, slots=True)
-class Corner:
-    """Where two walls meet, or where one may turn out of sight.
-
-    Attributes:
-        point: (x, y) in metres.
-        kind: inner and outer as in Barbret (3.1); potential at a rupture or break.
-    """
-
-    point: Point
-    kind: CornerKind
-
-
-@dataclass(frozen=True, slots=True)
-class Corridor:
-    """An entrance to or a cross-section of a corridor: the probe from a corner to a wall.
-
-    Attributes:
-        start: the corner that was probed from, (x, y) in metres.
-        end: where the probe met another wall.
-    """
-
-    start: Point
-    end: Point
-
-    @property
-    def midpoint(self) -> Point:
-        """Where a robot would pass, (x, y) in metres."""
-        return (self.start[0] + self.end[0]) / 2, (self.start[1] + self.end[1]) / 2
-
-
-@dataclass(frozen=True, slots=True)
 class Scene:
-    """Walls, doors, corners and corridors in one frame, metres.
+    """Walls, doors, corners, corridors and arcs in one frame, metres.
 
     A scene from `extract` is in the frame of the scan; `placed` and `seen_from` change frames.
+    `rejections` are the candidates that were turned down, if they were asked for.
     """
 
     walls: Sequence[Wall] = ()
     doors: tuple[Door, ...] = ()
     corners: tuple[Corner, ...] = ()
     corridors: tuple[Corridor, ...] = ()
+    arcs: tuple[Arc, ...] = ()
+    rejections: tuple[Rejection, ...] = ()
 
     def placed(self, frame: Pose) -> Scene:
         """The scene in the parent frame, given the pose of its own frame there."""
@@ -174,11 +100,19 @@ class Scene:
 
     def _moved(self, move: Callable[[Point], Point]) -> Scene:
         return Scene(
-            tuple(replace(w, start=move(w.start), end=move(w.end)) for w in self.walls),
-            tuple(replace(d, start=move(d.start), end=move(d.end)) for d in self.doors),
-            tuple(replace(c, point=move(c.point)) for c in self.corners),
-            tuple(replace(c, start=move(c.start), end=move(c.end)) for c in self.corridors),
+            tuple(_moved(w, move, "start", "end", "centroid") for w in self.walls),
+            tuple(_moved(d, move, "start", "end") for d in self.doors),
+            tuple(_moved(c, move, "point") for c in self.corners),
+            tuple(_moved(c, move, "start", "end") for c in self.corridors),
+            tuple(_moved(a, move, "centre", "start", "end") for a in self.arcs),
+            tuple(_moved(r, move, "start", "end") for r in self.rejections),
         )
+
+
+def _moved(item: _Item, move: Callable[[Point], Point], *points: str) -> _Item:
+    """The item with these of its points moved; a point that is None stays so."""
+    places: dict[str, Any] = {name: getattr(item, name) for name in points}
+    return replace(item, **{name: move(at) for name, at in places.items() if at is not None})
 
 
 def ends_of(items: Iterable[Wall | Door]) -> FloatArray:
