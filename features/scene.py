@@ -100,19 +100,21 @@ class Scene:
 
     def _moved(self, move: Callable[[Point], Point]) -> Scene:
         return Scene(
-            tuple(_moved(w, move, "start", "end", "centroid") for w in self.walls),
-            tuple(_moved(d, move, "start", "end") for d in self.doors),
-            tuple(_moved(c, move, "point") for c in self.corners),
-            tuple(_moved(c, move, "start", "end") for c in self.corridors),
-            tuple(_moved(a, move, "centre", "start", "end") for a in self.arcs),
-            tuple(_moved(r, move, "start", "end") for r in self.rejections),
+            tuple([_moved(w, move, "start", "end", "centroid") for w in self.walls]),
+            tuple([_moved(d, move, "start", "end") for d in self.doors]),
+            tuple([_moved(c, move, "point") for c in self.corners]),
+            tuple([_moved(c, move, "start", "end") for c in self.corridors]),
+            tuple([_moved(a, move, "centre", "start", "end") for a in self.arcs]),
+            tuple([_moved(r, move, "start", "end") for r in self.rejections]),
         )
 
 
 def _moved(item: _Item, move: Callable[[Point], Point], *points: str) -> _Item:
     """The item with these of its points moved; a point that is None stays so."""
-    places: dict[str, Any] = {name: getattr(item, name) for name in points}
-    return replace(item, **{name: move(at) for name, at in places.items() if at is not None})
+    places: dict[str, Any] = {
+        name: move(point) for name in points if (point := getattr(item, name)) is not None
+    }
+    return replace(item, **places)
 
 
 def ends_of(items: Iterable[Wall | Door]) -> FloatArray:
