@@ -40,7 +40,15 @@ def extract(scan: Scan, settings: ExtractorSettings = DEFAULT_SETTINGS) -> Scene
 
     Returns:
         The scene, features in beam order; empty where the scan says nothing.
+
+    Raises:
+        TypeError: bare ranges were given, which do not say where their beams point.
     """
+    if not isinstance(scan, Scan):
+        raise TypeError(
+            f"extract takes a Scan, not {type(scan).__name__}; make one of the ranges: "
+            "Scan(ranges, angle_min=..., angle_increment=..., range_max=...), angles in radians"
+        )
     directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
     beams = len(directions)
     features = allocate_features()

@@ -10,6 +10,12 @@ from numpy.typing import ArrayLike
 
 from semnav_env.features.frames import FloatArray
 
+_FARTHEST = 8.0 * math.pi
+"""Beyond it a first direction is in degrees, not a heading that nobody wrapped; radians."""
+
+_WIDEST = 4.0 * math.pi
+"""More than any scanner sweeps, though some repeat a few beams of the circle; radians."""
+
 
 @dataclass(frozen=True, eq=False)
 class Scan:
@@ -18,17 +24,20 @@ class Scan:
     NaN, infinity, zero, negative values and anything at or beyond `range_max` or below
     `range_min` mean "no return" (REP 117, and what drivers send in the wild).
 
+    A negative increment says that the scanner swept clockwise from `angle_min`; the scan is then
+    turned over, so that its attributes always run counter-clockwise.
+
     Attributes:
         ranges: distances in metres, shape (n,); any real array is accepted and copied.
         angle_min: direction of beam 0 in radians, x forward, counter-clockwise.
-        angle_increment: angle between beams in radians, positive.
+        angle_increment: angle between beams in radians; positive, whatever sign it was given.
         range_min: shortest valid distance in metres.
         range_max: longest valid distance in metres.
         stamp: time in seconds, if known.
 
     Raises:
-        ValueError: not one-dimensional, no beams, not real numbers, an increment that is not
-            positive, limits out of order, or ranges that must be millimetres.
+        ValueError: not one-dimensional, no beams, not real numbers, an increment of zero, angles
+            that must be degrees, limits out of order, or ranges that must be millimetres.
     """
 
     ranges: FloatArray
@@ -55,6 +64,11 @@ class Scan:
         )
         _check_numbers(values)
         array = _check_ranges(ranges, values["range_max"])
+        _check_angles(values["angle_min"], values["angle_increment"], len(array))
+        if values["angle_increment"] < 0:
+            values["angle_min"] += values["angle_increment"] * (len(array) - 1)
+            values["angle_increment"] *= -1.0
+            array = array[::-1].copy()
         array.setflags(write=False)
         for name, value in dict(ranges=array, stamp=stamp, **values).items():
             object.__setattr__(self, name, value)
@@ -76,15 +90,25 @@ def _check_numbers(values: dict[str, float]) -> None:
     for name, value in values.items():
         if not math.isfinite(value):
             raise ValueError(f"{name} is {value}; it must be a finite number")
-    if values["angle_increment"] <= 0:
-        raise ValueError(
-            f"angle_increment is {values['angle_increment']}; it must be positive: "
-            "flip the ranges of a scanner that sweeps clockwise"
-        )
     if not 0 <= values["range_min"] < values["range_max"]:
         raise ValueError(
             f"range_min {values['range_min']} and range_max {values['range_max']} must satisfy "
             "0 <= range_min < range_max"
+        )
+
+
+def _check_angles(angle_min: float, increment: float, beams: int) -> None:
+    if increment == 0:
+        raise ValueError("angle_increment is 0; it is the angle between two beams, in radians")
+    if abs(angle_min) > _FARTHEST:
+        raise ValueError(
+            f"angle_min is {angle_min:g}, more than four turns; give it in radians, "
+            "not degrees (math.radians)"
+        )
+    if (sweep := abs(increment) * (beams - 1)) > _WIDEST:
+        raise ValueError(
+            f"angle_increment {increment:g} makes {beams} beams sweep {sweep:.4g} radians, more "
+            "than two turns; give it in radians, not degrees (math.radians)"
         )
 
 

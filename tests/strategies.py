@@ -24,6 +24,7 @@ def awkward_scans(draw: st.DrawFn) -> Scan:
     """Scans of 1 to 80 beams with anything in them, at any spacing."""
     ranges = draw(hnp.arrays(np.float64, st.integers(1, 80), elements=awkward_ranges))
     increment = draw(st.one_of(st.floats(0.002, 0.2), st.sampled_from([1e-9, 1.0, 3.2, 7.0])))
+    increment = min(increment, 4.0 * math.pi / len(ranges)) * draw(st.sampled_from([1, -1]))
     return Scan(ranges, draw(st.floats(-7.0, 7.0)), increment)
 
 
