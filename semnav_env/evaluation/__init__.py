@@ -1,0 +1,1 @@
+"""How well the senses do: measured against floor plans and against labelled logs."""
