@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass, fields
+from enum import IntEnum
 
 import numpy as np
 
-_RECORD_TYPES = {"float": "f8", "int": "i8", "bool": "?"}
+from semnav_env.features.strategies import BreakpointRule, strategy_names
+
+_RECORD_TYPES = {"float": "f8", "int": "i8", "bool": "?", "str": "i8"}
+_STRATEGIES: dict[str, type[IntEnum]] = {"breakpoint_rule": BreakpointRule}
+"""What the fields that hold a name choose from; the kernels get the number behind the name."""
 
 
 @dataclass(frozen=True)
@@ -21,8 +26,15 @@ class ExtractorSettings:
         rupture_range: a longer range counts as no return, metres (thesis (2.1): 6; the
             TiM561 reaches 10, and doors and junctions beyond 6 m are worth having).
         sigma: standard deviation of a range, metres (TiM561 data sheet: 0.02).
+        breakpoint_rule: how far apart neighbouring points may be: "constant", "borges_aldon",
+            "certad", "dietmayer", "santos", "lee" or "weerakoon"; the equations are in
+            `kernels.breakpoints`. "certad" is the rule of the thesis (2.3), "borges_aldon", made
+            the same for both directions of the sweep.
         breakpoint_angle: lambda of the adaptive breakpoint, the flattest incidence at which
-            neighbouring points are still joined, radians (thesis (2.3), 10 degrees).
+            neighbouring points are still joined, radians (thesis (2.3), 10 degrees). Not read
+            by "constant", "dietmayer" and "lee".
+        breakpoint_distance: C0 of "constant", "dietmayer" and "santos", metres.
+        breakpoint_ratio: largest |r1 - r2| / (r1 + r2) of neighbouring ranges, for "lee".
         dropout_beams: so many missing returns in a row do not end a wall.
         split_distance: a point farther from the chord splits a segment, metres (thesis: 0.06;
             here four standard deviations).
@@ -56,6 +68,11 @@ class ExtractorSettings:
         door_beams: fewest beams through an opening.
         jamb_beams: fewest beams of what counts as a jamb.
         one_sided_doors: accept a wall on one side and only a jamb on the other.
+        arcs: look for columns and curved walls.
+        arc_radius_min: thinnest column, metres; thinner ones are legs of chairs and people.
+        arc_radius_max: flattest curved wall, metres.
+        arc_extent_min: smallest angle that an arc spans about its centre, radians.
+        arc_beams: fewest beams of an arc.
         corner_angle: smallest turn between two walls that is a corner, radians (thesis: 50
             degrees).
         corner_gap: walls whose ends are this close are extended to their corner, metres.
@@ -70,12 +87,16 @@ class ExtractorSettings:
             4.8: 3).
 
     Raises:
-        ValueError: a limit is out of its range; the message names it and its range.
+        ValueError: a limit is out of its range, or no strategy of that name; the message names
+            it and its range, or the names there are.
     """
 
     rupture_range: float = 10.0
     sigma: float = 0.02
+    breakpoint_rule: str = "certad"
     breakpoint_angle: float = math.radians(10.0)
+    breakpoint_distance: float = 0.15
+    breakpoint_ratio: float = 0.03
     dropout_beams: int = 2
     split_distance: float = 0.08
     wall_beams: int = 5
@@ -98,6 +119,11 @@ class ExtractorSettings:
     door_beams: int = 3
     jamb_beams: int = 2
     one_sided_doors: bool = True
+    arcs: bool = True
+    arc_radius_min: float = 0.1
+    arc_radius_max: float = 10.0
+    arc_extent_min: float = math.radians(60.0)
+    arc_beams: int = 8
     corner_angle: float = math.radians(50.0)
     corner_gap: float = 0.3
     corridor_probe: float = 2.5
@@ -109,11 +135,9 @@ class ExtractorSettings:
 
     def __post_init__(self) -> None:
         for field in fields(self):
-            low, high = _LIMITS.get(field.name, _LENGTH)
-            value = _checked_number(field.name, getattr(self, field.name), str(field.type))
-            if not low <= value <= high:
-                raise ValueError(f"{field.name} is {value}; it must be from {low:g} to {high:g}")
-            object.__setattr__(self, field.name, value)
+            value, kind = getattr(self, field.name), str(field.type)
+            checked = _checked_name if kind == "str" else _checked_number
+            object.__setattr__(self, field.name, checked(field.name, value, kind))
         for small, large in _ORDER:
             if getattr(self, small) > getattr(self, large):
                 raise ValueError(
@@ -123,10 +147,32 @@ class ExtractorSettings:
 
     def as_record(self) -> np.ndarray:
         """The settings as the kernels take them: a structured array of shape (1,)."""
-        return np.array([astuple(self)], dtype=RECORD)
+        return np.array(
+            [tuple(_recorded(f.name, getattr(self, f.name)) for f in fields(self))], RECORD
+        )
+
+
+def _recorded(name: str, value: float | str) -> float:
+    """What the record holds for a value: of a strategy its number."""
+    return value if not isinstance(value, str) else _STRATEGIES[name][value.upper()]
+
+
+def _checked_name(name: str, value: object, kind: str) -> str:
+    names = strategy_names(_STRATEGIES[name])
+    if not isinstance(value, str) or value not in names:
+        raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(names)}")
+    return value
 
 
 def _checked_number(name: str, value: float, kind: str) -> float:
+    number = _number(name, value, kind)
+    low, high = _LIMITS.get(name, _LENGTH)
+    if not low <= number <= high:
+        raise ValueError(f"{name} is {number}; it must be from {low:g} to {high:g}")
+    return number
+
+
+def _number(name: str, value: float, kind: str) -> float:
     if kind == "bool":
         if not isinstance(value, (bool, np.bool_)):
             raise ValueError(f"{name} is {value!r}; it must be True or False")
@@ -136,7 +182,7 @@ def _checked_number(name: str, value: float, kind: str) -> float:
     except (TypeError, ValueError):
         raise ValueError(f"{name} is {value!r}; it must be a number") from None
     if kind == "int":
-        if number != math.floor(number) or math.isinf(number):
+        if not math.isfinite(number) or number != math.floor(number):
             raise ValueError(f"{name} is {value!r}; it must be a whole number")
         return int(number)
     return number
@@ -147,6 +193,7 @@ _RIGHT_ANGLE = math.pi / 2
 _LIMITS = {
     "rupture_range": (0.1, 1000.0),
     "breakpoint_angle": (math.radians(0.1), _RIGHT_ANGLE),
+    "breakpoint_ratio": (0.0, 0.9),
     "dropout_beams": (0, 10),
     "split_distance": (1e-4, 10.0),
     "wall_beams": (2, 10_000),
@@ -158,12 +205,17 @@ _LIMITS = {
     "door_beams": (1, 10_000),
     "jamb_beams": (2, 10_000),
     "one_sided_doors": (0, 1),
+    "arcs": (0, 1),
+    "arc_radius_min": (0.01, 1000.0),
+    "arc_extent_min": (math.radians(1.0), 2.0 * math.pi),
+    "arc_beams": (4, 10_000),
     "corner_angle": (math.radians(5.0), math.radians(175.0)),
     "corridor_angle_tolerance": (0.0, _RIGHT_ANGLE),
 }
 _ORDER = (
     ("door_width_min", "door_width_max"),
     ("merge_gap", "door_width_min"),
+    ("arc_radius_min", "arc_radius_max"),
     ("corridor_distance_min", "corridor_distance_max"),
 )
 

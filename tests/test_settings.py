@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from semnav_env.features import ExtractorSettings
+from semnav_env.features.strategies import BreakpointRule
 
 
 def test_the_record_holds_every_field_by_name() -> None:
@@ -14,7 +15,14 @@ def test_the_record_holds_every_field_by_name() -> None:
     record = settings.as_record()
     assert record.shape == (1,)
     for field in fields(settings):
-        assert record[0][field.name] == getattr(settings, field.name)
+        if field.type != "str":
+            assert record[0][field.name] == getattr(settings, field.name)
+
+
+def test_the_record_holds_the_number_of_a_strategy() -> None:
+    for rule in BreakpointRule:
+        settings = ExtractorSettings(breakpoint_rule=rule.name.lower())
+        assert settings.as_record()[0]["breakpoint_rule"] == rule
 
 
 def test_settings_cannot_be_changed() -> None:
@@ -41,6 +49,10 @@ def test_numpy_numbers_become_python_numbers() -> None:
         ({"rupture_range": math.inf}, "rupture_range is inf"),
         ({"sigma": "wide"}, "sigma is 'wide'; it must be a number"),
         ({"wall_beams": 4.5}, "wall_beams is 4.5; it must be a whole number"),
+        ({"wall_beams": math.nan}, "wall_beams is nan; it must be a whole number"),
+        ({"breakpoint_rule": "certat"}, "'certat'; it must be one of constant, borges_aldon, cer"),
+        ({"breakpoint_rule": "CERTAD"}, "'CERTAD'; it must be one of"),
+        ({"breakpoint_rule": 2}, "breakpoint_rule is 2; it must be one of"),
         ({"jamb_beams": 1}, "jamb_beams is 1; it must be from 2"),
         ({"one_sided_doors": 1}, "one_sided_doors is 1; it must be True or False"),
         ({"breakpoint_angle": 0.0}, "breakpoint_angle"),
@@ -50,6 +62,6 @@ def test_numpy_numbers_become_python_numbers() -> None:
         ({"corridor_distance_min": 7.0}, "must not exceed corridor_distance_max"),
     ],
 )
-def test_bad_limits_are_refused_with_their_range(values: dict[str, float], message: str) -> None:
+def test_bad_limits_are_refused_with_their_range(values: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         ExtractorSettings(**values)  # type: ignore[arg-type]

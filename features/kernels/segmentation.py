@@ -2,30 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.breakpoints import breakpoint_reach
 
 
 @njit(cache=True, error_model="numpy")
 def is_return(distance: float, range_min: float, limit: float) -> bool:
     """Whether a range is a usable return; anything else is a rupture (Barbret (2.1))."""
     return distance >= range_min and distance < limit and distance > 0.0
-
-
-@njit(cache=True, error_model="numpy")
-def breakpoint_factor(angle: float, breakpoint_angle: float) -> float:
-    """sin(dphi) / sin(lambda - dphi) of the adaptive breakpoint distance (Barbret (2.3)).
-
-    It grows without bound as the angle between two beams nears lambda, so lambda is taken as
-    at least twice that angle; beams 45 degrees and more apart are never joined.
-    """
-    if angle >= math.pi / 4:
-        return 0.0
-    return math.sin(angle) / math.sin(max(breakpoint_angle, 2.0 * angle) - angle)
 
 
 @njit(cache=True, error_model="numpy")
@@ -40,17 +28,15 @@ def group_points(
 ) -> tuple[int, int]:
     """Valid points (Barbret (1.2)) and where connected groups of them begin.
 
-    Two neighbours are joined while they are no farther apart than r sin(dphi) / sin(lambda -
-    dphi) + 3 sigma, with r the nearer range: the worst case of (2.3) seen from either side. A
+    Two neighbours are joined while they are no farther apart than the breakpoint rule allows. A
     gap of a few missing returns is bridged if, besides, nothing could pass it.
 
     Returns:
         How many points and how many groups were written to `scratch`.
     """
     xs, ys, beams, group_first = scratch.xs, scratch.ys, scratch.beams, scratch.group_first
-    noise = 3.0 * settings.sigma
     longest_step = settings.dropout_beams + 1
-    factor = breakpoint_factor(increment, settings.breakpoint_angle)
+    nearer, farther, previous, offset = breakpoint_reach(increment, settings)
     points = groups = 0
     last_x = last_y = last_range = 0.0
     last_beam = -longest_step - 1
@@ -63,10 +49,11 @@ def group_points(
         step = beam - last_beam
         joined = step <= longest_step
         if joined:
-            reach = min(distance, last_range) * factor + noise
+            near, far = min(distance, last_range), max(distance, last_range)
+            reach = nearer * near + farther * far + previous * last_range + offset
             if step > 1:
-                wide = breakpoint_factor(step * increment, settings.breakpoint_angle)
-                reach = min(min(distance, last_range) * wide + noise, settings.merge_gap)
+                a, b, c, d = breakpoint_reach(step * increment, settings)
+                reach = min(a * near + b * far + c * last_range + d, settings.merge_gap)
             joined = (x - last_x) ** 2 + (y - last_y) ** 2 <= reach * reach
         if not joined:
             group_first[groups] = points

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.reference.breakpoints import threshold
 from semnav_env.features.scan import Scan
 from semnav_env.features.settings import ExtractorSettings
 
@@ -59,17 +60,9 @@ class Sweep:
         step = beam - before
         if step > settings.dropout_beams + 1:
             return False
-        nearer = min(self.ranges[before], self.ranges[beam])
-        reach = nearer * _breakpoint_factor(step * self.increment, settings.breakpoint_angle)
-        reach += 3.0 * settings.sigma
+        ranges = float(self.ranges[before]), float(self.ranges[beam])
+        reach = threshold(*ranges, step * self.increment, settings)
         if step > 1:
             reach = min(reach, settings.merge_gap)
         first, second = self.points([before, beam])
         return bool(np.linalg.norm(second - first) <= reach)
-
-
-def _breakpoint_factor(angle: float, breakpoint_angle: float) -> float:
-    """Barbret (2.3), with lambda at least twice the angle between the beams."""
-    if angle >= math.pi / 4:
-        return 0.0
-    return math.sin(angle) / math.sin(max(breakpoint_angle, 2.0 * angle) - angle)
