@@ -6,7 +6,9 @@ import math
 from dataclasses import dataclass
 from enum import IntEnum
 
-from semnav_env.features.frames import Point
+import numpy as np
+
+from semnav_env.features.frames import FloatArray, Point
 
 
 class CornerKind(IntEnum):
@@ -59,6 +61,35 @@ class Wall:
     def heading(self) -> float:
         """Direction from start to end, radians (Barbret (1.6))."""
         return math.atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
+
+    @property
+    def line(self) -> tuple[float, float]:
+        """Its line x cos(theta) + y sin(theta) = d (Weerakoon et al. (10)) in its frame.
+
+        Returns:
+            theta, direction of the normal from the frame's origin, radians in (-pi, pi]; and
+            d, distance from the origin, metres, not negative.
+        """
+        x, y = self.start
+        theta = self.heading - 0.5 * math.pi
+        distance = x * math.cos(theta) + y * math.sin(theta)
+        if distance < 0.0:
+            theta, distance = theta + math.pi, -distance
+        return math.pi - (math.pi - theta) % math.tau, distance
+
+    @property
+    def line_covariance(self) -> FloatArray:
+        """Covariance of `line`, shape (2, 2): theta in radians, d in metres.
+
+        At the centroid m the errors of direction and offset are uncorrelated; as d is n . m, an
+        error of theta moves it by t . m, t being the line's direction (-sin(theta), cos(theta)).
+        Zero for a wall of a floor plan. An error that all ranges share is not covered.
+        """
+        theta, _ = self.line
+        x, y = self.centroid or self.start
+        lever = y * math.cos(theta) - x * math.sin(theta)
+        turn, shift = self.angle_deviation**2, self.offset_deviation**2
+        return np.array([[turn, lever * turn], [lever * turn, shift + lever**2 * turn]])
 
 
 @dataclass(frozen=True, slots=True)

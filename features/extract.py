@@ -98,6 +98,10 @@ def _wall(
     last: int,
     flags: int,
     points: int,
+    mean_x: float,
+    mean_y: float,
+    spread: float,
+    variance: float,
 ) -> Wall:
     return Wall(
         (start_x, start_y),
@@ -108,6 +112,9 @@ def _wall(
         flags & END_BREAK != 0,
         points,
         residual,
+        math.sqrt(variance / spread),
+        math.sqrt(variance / points),
+        (mean_x, mean_y),
     )
 
 

@@ -22,6 +22,9 @@ def assert_same(scene: Scene, expected: Scene) -> None:
         np.testing.assert_allclose(kind, expected_kind, rtol=0, atol=1e-9)
     for wall, other in zip(scene.walls, expected.walls, strict=True):
         assert wall.residual == pytest.approx(other.residual, abs=1e-6)
+        assert wall.angle_deviation == pytest.approx(other.angle_deviation, rel=1e-6)
+        assert wall.offset_deviation == pytest.approx(other.offset_deviation, rel=1e-6)
+        assert wall.centroid == pytest.approx(other.centroid, abs=1e-9)
         assert wall.beams == other.beams
         assert (wall.start_rupture, wall.end_rupture) == (other.start_rupture, other.end_rupture)
         assert (wall.start_break, wall.end_break) == (other.start_break, other.end_break)

@@ -13,8 +13,9 @@ from semnav_env.features.kernels.corners import find_corners
 from semnav_env.features.kernels.corridors import find_corridors
 from semnav_env.features.kernels.doors import find_doors
 from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
+from semnav_env.features.kernels.merging import merge_pieces
 from semnav_env.features.kernels.segmentation import group_points
-from semnav_env.features.kernels.walls import fit_pieces, flag_pieces, merge_pieces, select_walls
+from semnav_env.features.kernels.walls import fit_pieces, flag_pieces, select_walls
 
 
 @njit(cache=True, error_model="numpy")

@@ -13,10 +13,13 @@ START_RUPTURE, END_RUPTURE, START_BREAK, END_BREAK = 1, 2, 4, 8
 _ENDS = [("start_x", "f8"), ("start_y", "f8"), ("end_x", "f8"), ("end_y", "f8")]
 
 WALL = np.dtype(
-    [*_ENDS, ("residual", "f8"), ("first", "i8"), ("last", "i8"), ("flags", "i8"), ("points", "i8")]
+    [*_ENDS, ("residual", "f8")]
+    + [(name, "i8") for name in ("first", "last", "flags", "points")]
+    + [(name, "f8") for name in ("mean_x", "mean_y", "spread", "variance")]
 )
 """A wall; `first` and `last` are the beam indices of its end points (inclusive), `points` how
-many beams support it."""
+many beams support it, `mean` their centroid, `spread` their sum of squares along the line and
+`variance` that of one point across it."""
 
 DOOR = np.dtype(_ENDS)
 CORNER = np.dtype([("x", "f8"), ("y", "f8"), ("kind", "i8")])

@@ -1,4 +1,4 @@
-"""Walls: straight pieces fitted to every group, joined where they are one line."""
+"""Walls: straight pieces fitted to every group, and which of them are walls."""
 
 from __future__ import annotations
 
@@ -10,12 +10,11 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
-from semnav_env.features.kernels.lines import absorb, fit, gather, offset, refit, split
+from semnav_env.features.kernels.lines import fit, gather, offset, refit, split
 from semnav_env.features.kernels.segmentation import is_return
 
-MERGE_CHI_SQUARE = 13.8
-"""Quantile 0.999 of chi-square with two degrees of freedom: what joining two fits of one line
-may add to the squared residuals, in variances of a point."""
+PRIOR_POINTS = 4
+"""So many points' worth of residuals is the scanner's known `sigma` in the variance of a wall."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -115,56 +114,14 @@ def flag_pieces(
 
 
 @njit(cache=True, error_model="numpy")
-def joint_scatter(a: Any, b: Any) -> float:
-    """Squared residuals of the one line fitted to the points of two pieces."""
-    weight = a.points * b.points / (a.points + b.points)
-    dx, dy = b.mean_x - a.mean_x, b.mean_y - a.mean_y
-    xx = a.xx + b.xx + weight * dx * dx
-    xy = a.xy + b.xy + weight * dx * dy
-    yy = a.yy + b.yy + weight * dy * dy
-    return float(0.5 * (xx + yy - math.sqrt((xx - yy) ** 2 + 4.0 * xy * xy)))
+def point_variance(scatter: float, points: int, sigma: float) -> float:
+    """Variance of a point across its line, square metres.
 
-
-@njit(cache=True, error_model="numpy")
-def merge_cost(a: Any, b: Any, settings: Any) -> float:
-    """What joining two successive pieces adds to the squared residuals.
-
-    Infinite if they are not one line, or if one could pass the gap between them.
+    The residuals say it, as real walls are rougher than the scanner and a grazing wall is
+    sharper; those of a short wall alone would be a matter of luck, so `sigma` counts as
+    `PRIOR_POINTS` more of them (the mean of a scaled inverse chi-square prior's posterior).
     """
-    gap = (b.start_x - a.end_x) ** 2 + (b.start_y - a.end_y) ** 2
-    if gap > settings.merge_gap**2:
-        return math.inf
-    allowed = MERGE_CHI_SQUARE * settings.sigma**2
-    allowed += min(a.points, b.points) * settings.merge_offset**2
-    cost = joint_scatter(a, b) - a.scatter - b.scatter
-    return float(cost) if cost <= allowed else math.inf
-
-
-@njit(cache=True, error_model="numpy")
-def merge_pieces(count: int, settings: Any, scratch: Any) -> int:
-    """Join successive pieces that are one line; returns how many remain.
-
-    A piece that fits both its neighbours joins the one that it fits better.
-    """
-    pieces = scratch.pieces
-    if count == 0:
-        return 0
-    kept = 0
-    for k in range(1, count):
-        current, following = pieces[kept], pieces[k]
-        cost = merge_cost(current, following, settings)
-        joins = cost < math.inf
-        if joins and k + 1 < count:
-            joins = cost <= merge_cost(following, pieces[k + 1], settings)
-        if joins:
-            ends = END_BREAK | END_RUPTURE
-            current.flags = (current.flags & ~ends) | (following.flags & ends)
-            absorb(current, following)
-            fit(scratch.xs, scratch.ys, current)
-        else:
-            kept += 1
-            pieces[kept] = following
-    return kept + 1
+    return (scatter + PRIOR_POINTS * sigma * sigma) / (points - 2 + PRIOR_POINTS)
 
 
 @njit(cache=True, error_model="numpy")
@@ -187,6 +144,8 @@ def select_walls(count: int, settings: Any, scratch: Any, walls: np.ndarray) -> 
         wall.residual = math.sqrt(piece.scatter / piece.points)
         wall.first, wall.last = scratch.beams[piece.first], scratch.beams[piece.last]
         wall.flags, wall.points = piece.flags, piece.points
+        wall.mean_x, wall.mean_y, wall.spread = piece.mean_x, piece.mean_y, piece.spread
+        wall.variance = point_variance(piece.scatter, piece.points, settings.sigma)
         piece.wall = found
         scratch.wall_piece[found] = k
         found += 1

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 
+from semnav_env.features.kernels.walls import point_variance
 from semnav_env.features.reference.corners import find_corners
 from semnav_env.features.reference.corridors import find_corridors
 from semnav_env.features.reference.doors import find_doors
+from semnav_env.features.reference.merging import merge_pieces
 from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.reference.walls import Piece, find_pieces, is_wall
 from semnav_env.features.scan import Scan
@@ -26,18 +28,19 @@ def extract_reference(scan: Scan, settings: ExtractorSettings | None = None) -> 
     """
     settings = settings or ExtractorSettings()
     sweep = Sweep.of(scan, settings)
-    pieces = find_pieces(sweep, settings)
+    pieces = merge_pieces(find_pieces(sweep, settings), settings)
     walls = [piece for piece in pieces if is_wall(piece, settings)]
     corners = find_corners(walls, settings)
     return Scene(
-        walls=tuple(_wall(piece) for piece in walls),
+        walls=tuple(_wall(piece, settings) for piece in walls),
         doors=tuple(find_doors(sweep, pieces, settings)),
         corners=tuple(Corner(found.point, found.kind) for found in corners),
         corridors=tuple(find_corridors(sweep, walls, corners, settings)),
     )
 
 
-def _wall(piece: Piece) -> Wall:
+def _wall(piece: Piece, settings: ExtractorSettings) -> Wall:
+    variance = point_variance(piece.scatter, len(piece.beams), settings.sigma)
     return Wall(
         start=(float(piece.start[0]), float(piece.start[1])),
         end=(float(piece.end[0]), float(piece.end[1])),
@@ -47,4 +50,7 @@ def _wall(piece: Piece) -> Wall:
         end_break=piece.end_break,
         beams=len(piece.beams),
         residual=math.sqrt(piece.scatter / len(piece.beams)),
+        angle_deviation=math.sqrt(variance / piece.spread),
+        offset_deviation=math.sqrt(variance / len(piece.beams)),
+        centroid=(float(piece.mean[0]), float(piece.mean[1])),
     )

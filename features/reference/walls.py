@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import itertools
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.walls import MERGE_CHI_SQUARE
 from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.settings import ExtractorSettings
 
@@ -82,22 +80,13 @@ class Piece:
 
 
 def find_pieces(sweep: Sweep, settings: ExtractorSettings) -> list[Piece]:
-    """Every straight piece of two points or more, in beam order, joined where one line."""
+    """Every straight piece of two points or more, in beam order."""
     groups = sweep.connected_groups(settings)
-    pieces = [
+    return [
         _flagged(sweep, group, beams)
         for group in groups
         for beams in _straight_runs(sweep, group, settings)
     ]
-    joined: list[Piece] = []
-    for piece, following in itertools.zip_longest(pieces, pieces[1:]):
-        cost = _merge_cost(joined[-1], piece, settings) if joined else math.inf
-        other = _merge_cost(piece, following, settings) if following else math.inf
-        if cost < math.inf and cost <= other:
-            joined[-1] = _joined(joined[-1], piece)
-        else:
-            joined.append(piece)
-    return joined
 
 
 def is_wall(piece: Piece, settings: ExtractorSettings) -> bool:
@@ -174,25 +163,4 @@ def _flagged(sweep: Sweep, group: list[int], beams: list[int]) -> Piece:
         end_rupture=bool(ends and not sweep.returned[after]),
         start_break=bool(starts and sweep.returned[before]),
         end_break=bool(ends and sweep.returned[after]),
-    )
-
-
-def _merge_cost(a: Piece, b: Piece, settings: ExtractorSettings) -> float:
-    """What joining two pieces adds to the squared residuals; infinite if not one line."""
-    if np.linalg.norm(b.start - a.end) > settings.merge_gap:
-        return math.inf
-    allowed = MERGE_CHI_SQUARE * settings.sigma**2
-    allowed += min(len(a.beams), len(b.beams)) * settings.merge_offset**2
-    cost = _joined(a, b).scatter - a.scatter - b.scatter
-    return cost if cost <= allowed else math.inf
-
-
-def _joined(a: Piece, b: Piece) -> Piece:
-    return Piece(
-        a.beams + b.beams,
-        np.concatenate((a.points, b.points)),
-        start_rupture=a.start_rupture,
-        end_rupture=b.end_rupture,
-        start_break=a.start_break,
-        end_break=b.end_break,
     )
