@@ -1,0 +1,81 @@
+"""Every limit of the scan matcher, with its unit and where it comes from."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from semnav_env.features.mapping.icp import SETTINGS
+
+
+@dataclass(frozen=True)
+class MatchSettings:
+    """Limits of `match_scans`. Lengths in metres, angles in radians.
+
+    Attributes:
+        sigma: standard deviation of a range, metres; None to tell it from each scan.
+        roughness: standard deviation of how far a surface is from flat, metres; keeps grazing
+            beams, whose noise runs along the wall, from counting for too much.
+        window: a line is fitted to at most so many neighbours on either side of a point.
+        max_distance: points are paired up to this distance at first, metres.
+        outliers: a pair counts while its residual is below so many times the root mean square
+            of the last round (and at least four standard deviations).
+        point_to_point: pair points with points and move them by Procrustes' closed form,
+            instead of points with lines by Gauss-Newton.
+        guess_position: standard deviation of the first guess, metres, x and y; it decides only
+            where the scans do not.
+        guess_angle: standard deviation of its heading, radians.
+        tolerance_position: a smaller step ends the search, metres.
+        tolerance_angle: the same for its turn, radians.
+        max_iterations: of the search.
+        undetermined: the place along a direction counts as undetermined if the scans say less
+            about it than this share of what they say about the direction across.
+        fewest_pairs: with fewer pairs there is no match.
+
+    Raises:
+        ValueError: a limit is out of its range; names it and its range.
+    """
+
+    sigma: float | None = None
+    roughness: float = 0.003
+    window: int = 20
+    max_distance: float = 0.6
+    outliers: float = 3.0
+    point_to_point: bool = False
+    guess_position: float = 0.3
+    guess_angle: float = math.radians(15.0)
+    tolerance_position: float = 1e-4
+    tolerance_angle: float = 1e-5
+    max_iterations: int = 60
+    undetermined: float = 1e-3
+    fewest_pairs: int = 10
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            low, high = _LIMITS[field.name]
+            value = getattr(self, field.name)
+            if value is not None and not low <= value <= high:
+                raise ValueError(f"{field.name} is {value}; it must be from {low:g} to {high:g}")
+
+    def as_record(self) -> np.ndarray:
+        """The settings as the kernel takes them, shape (1,)."""
+        return np.array([tuple(getattr(self, n) for n in SETTINGS.names or ())], SETTINGS)
+
+
+_LIMITS = {
+    "sigma": (1e-4, 1.0),
+    "roughness": (1e-4, 1.0),
+    "window": (1, 10_000),
+    "max_distance": (1e-3, 100.0),
+    "outliers": (1.0, 100.0),
+    "point_to_point": (0, 1),
+    "guess_position": (1e-3, 100.0),
+    "guess_angle": (1e-3, 100.0),
+    "tolerance_position": (1e-9, 1.0),
+    "tolerance_angle": (1e-9, 1.0),
+    "max_iterations": (1, 1000),
+    "undetermined": (0.0, 1.0),
+    "fewest_pairs": (3, 10_000),
+}

@@ -1,0 +1,145 @@
+"""How well scans are matched: against exact simulated pairs, and against a corrected log."""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray, Point, Pose, compose, relative
+from semnav_env.features.mapping import Match, MatchError, MatchSettings, match_scans
+from semnav_env.features.scan import Scan
+from semnav_env.lidar import Lidar, LidarSpec, lidar_spec
+from semnav_env.maps import FloorPlan
+
+Way = tuple[Point, Point]
+"""A straight way that a robot can take, metres."""
+
+CLEARANCE = 0.3
+"""From a sampled pose to the nearest thing, metres."""
+
+
+@dataclass(frozen=True)
+class PairSpec:
+    """How simulated pairs are drawn.
+
+    Attributes:
+        sigma: standard deviation of every range, metres.
+        moved: least and largest distance between the two poses, metres.
+        turned: least and largest angle between them, radians; either way.
+        guess_position: how far off the first guess is, metres, in any direction.
+        guess_angle: how far off its heading is, radians, either way.
+    """
+
+    sigma: float = 0.01
+    moved: tuple[float, float] = (0.1, 0.3)
+    turned: tuple[float, float] = (math.radians(5.0), math.radians(15.0))
+    guess_position: float = 0.06
+    guess_angle: float = math.radians(2.0)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pair:
+    """Two scans, the true pose of the second in the frame of the first, and a first guess."""
+
+    reference: Scan
+    scan: Scan
+    pose: Pose
+    guess: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class MatchError2D:
+    """One match against the truth.
+
+    Attributes:
+        position: metres.
+        angle: radians, not negative.
+        nees: normalised error squared e^T C^-1 e, chi-square with three degrees of freedom if
+            the covariance C is right.
+        seconds: that it took.
+        undetermined: whether the match says so.
+    """
+
+    position: float
+    angle: float
+    nees: float
+    seconds: float
+    undetermined: bool
+
+
+def read_ways(path: str | Path) -> tuple[Way, ...]:
+    """The edges of a `.navigation.json` graph, the companion of a vector map."""
+    graph = json.loads(Path(path).read_text("utf-8"))
+    places = {node["id"]: (node["loc"]["x"], node["loc"]["y"]) for node in graph["nodes"]}
+    return tuple([(places[edge["s0_id"]], places[edge["s1_id"]]) for edge in graph["edges"]])
+
+
+def simulated_pairs(
+    plan: FloorPlan,
+    ways: Sequence[Way],
+    rng: np.random.Generator,
+    spec: PairSpec = PairSpec(),
+    lidar: str | LidarSpec = "tim561",
+) -> Iterator[Pair]:
+    """Pairs of scans from poses along the ways, any heading, without end.
+
+    Args:
+        plan: what the lidar sees.
+        ways: where the first pose of a pair may lie.
+        rng: source of everything random.
+        spec: how they are drawn.
+        lidar: its sigma is replaced by that of `spec`; it never drops a beam.
+    """
+    sensor = Lidar(plan, replace(lidar_spec(lidar), sigma=spec.sigma, dropout=0.0))
+    lengths = np.array([math.dist(*way) for way in ways])
+    while True:
+        (x1, y1), (x2, y2) = ways[rng.choice(len(ways), p=lengths / lengths.sum())]
+        share = rng.random()
+        first = (x1 + share * (x2 - x1), y1 + share * (y2 - y1), rng.uniform(-math.pi, math.pi))
+        pose = _moved((0.0, 0.0, 0.0), rng.uniform(*spec.moved), rng.uniform(*spec.turned), rng)
+        second = compose(first, pose)
+        if min(_clearance(sensor, first), _clearance(sensor, second)) < CLEARANCE:
+            continue
+        guess = _moved(pose, spec.guess_position, spec.guess_angle, rng)
+        key = int(rng.integers(2**31))
+        yield Pair(sensor.scan(first, (key, 0, 0)), sensor.scan(second, (key, 0, 1)), pose, guess)
+
+
+def errors_of(
+    pairs: Iterable[Pair], settings: MatchSettings = MatchSettings()
+) -> Iterator[MatchError2D]:
+    """Match each pair and compare; a pair that cannot be matched is infinitely wrong."""
+    for pair in pairs:
+        start = time.perf_counter()
+        try:
+            match = match_scans(pair.reference, pair.scan, pair.guess, settings)
+        except MatchError:
+            yield MatchError2D(math.inf, math.inf, math.inf, time.perf_counter() - start, False)
+            continue
+        yield _error(match, pair.pose, time.perf_counter() - start)
+
+
+def _error(match: Match, truth: Pose, seconds: float) -> MatchError2D:
+    turn = relative(truth, match.pose)[2]
+    error: FloatArray = np.array((match.pose[0] - truth[0], match.pose[1] - truth[1], turn))
+    nees = float(error @ np.linalg.solve(match.covariance, error))
+    position = math.hypot(error[0], error[1])
+    return MatchError2D(position, abs(turn), nees, seconds, match.undetermined is not None)
+
+
+def _moved(pose: Pose, distance: float, turn: float, rng: np.random.Generator) -> Pose:
+    """A pose so far away in any direction, turned so far either way."""
+    heading = rng.uniform(-math.pi, math.pi)
+    side = 1.0 if rng.random() < 0.5 else -1.0
+    x, y = pose[0] + distance * math.cos(heading), pose[1] + distance * math.sin(heading)
+    return x, y, pose[2] + side * turn
+
+
+def _clearance(sensor: Lidar, pose: Pose) -> float:
+    return float(sensor.exact_ranges(pose).min())
