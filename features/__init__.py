@@ -4,6 +4,7 @@ Needs NumPy and Numba only, so it runs on a robot's own logs without the simulat
 """
 
 from semnav_env.features.extract import extract
+from semnav_env.features.polyline import polylines
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import (
     Arc,
@@ -31,4 +32,5 @@ __all__ = [
     "Scene",
     "Wall",
     "extract",
+    "polylines",
 ]
