@@ -139,16 +139,12 @@ def hallway(scene: Scene, pose: Pose) -> Hallway:
         pose: where and which way, in the scene's frame; the axis is the direction, within 45
             degrees of the heading, that most of the wall in view runs along.
     """
-    seen = survey(ends_of(scene.walls), ends_of(scene.doors), *pose)
-    openings = [Opening(*opening) for opening in seen.openings]
-    return Hallway(
-        (seen.x, seen.y, wrap_angle(seen.heading)),
-        seen.left,
-        seen.right,
-        seen.half_width,
-        seen.end,
-        _junctions(openings, seen.end),
+    (x, y, heading), half_width, end, (left, right), rows = survey(
+        ends_of(scene.walls), ends_of(scene.doors), *pose
     )
+    openings = [Opening(on_left > 0.0, *edges) for on_left, *edges in rows.tolist()]
+    frame = x, y, wrap_angle(heading)
+    return Hallway(frame, left, right, half_width, end, _junctions(openings, end))
 
 
 def doorway_at(scene: Scene, pose: Pose) -> Door | None:

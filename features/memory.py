@@ -8,10 +8,9 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.memory import (
     REMEMBERED,
-    doors_that_count,
     how_many_count,
     remember,
-    walls_that_count,
+    what_counts,
 )
 from semnav_env.features.scene import Door, PlainWalls, Scene
 
@@ -69,9 +68,8 @@ class SceneMemory:
 
     def scene(self) -> Scene:
         """The walls and doors that count, in the memory's frame, in the order first seen."""
-        walls, doors, used = self.arrays
+        walls, doors = what_counts(*self.arrays)
         counting = [
-            Door((x1, y1), (x2, y2), sightings=hits)
-            for (x1, y1, x2, y2), hits in doors_that_count(doors, used)
+            Door((x1, y1), (x2, y2), sightings=int(hits)) for x1, y1, x2, y2, hits in doors.tolist()
         ]
-        return Scene(PlainWalls(walls_that_count(walls, used)), tuple(counting))
+        return Scene(PlainWalls(walls), tuple(counting))

@@ -23,8 +23,7 @@ class Actions:
     """
 
     def __init__(self, robot: RobotSpec) -> None:
-        sideways = (robot.max_sideways_speed,) if robot.holonomic else ()
-        self._largest = (robot.max_speed, *sideways, robot.max_turn_rate)
+        self._speeds = robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate
         self.space = Box(-1.0, 1.0, (robot.action_size,), np.float32)
 
     def velocity(self, action: ArrayLike) -> Pose:
@@ -36,12 +35,15 @@ class Actions:
         array = np.asarray(action)
         if array.dtype.kind != "f":
             array = array.astype(np.float64)
-        if array.shape != (len(self._largest),):
-            wanted = (len(self._largest),)
-            raise ValueError(f"the action has shape {array.shape}; it must be {wanted}")
-        values = array.tolist()
+        if array.shape != self.space.shape:
+            raise ValueError(f"the action has shape {array.shape}; it must be {self.space.shape}")
+        forward, *sideways, turn = values = array.tolist()
         if not all(map(math.isfinite, values)):
             raise ValueError(f"the action is {values}; it must be finite, in [-1, 1]")
-        speeds = [max(-1.0, min(1.0, v)) * s for v, s in zip(values, self._largest, strict=True)]
-        forward, *left, turn = speeds
-        return forward, left[0] if left else 0.0, turn
+        left = _cut(sideways[0]) if sideways else 0.0
+        fastest, fastest_left, fastest_turn = self._speeds
+        return _cut(forward) * fastest, left * fastest_left, _cut(turn) * fastest_turn
+
+
+def _cut(share: float) -> float:
+    return 1.0 if share > 1.0 else -1.0 if share < -1.0 else share

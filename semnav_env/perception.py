@@ -9,7 +9,7 @@ import numpy as np
 
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import FloatArray, Pose, compose
+from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
@@ -18,11 +18,11 @@ from semnav_env.lidar.lidar import Lidar
 from semnav_env.observations import ROW_SIZE, door_ends, write_state
 from semnav_env.senses import join_senses, observe
 
-LOOK_EVERY = 0.5
+LOOK_EVERY, TURN_EVERY = 1.0, 0.5
 """A clause is grounded anew after so many metres, or so many radians, on the way."""
 
-LOOK_AT_LEAST = 15
-"""And after so many steps, if more is known by then."""
+CHECK_DOORS, CHECK_WALLS = 5, 30
+"""And after so many steps, if more doors count by then; or more walls."""
 
 FIRST_SCANS = 3
 """After so many scans the first features count, see `SceneMemory`."""
@@ -94,9 +94,7 @@ class Perception:
             velocity: forward, left (m/s) and turning (rad/s), robot frame.
             key: (seed, episode, step) of the noise.
         """
-        mount = self.lidar.mount
-        lidar_world, lidar_odom = compose(true_pose, mount), compose(odometry, mount)
-        observe(self._senses, lidar_world, lidar_odom, odometry, key)
+        observe(self._senses, true_pose, odometry, key)
         self._think(odometry, math.hypot(velocity[0], velocity[1]), key[2])
         follower, goal = self.follower, self.follower.goal
         write_state(
@@ -140,14 +138,18 @@ class Perception:
 
     def _should_look(self, pose: Pose, step: int) -> bool:
         x, y, heading = self._looked_from
-        moved = abs(pose[0] - x) + abs(pose[1] - y) > LOOK_EVERY
-        turned = abs(math.remainder(pose[2] - heading, math.tau)) > LOOK_EVERY
-        if moved or turned:
+        if (pose[0] - x) ** 2 + (pose[1] - y) ** 2 > LOOK_EVERY**2:
             return True
-        if step - self._looked_at < LOOK_AT_LEAST and step != FIRST_SCANS:
+        if abs(math.remainder(pose[2] - heading, math.tau)) > TURN_EVERY:
+            return True
+        since = step - self._looked_at
+        if since % CHECK_DOORS and step != FIRST_SCANS:
             return False
-        self._looked_at = step
-        return self.memory.size != self._looked_on
+        walls, doors = self.memory.size
+        known_walls, known_doors = self._looked_on
+        return doors != known_doors or (
+            walls != known_walls and (since >= CHECK_WALLS or step == FIRST_SCANS)
+        )
 
     def _note_look(self, pose: Pose, step: int) -> None:
         self._looked_from, self._looked_at, self._looked_on = pose, step, self.memory.size

@@ -6,6 +6,7 @@ thirty of them: more than all the work. So they are put into one structure befor
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -77,8 +78,7 @@ def join_senses(
 @njit(cache=True)
 def observe(
     senses: Senses,
-    lidar_world: Pose,
-    lidar_odom: Pose,
+    robot_world: Pose,
     robot_odom: Pose,
     key: tuple[int, int, int],
 ) -> None:
@@ -86,14 +86,13 @@ def observe(
 
     Args:
         senses: the arrays to read and write.
-        lidar_world: true pose of the lidar, world frame.
-        lidar_odom: its pose by odometry.
-        robot_odom: pose of the robot's centre by odometry.
+        robot_world: true pose of the robot's centre, world frame.
+        robot_odom: the same by odometry.
         key: (seed, episode, step) of the noise.
     """
     ranges, features, row = senses.ranges, senses.features, senses.row
     grid, starts, ends, directions, sensor = senses.lidar
-    x, y, heading = lidar_world
+    x, y, heading = _mounted(robot_world, senses.mount)
     seed, episode, step = key
     sense(x, y, heading, grid, starts, ends, directions, sensor, seed, episode, step, ranges)
     limits = sensor[0]
@@ -119,7 +118,7 @@ def observe(
         ranges,
         limits.angle_min,
         limits.angle_increment,
-        lidar_odom,
+        _mounted(robot_odom, senses.mount),
         senses.remembered,
     )
     _, doors, used = senses.remembered
@@ -128,3 +127,11 @@ def observe(
         measured = ranges[i]
         valid = limits.range_min <= measured < limits.range_max
         row[ROW_SIZE + i] = measured if valid else limits.range_max
+
+
+@njit(cache=True)
+def _mounted(robot: Pose, mount: Pose) -> Pose:
+    """The pose of a lidar on its mount; its heading is not wrapped."""
+    c, s = math.cos(robot[2]), math.sin(robot[2])
+    x, y = robot[0] + c * mount[0] - s * mount[1], robot[1] + s * mount[0] + c * mount[1]
+    return x, y, robot[2] + mount[2]

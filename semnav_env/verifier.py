@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from enum import StrEnum
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -106,7 +106,8 @@ class Verifier:
     def update(self, motion: Motion) -> bool:
         """Note one step; returns whether a clause was completed by it."""
         pose, speed, turn_rate, in_contact, seconds = motion
-        self.path_length += math.dist(pose[:2], self._last[:2])
+        last = self._last
+        self.path_length += math.hypot(pose[0] - last[0], pose[1] - last[1])
         self.collisions += in_contact and not self._in_contact
         self._in_contact = in_contact
         still = speed < STILL and abs(turn_rate) < STILL
@@ -137,11 +138,7 @@ class Verifier:
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
         """One per clause."""
-        active = self.follower.active
-        current = Verdict.ACTIVE if self.failure is None else self.failure
-        rest = len(self.command.clauses) - active - 1
-        done = (Verdict.DONE,) * active
-        return done if rest < 0 else (*done, current, *(Verdict.PENDING,) * rest)
+        return _verdicts(len(self.command.clauses), self.follower.active, self.failure)
 
     @property
     def remaining(self) -> float:
@@ -181,9 +178,8 @@ class Verifier:
         crossed = self._crossed_door(pose)
         if crossed is not None:
             self.crossed.append(crossed.name)
-        named = goal.door.name if goal.kind is GoalKind.PASS and goal.door is not None else None
         if (self.failure is None and not self.follower.done) or completed:
-            if crossed is not None and crossed.name != named:
+            if crossed is not None and not _is_door_of(goal, crossed):
                 self.failure = Verdict.WRONG_DOOR
             elif not completed and self._went_astray(goal, pose):
                 self.failure = Verdict.WRONG_TURN
@@ -199,7 +195,7 @@ class Verifier:
         if goal.hallway is None:
             return False
         along, offset = to_local(goal.hallway.frame, (pose[0], pose[1]))
-        for junction in goal.hallway.junctions:
+        for junction in goal.hallway.junctions if abs(offset) > ASTRAY else ():
             for opening in (junction.left, junction.right):
                 if opening is None or not opening.near < along < opening.far:
                     continue
@@ -238,3 +234,16 @@ def place(goal: Goal) -> Point:
     if goal.kind is GoalKind.PASS and goal.door is not None:
         return goal.door.midpoint
     return goal.pose[:2]
+
+
+def _is_door_of(goal: Goal, crossed: PlanDoor) -> bool:
+    """Whether a goal is to pass that very door."""
+    return goal.kind is GoalKind.PASS and goal.door is not None and goal.door.name == crossed.name
+
+
+@lru_cache(maxsize=256)
+def _verdicts(clauses: int, active: int, failure: Verdict | None) -> tuple[Verdict, ...]:
+    """Done, then what became of the active clause, then pending."""
+    rest = clauses - active - 1
+    done = (Verdict.DONE,) * active
+    return done if rest < 0 else (*done, failure or Verdict.ACTIVE, *(Verdict.PENDING,) * rest)

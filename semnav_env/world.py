@@ -10,7 +10,7 @@ from typing import Any
 import pymunk
 from shapely import Polygon
 
-from semnav_env.features.frames import Point, Pose, compose, to_parent
+from semnav_env.features.frames import Point, Pose, to_parent, wrap_angle
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 
@@ -70,7 +70,8 @@ class World:
             )
         self.floor_plan, self.robot = floor_plan, robot
         self.control_hz, self.substeps = control_hz, substeps
-        self._dt = 1.0 / (control_hz * substeps)
+        self._period = 1.0 / control_hz
+        self._dt = self._period / substeps
         self._start: Pose | None = None
         self._journal = array("d")
 
@@ -188,52 +189,51 @@ class World:
         self._impulses.append(arbiter.total_impulse.length)
 
     def _drive(self, command: tuple[float, float, float]) -> None:
-        """Approach the commanded velocity evenly over one control period.
+        """Demand one velocity for a control period.
 
-        A substep of Pymunk moves the body with the velocity it has and then finds the next one.
-        So the velocity is demanded in the heading that the robot will have half a substep later
-        than that; this makes arcs exact to second order.
+        A substep of Pymunk moves the body with the velocity it has and then finds the next one,
+        so what is demanded now holds from the second substep to the first of the next period. It
+        is demanded in the heading that the robot will have in the middle of that time; this makes
+        arcs exact to second order.
         """
-        body, control, space, dt = self._body, self._control, self._space, self._dt
-        (forward, left, turn), (more_forward, more_left, more_turn) = self._ramp(command)
+        body, control, step, dt = self._body, self._control, self._space.step, self._dt
+        forward, left, turn = self._approach(command)
+        middle = body.angle + self._axle_velocity[2] * dt + 0.5 * turn * self._period
+        c, s = math.cos(middle), math.sin(middle)
+        control.velocity = c * forward - s * left, s * forward + c * left
+        control.angular_velocity = turn
         for _ in range(self.substeps):
-            middle = body.angle + turn * dt
-            forward, left, turn = forward + more_forward, left + more_left, turn + more_turn
-            middle += 0.5 * turn * dt
-            c, s = math.cos(middle), math.sin(middle)
-            control.velocity = (c * forward - s * left, s * forward + c * left)
-            control.angular_velocity = turn
-            space.step(dt)
+            step(dt)
 
-    def _ramp(
-        self, command: tuple[float, float, float]
-    ) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """The velocity to start from, the actual one, and by how much to change it a substep."""
-        robot, dt, steps = self.robot, self._dt, self.substeps
+    def _approach(self, command: tuple[float, float, float]) -> tuple[float, float, float]:
+        """The velocity nearest to the commanded one that the limits allow in one period."""
+        robot = self.robot
         forward, left, turn = self._axle_velocity
         left = left if robot.holonomic else 0.0
-        change, turn_change = robot.max_acceleration * dt, robot.max_turn_acceleration * dt
-        return (forward, left, turn), (
-            _cut((_cut(command[0], robot.max_speed) - forward) / steps, change),
-            _cut((_cut(command[1], robot.max_sideways_speed) - left) / steps, change),
-            _cut((_cut(command[2], robot.max_turn_rate) - turn) / steps, turn_change),
+        change = robot.max_acceleration * self._period
+        turn_change = robot.max_turn_acceleration * self._period
+        return (
+            forward + _cut(_cut(command[0], robot.max_speed) - forward, change),
+            left + _cut(_cut(command[1], robot.max_sideways_speed) - left, change),
+            turn + _cut(_cut(command[2], robot.max_turn_rate) - turn, turn_change),
         )
 
     def _settle(self) -> None:
         """Read where the body is and how fast its axle moves.
 
-        The velocity is in the heading that the robot will have in half a substep.
+        The velocity is in the heading for which it was demanded, see `_drive`.
         """
-        body = self._body
+        body, axle = self._body, self.robot.axle
         (x, y), heading, turn = body.position, body.angle, body.angular_velocity
-        self._pose = compose((x, y, heading), (-self.robot.axle, 0.0, 0.0))
-        (vx, vy), middle = body.velocity, heading + 0.5 * turn * self._dt
+        c, s = math.cos(heading), math.sin(heading)
+        self._pose = x - axle * c, y - axle * s, wrap_angle(heading)
+        (vx, vy), middle = body.velocity, heading + turn * (self._dt - 0.5 * self._period)
         c, s = math.cos(middle), math.sin(middle)
         self._axle_velocity = c * vx + s * vy, c * vy - s * vx, turn
 
     def __getstate__(self) -> dict[str, Any]:
-        kept = ("floor_plan", "robot", "control_hz", "substeps", "_dt", "_start", "_journal")
-        return {name: getattr(self, name) for name in kept}
+        kept = ("floor_plan", "robot", "control_hz", "substeps", "_period", "_dt")
+        return {name: getattr(self, name) for name in (*kept, "_start", "_journal")}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)

@@ -9,7 +9,7 @@ from shapely import LineString, Polygon
 
 from semnav_env.features.frames import Point, Pose, to_parent, wrap_angle
 from semnav_env.robots import ROBOTS, SPOT, WHEELCHAIR, RobotSpec
-from semnav_env.world import World
+from semnav_env.world import GRAVITY, GRIP, World
 from tests.driving import at_the_wall, random_commands
 from tests.small_plans import empty_hall, furnished_hall, plan_of
 
@@ -37,9 +37,17 @@ def test_a_straight_drive_reaches_full_speed_no_faster_than_allowed(robot: Robot
     assert speeds[-1] == pytest.approx(robot.max_speed)
     assert np.diff(speeds).max() <= robot.max_acceleration / HZ + 1e-9
     assert world.pose[1:] == pytest.approx((15.0, 0.0), abs=1e-9)
-    # Of four substeps the first still has the old speed.
-    way = sum(0.625 * before + 0.375 * after for before, after in pairwise(speeds)) / HZ
+    way = sum(way_of_a_period(before, after) for before, after in pairwise(speeds))
     assert world.pose[0] == pytest.approx(5.0 + way)
+
+
+def way_of_a_period(before: float, after: float, substeps: int = 4) -> float:
+    """Each substep moves with the speed it finds, then changes it as far as the grip allows."""
+    dt, way, speed = 1.0 / HZ / substeps, 0.0, before
+    for _ in range(substeps):
+        way += speed * dt
+        speed += min(max(after - speed, -GRIP * GRAVITY * dt), GRIP * GRAVITY * dt)
+    return way
 
 
 @robots

@@ -7,7 +7,7 @@ the robot lies at x = 0.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numba import njit
@@ -49,36 +49,18 @@ OPENING_WIDTH = 1.35
 LEAF = 1.2
 """Longer than any door leaf, metres: so far a wall leads out at an edge of an opening."""
 
-Openings: TypeAlias = list[tuple[bool, float, float, float]]
-"""For each opening: on the left?, near and far edge along the axis, distance of its side."""
+MAX_OPENINGS = 32
+"""More openings along a hallway are left out."""
 
 
-class Survey(NamedTuple):
-    """What `survey` finds; see `semnav_env.features.hallway.Hallway`.
-
-    Attributes:
-        x: of the axis's origin.
-        y: the same.
-        heading: of the axis, radians.
-        left: distance of the left side at each probe, inf where there is none, shape (PROBES,).
-        right: the same to the right.
-        half_width: usual distance of the sides, metres.
-        end: where the hallway ends, metres.
-        openings: of both sides.
-    """
-
-    x: float
-    y: float
-    heading: float
-    left: FloatArray
-    right: FloatArray
-    half_width: float
-    end: float
-    openings: Openings
+Frame: TypeAlias = tuple[float, float, float]
+"""Of an axis: x, y of its origin and its heading, metres and radians."""
 
 
 @njit(cache=True)
-def survey(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: float) -> Survey:
+def survey(
+    walls: FloatArray, doors: FloatArray, x: float, y: float, heading: float
+) -> tuple[Frame, float, float, FloatArray, FloatArray]:
     """Look along the hallway that a robot at (x, y, heading) stands in.
 
     Args:
@@ -87,6 +69,12 @@ def survey(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: fl
         x: of the robot, metres.
         y: the same.
         heading: of the robot, radians.
+
+    Returns:
+        The frame of the axis; the usual distance of the sides; where the hallway ends; the
+        distance of the left and of the right side at each probe, inf where there is none, shape
+        (2, PROBES); and for each opening 1 if on the left or 0, its near and far edge along the
+        axis, and the distance of its side, shape (n, 4).
     """
     solid = _solid(walls, doors, x, y, heading)
     heading = prevailing_heading(solid, len(walls), x, y, heading)
@@ -102,11 +90,13 @@ def survey(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: fl
         left, right = usual_distances(local, back, straight)
     x, y = x - math.sin(heading) * offset, y + math.cos(heading) * offset
     end = farthest_way(local, left, right)
-    openings = [(True, 0.0, 0.0, 0.0) for _ in range(0)]
-    left_raw, right_raw = probe(local, 1.0, back, PROBES), probe(local, -1.0, back, PROBES)
-    left_side = _side(left_raw, local[: len(walls)], 1.0, left, (back, end), openings)
-    right_side = _side(right_raw, local[: len(walls)], -1.0, right, (back, end), openings)
-    return Survey(x, y, heading, left_side, right_side, 0.5 * (left + right), end, openings)
+    openings = np.empty((MAX_OPENINGS, 4))
+    sides = np.empty((2, PROBES))
+    count = 0
+    for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
+        raw, side = probe(local, sign, back, PROBES), sides[row]
+        count = _follow(raw, local[: len(walls)], sign, usual, (back, end), side, openings, count)
+    return (x, y, heading), 0.5 * (left + right), end, sides, openings[:count]
 
 
 @njit(cache=True)
@@ -145,14 +135,16 @@ def _solid(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: fl
 
 
 @njit(cache=True)
-def _side(
+def _follow(
     raw: FloatArray,
     walls: FloatArray,
     sign: float,
     usual: float,
     stretch: tuple[float, float],
-    openings: Openings,
-) -> FloatArray:
+    side: FloatArray,
+    openings: FloatArray,
+    count: int,
+) -> int:
     """Follow one side along the hallway; note the openings where it steps back.
 
     Args:
@@ -161,14 +153,16 @@ def _side(
         sign: 1 for the left side, -1 for the right.
         usual: distance of the side where it is not known better, metres.
         stretch: how far the hallway goes back, and where it ends, metres.
-        openings: appended to.
+        side: written: its distance at each probe; inf where it is not seen, has a gap or an
+            opening, and beyond the stretch.
+        openings: written, from row `count` on.
+        count: of openings so far.
 
     Returns:
-        Distance of the side at each probe; inf where it is not seen, has a gap or an opening,
-        and beyond the stretch.
+        How many openings there are now.
     """
     back, end = stretch
-    side = np.full(PROBES, np.inf)
+    side[:] = np.inf
     last = PROBES if math.isinf(end) else min(PROBES, int((end + BEHIND) / SPACING) + 1)
     first, reference = -1, usual
     for k in range(max(0, math.ceil((BEHIND - back) / SPACING)), last):
@@ -177,14 +171,14 @@ def _side(
             reference = _recent(side, k, usual)
         if level or raw[k] <= reference + RECESS:
             if first >= 0:
-                _note_opening(walls, sign, first, k, reference, openings)
+                count = _note_opening(walls, sign, first, k, reference, openings, count)
             first = -1
             side[k] = raw[k]
         elif first < 0:
             first = k
     if first >= 0 and math.isfinite(end):
-        _note_opening(walls, sign, first, last, reference, openings)
-    return side
+        count = _note_opening(walls, sign, first, last, reference, openings, count)
+    return count
 
 
 @njit(cache=True)
@@ -201,15 +195,23 @@ def _recent(side: FloatArray, k: int, usual: float) -> float:
 
 @njit(cache=True)
 def _note_opening(
-    walls: FloatArray, sign: float, first: int, last: int, offset: float, openings: Openings
-) -> None:
+    walls: FloatArray,
+    sign: float,
+    first: int,
+    last: int,
+    offset: float,
+    openings: FloatArray,
+    count: int,
+) -> int:
     """Note the probes [first, last) as an opening, if wide and a wall leads out of an edge."""
     near = (first - 0.5) * SPACING - BEHIND
     far = (last - 0.5) * SPACING - BEHIND
-    if far - near >= OPENING_WIDTH and (
-        _leads_out(walls, sign, near, offset) or _leads_out(walls, sign, far, offset)
-    ):
-        openings.append((sign > 0.0, near, far, offset))
+    if far - near < OPENING_WIDTH or count == len(openings):
+        return count
+    if not (_leads_out(walls, sign, near, offset) or _leads_out(walls, sign, far, offset)):
+        return count
+    openings[count] = max(sign, 0.0), near, far, offset
+    return count + 1
 
 
 @njit(cache=True)

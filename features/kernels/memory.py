@@ -118,27 +118,27 @@ def how_many_count(walls: Any, doors: Any, used: Any) -> tuple[int, int]:
 
 
 @njit(cache=True)
-def walls_that_count(walls: Any, used: Any) -> FloatArray:
-    """The ends of the remembered walls that count, shape (n, 4), metres."""
-    ends = np.empty((used[0], 4))
-    count = 0
+def what_counts(walls: Any, doors: Any, used: Any) -> tuple[FloatArray, FloatArray]:
+    """The remembered walls and doors that count.
+
+    Returns:
+        Ends of the walls, shape (n, 4), metres; ends of the doors and how often each was seen,
+        shape (m, 5).
+    """
+    wall_rows, door_rows = np.empty((used[0], 4)), np.empty((used[1], 5))
+    n = m = 0
     for k in range(used[0]):
         if wall_counts(walls, k):
             wall = walls[k]
-            ends[count] = wall.start_x, wall.start_y, wall.end_x, wall.end_y
-            count += 1
-    return ends[:count].copy()
-
-
-@njit(cache=True)
-def doors_that_count(doors: Any, used: Any) -> list[tuple[Ends, int]]:
-    """The ends of the remembered doors that count, and how often each was seen."""
-    known = doors[: used[1]]
-    return [
-        ((door.start_x, door.start_y, door.end_x, door.end_y), door.hits)
-        for k, door in enumerate(known)
-        if door_counts(known, k)
-    ]
+            wall_rows[n] = wall.start_x, wall.start_y, wall.end_x, wall.end_y
+            n += 1
+    for k in range(used[1]):
+        if door_counts(doors[: used[1]], k):
+            door = doors[k]
+            door_rows[m, :4] = door.start_x, door.start_y, door.end_x, door.end_y
+            door_rows[m, 4] = door.hits
+            m += 1
+    return wall_rows[:n], door_rows[:m]
 
 
 @njit(cache=True)

@@ -94,11 +94,7 @@ def doors_along(scene: Scene, hallway: Hallway, side: Side | None = None) -> lis
         side: count only the doors there.
     """
     counted = [_counted(door, hallway) for door in scene.doors]
-    ahead = [
-        door
-        for door in counted
-        if door is not None and door.along >= 0.0 and side in (None, door.side)
-    ]
+    ahead = [door for door in counted if door is not None and side in (None, door.side)]
     return sorted(ahead, key=lambda door: door.along)
 
 
@@ -122,6 +118,8 @@ def _counted(door: Door, hallway: Hallway) -> CountedDoor | None:
     start, end = to_local(hallway.frame, door.start), to_local(hallway.frame, door.end)
     dx, dy = end[0] - start[0], end[1] - start[1]
     along, offset = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    if along < 0.0:
+        return None
     if abs(dx) < abs(dy):
         at_end = abs(along - hallway.end) <= AT_THE_END and abs(offset) <= hallway.half_width
         side, towards = Side.AHEAD if at_end else None, 0.0

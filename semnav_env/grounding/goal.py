@@ -74,11 +74,15 @@ class Goal:
         """
         if self.door is None:
             return False
-        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         (ax, ay), (bx, by) = self.door.start, self.door.end
+        dx, dy = after[0] - before[0], after[1] - before[1]
+        reach = abs(bx - ax) + abs(by - ay) + abs(dx) + abs(dy) + 2.0 * margin
+        if abs(after[0] - ax) > reach or abs(after[1] - ay) > reach:
+            return False  # too far away, as nearly always
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         line = ax + margin * c, ay + margin * s, bx + margin * c, by + margin * s
         share = _crossing(*line, *before[:2], *after[:2])
-        forward = (after[0] - before[0]) * c + (after[1] - before[1]) * s > 0
+        forward = dx * c + dy * s > 0
         slack = margin / self.door.width
         return forward and -slack <= share <= 1 + slack
 
