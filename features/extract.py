@@ -10,6 +10,7 @@ import numpy as np
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.layout import (
+    ARCS,
     CORNERS,
     CORRIDORS,
     DOORS,
@@ -21,7 +22,7 @@ from semnav_env.features.kernels.layout import (
 )
 from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
 from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Corner, CornerKind, Corridor, Door, Scene, Wall
+from semnav_env.features.scene import Arc, Corner, CornerKind, Corridor, Door, Scene, Wall
 from semnav_env.features.settings import ExtractorSettings
 
 DEFAULT_SETTINGS = ExtractorSettings()
@@ -29,7 +30,7 @@ KINDS = tuple(CornerKind)
 
 
 def extract(scan: Scan, settings: ExtractorSettings = DEFAULT_SETTINGS) -> Scene:
-    """Walls, doors, corners and corridors of a scan, in the lidar frame.
+    """Walls, doors, corners, corridors and arcs of a scan, in the lidar frame.
 
     Beams beyond one full turn are left out. In a full-circle scan a wall across the first beam
     is found as two.
@@ -80,11 +81,13 @@ def to_scene(features: Features) -> Scene:
     doors = features.doors[: counts[DOORS]].tolist()
     corners = features.corners[: counts[CORNERS]].tolist()
     corridors = features.corridors[: counts[CORRIDORS]].tolist()
+    arcs = features.arcs[: counts[ARCS]].tolist()
     return Scene(
         tuple([_wall(*row) for row in walls]),
         tuple([Door((ax, ay), (bx, by)) for ax, ay, bx, by in doors]),
         tuple([Corner((x, y), KINDS[kind]) for x, y, kind in corners]),
         tuple([Corridor((ax, ay), (bx, by)) for ax, ay, bx, by in corridors]),
+        tuple([_arc(*row) for row in arcs]),
     )
 
 
@@ -116,6 +119,24 @@ def _wall(
         math.sqrt(variance / points),
         (mean_x, mean_y),
     )
+
+
+def _arc(
+    centre_x: float,
+    centre_y: float,
+    radius: float,
+    start_x: float,
+    start_y: float,
+    end_x: float,
+    end_y: float,
+    residual: float,
+    first: int,
+    last: int,
+    convex: int,
+    points: int,
+) -> Arc:
+    ends = (start_x, start_y), (end_x, end_y)
+    return Arc((centre_x, centre_y), radius, *ends, convex != 0, points, residual)
 
 
 @lru_cache(maxsize=16)

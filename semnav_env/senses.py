@@ -108,6 +108,7 @@ def observe(
         features.doors,
         features.corners,
         features.corridors,
+        features.arcs,
         features.counts,
     )
     write_features(row, features, senses.mount)

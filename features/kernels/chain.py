@@ -9,10 +9,11 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.arcs import find_arcs
 from semnav_env.features.kernels.corners import find_corners
 from semnav_env.features.kernels.corridors import find_corridors
 from semnav_env.features.kernels.doors import find_doors
-from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
+from semnav_env.features.kernels.layout import ARCS, CORNERS, CORRIDORS, DOORS, WALLS
 from semnav_env.features.kernels.merging import merge_pieces
 from semnav_env.features.kernels.segmentation import group_points
 from semnav_env.features.kernels.walls import fit_pieces, flag_pieces, select_walls
@@ -31,9 +32,10 @@ def extract_arrays(
     doors: np.ndarray,
     corners: np.ndarray,
     corridors: np.ndarray,
+    arcs: np.ndarray,
     counts: NDArray[np.int64],
 ) -> None:
-    """Walls, doors, corners and corridors of one scan, written into the caller's arrays.
+    """Walls, doors, corners, corridors and arcs of one scan, written into the caller's arrays.
 
     Args:
         ranges: metres, shape (n,); anything outside [range_min, range_max) is no return.
@@ -44,11 +46,12 @@ def extract_arrays(
         range_max: longest valid range, metres; `rupture_range` may be shorter.
         record: `ExtractorSettings.as_record()`.
         scratch: `allocate_scratch(n)` or larger.
-        walls: dtype `WALL`, any length, like the next three.
+        walls: dtype `WALL`, any length, like the next four.
         doors: dtype `DOOR`.
         corners: dtype `CORNER`.
         corridors: dtype `CORRIDOR`.
-        counts: how many of each were found, shape (4,).
+        arcs: dtype `ARC`.
+        counts: how many of each were found, shape (5,).
     """
     settings = record[0]
     limit = min(range_max, settings.rupture_range)
@@ -56,6 +59,7 @@ def extract_arrays(
     pieces = fit_pieces(groups, settings, scratch)
     flag_pieces(ranges, range_min, limit, groups, pieces, scratch)
     pieces = merge_pieces(pieces, settings, scratch)
+    counts[ARCS] = find_arcs(directions, groups, pieces, settings, scratch, arcs)
     counts[WALLS] = select_walls(pieces, settings, scratch, walls)
     counts[DOORS] = find_doors(
         ranges, directions, increment, range_min, limit, pieces, settings, scratch, doors

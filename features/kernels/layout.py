@@ -10,6 +10,9 @@ import numpy as np
 START_RUPTURE, END_RUPTURE, START_BREAK, END_BREAK = 1, 2, 4, 8
 """Bits of a wall's `flags`."""
 
+ROUND = 16
+"""Bit of the `flags` of a straight piece that is part of an arc and so no wall."""
+
 _ENDS = [("start_x", "f8"), ("start_y", "f8"), ("end_x", "f8"), ("end_y", "f8")]
 
 WALL = np.dtype(
@@ -25,8 +28,14 @@ DOOR = np.dtype(_ENDS)
 CORNER = np.dtype([("x", "f8"), ("y", "f8"), ("kind", "i8")])
 CORRIDOR = np.dtype(_ENDS)
 
-CAPACITY = {"walls": 256, "doors": 64, "corners": 512, "corridors": 128}
+ARC = np.dtype(
+    [("centre_x", "f8"), ("centre_y", "f8"), ("radius", "f8"), *_ENDS, ("residual", "f8")]
+    + [(name, "i8") for name in ("first", "last", "convex", "points")]
+)
+"""An arc; `first`, `last` and `points` as of a wall, `convex` is 1 or 0."""
+
+CAPACITY = {"walls": 256, "doors": 64, "corners": 512, "corridors": 128, "arcs": 32}
 """Entries beyond these are dropped, in beam order."""
 
-WALLS, DOORS, CORNERS, CORRIDORS = range(4)
-"""Places in the `counts` array, shape (4,), int64."""
+WALLS, DOORS, CORNERS, CORRIDORS, ARCS = range(5)
+"""Places in the `counts` array, shape (5,), int64."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.layout import CAPACITY, CORNER, CORRIDOR, DOOR, WALL
+from semnav_env.features.kernels.layout import ARC, CAPACITY, CORNER, CORRIDOR, DOOR, WALL
 
 PIECE = np.dtype(
     [(name, "f8") for name in ("mean_x", "mean_y", "xx", "xy", "yy", "along_x", "along_y")]
@@ -78,13 +78,15 @@ class Features(NamedTuple):
         doors: dtype `DOOR`.
         corners: dtype `CORNER`.
         corridors: dtype `CORRIDOR`.
-        counts: how many of each are used, shape (4,), int64.
+        arcs: dtype `ARC`.
+        counts: how many of each are used, shape (5,), int64.
     """
 
     walls: np.ndarray
     doors: np.ndarray
     corners: np.ndarray
     corridors: np.ndarray
+    arcs: np.ndarray
     counts: NDArray[np.int64]
 
 
@@ -114,5 +116,6 @@ def allocate_features() -> Features:
         doors=np.zeros(CAPACITY["doors"], DOOR),
         corners=np.zeros(CAPACITY["corners"], CORNER),
         corridors=np.zeros(CAPACITY["corridors"], CORRIDOR),
-        counts=np.zeros(4, np.int64),
+        arcs=np.zeros(CAPACITY["arcs"], ARC),
+        counts=np.zeros(len(CAPACITY), np.int64),
     )

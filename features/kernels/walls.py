@@ -9,7 +9,13 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
+from semnav_env.features.kernels.layout import (
+    END_BREAK,
+    END_RUPTURE,
+    ROUND,
+    START_BREAK,
+    START_RUPTURE,
+)
 from semnav_env.features.kernels.lines import fit, gather, offset, refit, split
 from semnav_env.features.kernels.segmentation import is_return
 
@@ -136,6 +142,7 @@ def select_walls(count: int, settings: Any, scratch: Any, walls: np.ndarray) -> 
             found == min(len(walls), len(scratch.wall_piece))
             or piece.points < settings.wall_beams
             or length < settings.wall_length
+            or piece.flags & ROUND
         ):
             continue
         wall = walls[found]

@@ -1,0 +1,262 @@
+"""Arcs: columns and curved walls, found where straight pieces turn step by step (Yan et al.)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.circles import (
+    NO_RAY,
+    Ray,
+    algebraic_circle,
+    circle_residuals,
+    refine_circle,
+)
+from semnav_env.features.kernels.layout import ROUND
+from semnav_env.features.kernels.lines import offset
+from semnav_env.features.kernels.round_runs import SOLID, end_of_run, is_bowed, is_lonely
+
+NEAR = 3.0
+"""Points within so many standard deviations of a circle may belong to it."""
+EDGE_ERROR = 0.25
+"""Standard deviation of where a beam ends at an edge, on top of its spacing, in sigma."""
+FINEST = 0.1
+"""Share of sigma below which a fit is not made better by a smaller residual."""
+
+
+@njit(cache=True, error_model="numpy")
+def find_arcs(
+    directions: FloatArray, groups: int, pieces: int, settings: Any, scratch: Any, arcs: np.ndarray
+) -> int:
+    """Write the arcs among the pieces and flag these pieces `ROUND`; returns how many.
+
+    A run of pieces that turn the same way, no more than chords of one circle would, is tried as
+    one arc and otherwise split where it fits worst (Yan et al., section 2).
+    """
+    found = first = 0
+    while settings.arcs and first < pieces:
+        last, turn = end_of_run(first, pieces, settings, scratch.pieces)
+        before = found
+        if is_bowed(first, last, turn, settings, scratch):
+            found = explain_run(
+                directions, groups, pieces, first, last, settings, scratch, arcs, found
+            )
+        ends_one_and_starts_another = last > first and found == before
+        first = last if ends_one_and_starts_another else last + 1
+    return found
+
+
+@njit(cache=True, error_model="numpy")
+def explain_run(
+    directions: FloatArray,
+    groups: int,
+    count: int,
+    first: int,
+    last: int,
+    settings: Any,
+    scratch: Any,
+    arcs: np.ndarray,
+    found: int,
+) -> int:
+    """Find the arcs in a run of pieces; returns how many arcs there are now."""
+    stack = scratch.stack
+    stack[0] = last
+    start, height = first, 1
+    while height > 0 and found < len(arcs):
+        end = stack[height - 1]
+        worst = 0
+        if end > start or is_lonely(scratch.pieces[start], settings):
+            worst = try_arc(directions, groups, count, start, end, settings, scratch, arcs[found])
+        if worst >= 0 and end > start:
+            stack[height] = piece_before_cut(start, end, worst, scratch.pieces)
+            height += 1
+            continue
+        found += worst < 0
+        height -= 1
+        start = end + 1
+    return found
+
+
+@njit(cache=True, error_model="numpy")
+def piece_before_cut(start: int, end: int, worst: int, pieces: np.ndarray) -> int:
+    """The piece with the worst point, after which a run is cut; never the last of the run."""
+    cut = start
+    while cut + 1 < end and pieces[cut + 1].first <= worst:
+        cut += 1
+    return cut
+
+
+@njit(cache=True, error_model="numpy")
+def try_arc(
+    directions: FloatArray,
+    groups: int,
+    count: int,
+    start: int,
+    end: int,
+    settings: Any,
+    scratch: Any,
+    arc: Any,
+) -> int:
+    """Fit one arc to the pieces start to end and write it if it explains them better.
+
+    Returns:
+        -1 if it does, else the point that is farthest from the circle.
+    """
+    xs, ys, pieces = scratch.xs, scratch.ys, scratch.pieces
+    first, last = pieces[start].first, pieces[end].last
+    circle = algebraic_circle(xs, ys, first, last)
+    low, high = free_points(start, end, groups, count, scratch)
+    near = NEAR * settings.sigma
+    while first > low and abs(beyond(circle, xs[first - 1], ys[first - 1])) <= near:
+        first -= 1
+    while last < high and abs(beyond(circle, xs[last + 1], ys[last + 1])) <= near:
+        last += 1
+    before = after = NO_RAY
+    if bulges(circle, xs[(first + last) // 2], ys[(first + last) // 2]):
+        before = edge_ray(first, -1, directions, groups, settings, scratch)
+        after = edge_ray(last, 1, directions, groups, settings, scratch)
+    circle = refine_circle(xs, ys, first, last, circle, settings.sigma, before, after)
+    scatter, worst = circle_residuals(xs, ys, first, last, circle)
+    straight = straight_scatter(start, end, first, last, scratch)
+    write_arc(circle, first, last, scatter, scratch, arc)
+    if not is_arc(arc, straight, end - start + 1, settings):
+        return worst
+    for k in range(start, end + 1):
+        pieces[k].flags |= ROUND
+    return -1
+
+
+@njit(cache=True, error_model="numpy")
+def beyond(circle: tuple[float, float, float], x: float, y: float) -> float:
+    """Signed distance of a point outside a circle, metres."""
+    return math.hypot(x - circle[0], y - circle[1]) - circle[2]
+
+
+@njit(cache=True, error_model="numpy")
+def bulges(circle: tuple[float, float, float], x: float, y: float) -> bool:
+    """Whether a circle bulges towards the scanner at its point (x, y)."""
+    return (circle[0] - x) * x + (circle[1] - y) * y > 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def free_points(start: int, end: int, groups: int, count: int, scratch: Any) -> tuple[int, int]:
+    """First and last point that a run may grow to: in its group, on no other solid piece."""
+    pieces, bounds = scratch.pieces, scratch.group_first[: groups + 1]
+    low = bounds[np.searchsorted(bounds, pieces[start].first, side="right") - 1]
+    high = bounds[np.searchsorted(bounds, pieces[end].last, side="right")] - 1
+    before, after = start - 1, end + 1
+    while before >= 0 and pieces[before].points < SOLID:
+        before -= 1
+    while after < count and pieces[after].points < SOLID:
+        after += 1
+    if before >= 0:
+        low = max(low, pieces[before].last + 1)
+    if after < count:
+        high = min(high, pieces[after].first - 1)
+    return low, high
+
+
+@njit(cache=True, error_model="numpy")
+def edge_ray(
+    point: int, step: int, directions: FloatArray, groups: int, settings: Any, scratch: Any
+) -> Ray:
+    """The ray that grazes a column beside its first (step -1) or last point (step 1).
+
+    The beam at that point meets the column and the next one passes it, so the ray that touches
+    it lies between them: for thin columns that tells the radius better than the ranges do.
+    `NO_RAY` where the next beam is missing, or ends before the column or on something connected.
+    """
+    xs, ys, beams = scratch.xs, scratch.ys, scratch.beams
+    beam, following = beams[point] + step, point + step
+    bounds = scratch.group_first[: groups + 1]
+    if beam < 0 or beam >= len(directions):
+        return NO_RAY
+    square = xs[point] ** 2 + ys[point] ** 2
+    if 0 <= following < bounds[groups]:
+        border = point if step < 0 else following
+        connected = bounds[np.searchsorted(bounds, border)] != border
+        nearer = xs[following] ** 2 + ys[following] ** 2 < square
+        if connected or (beams[following] == beam and nearer):
+            return NO_RAY
+    x = directions[beams[point], 0] + directions[beam, 0]
+    y = directions[beams[point], 1] + directions[beam, 1]
+    size = math.hypot(x, y)
+    # |d1 - d2| of unit vectors is the angle between them, well enough for neighbouring beams
+    gap_x = directions[beams[point], 0] - directions[beam, 0]
+    gap_y = directions[beams[point], 1] - directions[beam, 1]
+    variance = square * (gap_x * gap_x + gap_y * gap_y) / 12.0 + (EDGE_ERROR * settings.sigma) ** 2
+    return step * y / size, -step * x / size, 1.0 / variance
+
+
+@njit(cache=True, error_model="numpy")
+def straight_scatter(start: int, end: int, first: int, last: int, scratch: Any) -> float:
+    """Squared distances of points first to last to the nearer of the pieces beside them."""
+    xs, ys, pieces = scratch.xs, scratch.ys, scratch.pieces
+    total, done = 0.0, first
+    for k in range(start, end + 2):
+        before, after = pieces[max(k - 1, start)], pieces[min(k, end)]
+        for i in range(done, after.first if k <= end else last + 1):
+            a, b = offset(before, xs[i], ys[i]), offset(after, xs[i], ys[i])
+            total += min(a * a, b * b)
+        if k <= end:
+            total += after.scatter
+            done = after.last + 1
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def write_arc(
+    circle: tuple[float, float, float],
+    first: int,
+    last: int,
+    scatter: float,
+    scratch: Any,
+    arc: Any,
+) -> None:
+    """Set every field of an arc; its ends are those of its points, moved onto the circle."""
+    xs, ys, beams = scratch.xs, scratch.ys, scratch.beams
+    x, y, radius = circle
+    arc.centre_x, arc.centre_y, arc.radius = x, y, radius
+    start = radius / math.hypot(xs[first] - x, ys[first] - y)
+    end = radius / math.hypot(xs[last] - x, ys[last] - y)
+    arc.start_x, arc.start_y = x + start * (xs[first] - x), y + start * (ys[first] - y)
+    arc.end_x, arc.end_y = x + end * (xs[last] - x), y + end * (ys[last] - y)
+    middle = (first + last) // 2
+    arc.convex = bulges(circle, xs[middle], ys[middle])
+    arc.points = last - first + 1
+    arc.residual = math.sqrt(scatter / arc.points)
+    arc.first, arc.last = beams[first], beams[last]
+
+
+@njit(cache=True, error_model="numpy")
+def is_arc(arc: Any, straight: float, lines: int, settings: Any) -> bool:
+    """Whether an arc is round enough, and explains its points better than straight lines do.
+
+    Better is what has the lower n ln(S / n) + k ln(n) (Schwarz's criterion) for n points, the
+    sum S of their squared residuals and k parameters: three for an arc; two for each line and
+    one for each cut between lines. It needs no knowledge of the noise.
+    """
+    n, finest = arc.points, (FINEST * settings.sigma) ** 2
+    gain = n * math.log((straight / n + finest) / (arc.residual * arc.residual + finest))
+    return bool(
+        (arc.points >= settings.arc_beams)
+        & (arc.radius >= settings.arc_radius_min)
+        & (arc.radius <= settings.arc_radius_max)
+        & (arc.residual <= settings.confidence * settings.sigma)
+        & (extent(arc) >= settings.arc_extent_min)
+        & (gain + (3.0 * lines - 1.0 - 3.0) * math.log(n) > 0.0)
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def extent(arc: Any) -> float:
+    """Angle that an arc spans about its centre, radians; see `elements.Arc.extent`."""
+    ax, ay = arc.start_x - arc.centre_x, arc.start_y - arc.centre_y
+    bx, by = arc.end_x - arc.centre_x, arc.end_y - arc.centre_y
+    turn = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
+    turn = -turn if arc.convex else turn
+    return turn if turn >= 0.0 else turn + 2.0 * math.pi
