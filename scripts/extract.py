@@ -22,11 +22,13 @@ from semnav_env.scripts.scene_report import Tally, document
 class Arguments:
     """Turn a log of lidar scans into walls, doors, corners and corridors.
 
-    Reads CARMEN logs (FLASER and ROBOTLASER1 lines, text or gz). A log that is cut short is
-    processed as far as it goes; the exit code is then 2.
+    Reads CARMEN logs, CSV and BreezySLAM's logs (text or gz), npz archives, ROS 1 bags, ROS 2
+    bags (folder, .db3 or .mcap). A log that is cut short is processed as far as it goes; the
+    exit code is then 2.
 
     Attributes:
-        log: the log.
+        log: the log: a file, or the folder of a ROS 2 bag.
+        topic: of the scans in a bag, such as /scan; not needed if there is only one.
         out: file for the scenes, one JSON object a line, in the frame of the lidar.
         plot: picture of some scans with what was found in them (.png, .pdf or .svg).
         scans: how many scans the picture shows, spread evenly over the log.
@@ -34,11 +36,14 @@ class Arguments:
         limit: stop after so many scans.
         range_max: no return at and beyond it, metres.
         beam_spacing: degrees between beams, for FLASER lines with an unusual number of them.
+        angle_min: direction of the first beam in CSV and npz logs that leave it out, radians.
+        angle_increment: angle between the beams of such logs, radians.
         settings: limits of the extractor, metres and radians.
         json: print the summary as JSON on stdout.
     """
 
     log: Positional[Path]
+    topic: str | None = None
     out: Path | None = None
     plot: Path | None = None
     scans: int = 9
@@ -46,6 +51,8 @@ class Arguments:
     limit: int | None = None
     range_max: float = 50.0
     beam_spacing: float | None = None
+    angle_min: float | None = None
+    angle_increment: float | None = None
     settings: ExtractorSettings = field(default_factory=ExtractorSettings)
     json: bool = False
 
@@ -54,19 +61,28 @@ class Arguments:
         self._check()
         page = EvenSample[tuple[str, Scan, Scene]](self.scans)
         damage: TruncatedLogError | None = None
-        with open_log(self.log, Geometry(self.range_max, self.beam_spacing)) as log:
+        with open_log(self.log, self._geometry, self.topic) as log:
             tally = Tally(log)
             try:
                 self._extract(log, tally, page)
             except TruncatedLogError as error:
                 damage = error
+        written = [self.out] if self.out and tally.scenes else []
         if self.plot and tally.scenes:
             self.plot.parent.mkdir(parents=True, exist_ok=True)
             save_page(self.plot, page.items())
-        print(tally.as_json(damage is None) if self.json else tally.as_text())
+            written.append(self.plot)
+        if self.json:
+            print(tally.as_json(damage is None, written))
+        else:
+            print("\n".join([tally.as_text(), *(f"wrote {path}" for path in written)]))
         if damage:
             raise damage
         return 0
+
+    @property
+    def _geometry(self) -> Geometry:
+        return Geometry(self.range_max, self.beam_spacing, self.angle_min, self.angle_increment)
 
     def _extract(
         self, log: ScanLog, tally: Tally, page: EvenSample[tuple[str, Scan, Scene]]
@@ -77,7 +93,7 @@ class Arguments:
             for record in tracked(records, tally.label, lambda: log.fraction):
                 scene = extract(record.scan, self.settings)
                 tally.add(scene)
-                page.offer((f"scan {log.scans}, line {record.line}", record.scan, scene))
+                page.offer((f"scan {log.scans}, {log.unit} {record.line}", record.scan, scene))
                 if out:
                     out.write(document(record, scene))
 

@@ -6,6 +6,7 @@ import json
 import time
 from collections import Counter
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 from semnav_env.features import Scene
@@ -17,8 +18,8 @@ _KINDS = ("walls", "doors", "corners", "corridors")
 def document(record: LogRecord, scene: Scene) -> dict[str, Any]:
     """A scene as JSON: metres, radians and seconds, in the frame of the lidar.
 
-    `pose` is the lidar's in the frame of the log; a corner's `kind` is 0 outer, 1 inner or
-    2 potential. Lengths are rounded to a tenth of a millimetre.
+    `line` is `LogRecord.line`; `pose` is the lidar's in the frame of the log; a corner's `kind`
+    is 0 outer, 1 inner or 2 potential. Lengths are rounded to a tenth of a millimetre.
     """
     return {
         "line": record.line,
@@ -66,21 +67,22 @@ class Tally:
 
     def label(self, scans: int) -> str:
         """One phrase for a progress bar."""
-        return f"{scans} scans, {self._log.bad.total()} bad lines"
+        return f"{scans} scans, {self._log.bad.total()} bad {self._log.unit}s"
 
     def as_text(self) -> str:
         """The summary for people."""
         rate = f", {self.rate:.0f} scans per second" if self.rate else ""
         found = ", ".join(f"{self.found[kind]} {kind}" for kind in _KINDS)
-        lines = [f"{self.scenes} scans{rate}", found, f"{self._log.bad.total()} bad lines"]
+        unit = self._log.unit
+        lines = [f"{self.scenes} scans{rate}", found, f"{self._log.bad.total()} bad {unit}s"]
         lines += [
-            f"  {count} x {reason} (first: line {self._log.first_bad[reason]})"
+            f"  {count} x {reason} (first: {unit} {self._log.first_bad[reason]})"
             for reason, count in self._log.bad.most_common()
         ]
         return "\n".join(lines)
 
-    def as_json(self, whole: bool) -> str:
-        """The summary for programs; `whole` says whether the log was read to its end."""
+    def as_json(self, whole: bool, written: list[Path]) -> str:
+        """The summary for programs: whether the log was read to its end, and the files made."""
         return json.dumps(
             {
                 "scans": self.scenes,
@@ -88,6 +90,7 @@ class Tally:
                 "found": {kind: self.found[kind] for kind in _KINDS},
                 "bad_lines": dict(self._log.bad.most_common()),
                 "log_whole": whole,
+                "wrote": [str(path) for path in written],
             }
         )
 

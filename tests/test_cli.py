@@ -49,13 +49,15 @@ def scenes(path):
     return [json.loads(line) for line in path.read_text().splitlines()]
 
 
-def test_extract_writes_a_scene_per_scan(capsys, log, tmp_path):
+def test_extract_writes_a_scene_per_scan(capsys, monkeypatch, log, tmp_path):
+    monkeypatch.setattr(progress, "PATIENCE", 1e6)  # however long the first scan compiles
     out, page = tmp_path / "new" / "scenes.jsonl", tmp_path / "page.png"
     code, text, err = run(capsys, "extract", log, "--out", out, "--plot", page)
     assert (code, err) == (0, "")
     assert "20 scans" in text
     assert "2 bad lines" in text
     assert "line 22" in text
+    assert text.endswith(f"wrote {out}\nwrote {page}\n")
     written = scenes(out)
     assert [scene["line"] for scene in written] == list(range(2, 22))
     assert [scene["stamp"] for scene in written] == [seed + 0.5 for seed in range(20)]
@@ -73,8 +75,37 @@ def test_every_and_limit_choose_the_scans(capsys, log, tmp_path):
     out = tmp_path / "scenes.jsonl"
     code, text, _ = run(capsys, "extract", log, "--out", out, "--every", 3, "--limit", 4, "--json")
     assert code == 0
-    assert json.loads(text)["scans"] == 4
+    assert (json.loads(text)["scans"], json.loads(text)["wrote"]) == (4, [str(out)])
     assert [scene["line"] for scene in scenes(out)] == [2, 5, 8, 11]
+
+
+def test_extract_reads_tables_with_the_angles_that_are_given(capsys, tmp_path):
+    table, out = tmp_path / "log.csv", tmp_path / "scenes.jsonl"
+    rows = [line.split()[2:182] for line in LOG.splitlines()]
+    table.write_text("".join(",".join(row) + "\n" for row in rows))
+    angles = ("--angle-min", "-1.5708", "--angle-increment", "0.0174533")
+    code, text, _ = run(capsys, "extract", table, "--out", out, *angles)
+    assert code == 0
+    assert "20 scans" in text
+    assert [len(scene["walls"]) for scene in scenes(out)] == [3] * 20
+    assert scenes(out)[0]["pose"] is None
+
+
+def test_extract_reads_the_topic_of_a_bag_that_is_chosen(capsys, tmp_path):
+    pytest.importorskip("rosbags", reason="the extra `ros` is not installed")
+    from tests.bags import KINDS, BagFile, Sweep
+
+    ranges = np.array([line.split()[2:182] for line in LOG.splitlines()], float)
+    angles = {"angle_min": -np.pi / 2, "angle_increment": np.pi / 180}
+    messages = [Sweep(row, topic=name, **angles) for row in ranges for name in ("/scan", "/back")]
+    for kind in KINDS:
+        bag = BagFile(kind, messages).write(tmp_path, kind)
+        code, _, err = run(capsys, "extract", bag)
+        assert (code, err.count("\n")) == (2, 1)
+        assert "/back (20 messages), /scan (20 messages)" in err
+        code, text, _ = run(capsys, "extract", bag, "--topic", "/scan")
+        assert (code, text.splitlines()[-1]) == (0, "0 bad messages")
+        assert "60 walls" in text
 
 
 def test_settings_reach_the_extractor(capsys, log):

@@ -14,6 +14,10 @@ LAYERS = ("features", "semnav_env", "agents", "scripts")
 INSTALLED = {
     layer: "semnav_env" if layer == "semnav_env" else f"semnav_env.{layer}" for layer in LAYERS
 }
+MAY_NEED = {
+    "features/plot.py": {"matplotlib"},
+    "features/readers": {"rosbags", "lz4", "backports", "compression"},
+}
 
 
 @dataclass(frozen=True)
@@ -112,7 +116,18 @@ def test_features_need_numpy_and_numba_only():
     for module in MODULES.values():
         if module.layer == "features":
             others = {name.split(".")[0] for name, _ in imported(module)} - known
-            assert others <= ({"matplotlib"} if module.place == "features/plot.py" else set())
+            folder = module.place.rpartition("/")[0]
+            assert others <= MAY_NEED.get(module.place, MAY_NEED.get(folder, set())), module.place
+
+
+def test_reading_bags_costs_nothing_until_one_is_opened():
+    """`rosbags` is an extra: no module of the readers imports it, or what it brings, at once."""
+    for module in MODULES.values():
+        if module.place.startswith("features/readers/"):
+            body = module.tree.body
+            names = {alias.name for n in body if isinstance(n, ast.Import) for alias in n.names}
+            names |= {node.module for node in body if isinstance(node, ast.ImportFrom)}
+            assert not {name.split(".")[0] for name in names} & MAY_NEED["features/readers"]
 
 
 def test_the_simulator_and_the_pictures_each_have_one_door():

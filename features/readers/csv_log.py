@@ -1,0 +1,119 @@
+"""Logs as comma-separated values: one scan a row."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.readers.csv_columns import Columns, cells_of, is_header, numbers
+from semnav_env.features.readers.geometry import Geometry, checked_scan
+from semnav_env.features.readers.log import BadRecordError, LogError, LogRecord
+from semnav_env.features.readers.text import TextFile, TextLog
+from semnav_env.features.scan import Scan
+
+_ANGLES = ("angle_min", "angle_increment")
+_SETTING = re.compile(rb"(angle_min|angle_increment|range_min|range_max)\s*[=:]\s*([^\s,;]+)")
+
+
+def is_csv(head: bytes) -> bool:
+    """Whether a text that begins so is a table of numbers, or of columns that hold ranges."""
+    for line in head.splitlines(keepends=True):
+        if line.strip() and not line.startswith(b"#"):
+            cells = cells_of(line) if line.endswith(b"\n") else cells_of(line)[:-1]
+            try:
+                return len(cells) > 1 and Columns.of(cells).count > 1
+            except LogError:
+                return False
+    return False
+
+
+class CsvLog(TextLog):
+    """An open CSV log; see `ScanLog`.
+
+    The columns are ranges in metres, or what a header names (see `Columns`). The angles come
+    from `geometry`, else from columns, else from a comment before the first row such as
+
+        # angle_min=-2.356 angle_increment=0.0058 range_max=10
+
+    Args:
+        text: the file.
+        geometry: what the file leaves unsaid.
+    """
+
+    expected = "rows of ranges, separated by commas"
+
+    def __init__(self, text: TextFile, geometry: Geometry) -> None:
+        super().__init__(text)
+        self._geometry = geometry
+        self._said: dict[str, float] = {}
+
+    def records(self) -> Iterator[LogRecord]:
+        """The records that are left; raises `LogError` if nothing says the angles."""
+        columns: Columns | None = None
+        for number, line in self._text.lines():
+            if line.startswith(b"#"):
+                self._hear(line, number)
+                continue
+            if not line.strip():
+                continue
+            cells = cells_of(line)
+            if columns is None:
+                columns = self._columns(cells)
+                if is_header(cells):
+                    continue
+            try:
+                yield self._record(columns, cells, number)
+            except BadRecordError as error:
+                self.count_bad(str(error), number)
+
+    def _hear(self, comment: bytes, number: int) -> None:
+        for name, value in _SETTING.findall(comment):
+            try:
+                self._said[name.decode()] = float(value)
+            except ValueError:
+                said = value.decode("ascii", "replace")
+                raise LogError(
+                    f"{self.path}, line {number}: {name.decode()} is {said!r}; it must be a "
+                    "number, in metres or radians"
+                ) from None
+
+    def _columns(self, cells: list[bytes]) -> Columns:
+        try:
+            columns = Columns.of(cells)
+        except LogError as error:
+            raise LogError(f"{self.path}: {error}") from None
+        for name in _ANGLES:
+            if not (name in self._said or name in columns.places or self._given(name) is not None):
+                raise LogError(
+                    f"{self.path} does not say where its beams point; give angle_min and "
+                    "angle_increment in radians, or make its first line "
+                    "`# angle_min=-2.356 angle_increment=0.0058`"
+                )
+        return columns
+
+    def _record(self, columns: Columns, cells: list[bytes], number: int) -> LogRecord:
+        if len(cells) != columns.count:
+            raise BadRecordError("not as many cells as the first row")
+        row = numbers(cells)
+        return LogRecord(self._scan(columns, row), columns.pose(row), None, number)
+
+    def _scan(self, columns: Columns, row: FloatArray) -> Scan:
+        def said(name: str, otherwise: float = math.nan) -> float:
+            for value in (self._given(name), columns.number(row, name), self._said.get(name)):
+                if value is not None:
+                    return value
+            return otherwise
+
+        return checked_scan(
+            row[columns.ranges],
+            said("angle_min"),
+            said("angle_increment"),
+            self._geometry.nearer(said("range_max", math.inf)),
+            columns.stamp(row),
+            said("range_min", 0.05),
+        )
+
+    def _given(self, name: str) -> float | None:
+        return getattr(self._geometry, name) if name in _ANGLES else None

@@ -1,0 +1,91 @@
+"""What a log leaves unsaid of its scans, and the check that every scan of a log passes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.readers.log import BadRecordError
+from semnav_env.features.scan import Scan
+
+_FARTHEST = 4.0 * math.pi
+_WIDEST = 3.0 * math.pi
+"""A turn and a half: some scanners repeat beams of the circle; radians."""
+
+
+@dataclass(frozen=True, slots=True)
+class Geometry:
+    """What a log leaves unsaid.
+
+    Attributes:
+        range_max: ranges at or beyond it are no returns, metres; a smaller limit in the log
+            itself counts. SICK's scanners send 81.91 and some logs 50.
+        beam_spacing: degrees between the beams of CARMEN's FLASER lines and BreezySLAM's logs,
+            whose middle beam looks forward; None to tell it from the number of beams.
+        angle_min: direction of the first beam of CSV and npz logs, radians; None to take the
+            log's own.
+        angle_increment: angle between their beams, radians, negative if they run clockwise;
+            None to take the log's own.
+
+    Raises:
+        ValueError: a number is not finite, or not positive where it must be.
+    """
+
+    range_max: float = 50.0
+    beam_spacing: float | None = None
+    angle_min: float | None = None
+    angle_increment: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("range_max", "beam_spacing"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < math.inf:
+                raise ValueError(f"{name} is {value}; it must be positive and finite")
+        for name in ("angle_min", "angle_increment"):
+            value = getattr(self, name)
+            if value is not None and not math.isfinite(value):
+                raise ValueError(f"{name} is {value}; it must be finite, in radians")
+
+    def nearer(self, range_max: float) -> float:
+        """The log's own limit, metres, if it has one and that is the smaller."""
+        return self.range_max if range_max <= 0 else min(range_max, self.range_max)
+
+
+def checked_scan(
+    ranges: FloatArray,
+    start: float,
+    step: float,
+    range_max: float,
+    stamp: float | None,
+    range_min: float = 0.05,
+) -> Scan:
+    """A scan of a log's numbers.
+
+    Raises:
+        BadRecordError: they make none.
+    """
+    if stamp is not None and not math.isfinite(stamp):
+        raise BadRecordError("a time that is not finite")
+    if not len(ranges):
+        raise BadRecordError("no beams")
+    swept = abs(step) * (len(ranges) - 1)
+    if not (abs(start) <= _FARTHEST and step != 0.0 and swept <= _WIDEST):
+        raise BadRecordError("angles that do not fit a sweep of one turn")
+    if not 0 <= range_min < range_max:
+        raise BadRecordError("limits of the range that are out of order")
+    try:
+        return Scan(ranges, start, step, range_min, range_max, stamp)
+    except ValueError:
+        raise BadRecordError("ranges that are not metres") from None
+
+
+def checked_pose(x: float, y: float, heading: float) -> Pose:
+    """A pose of a log's numbers.
+
+    Raises:
+        BadRecordError: one is not finite.
+    """
+    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(heading)):
+        raise BadRecordError("a pose that is not finite")
+    return x, y, heading
