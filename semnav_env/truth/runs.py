@@ -116,22 +116,39 @@ def _pieces(
 
 
 def straight_parts(points: FloatArray) -> list[int]:
-    """Where a polyline bends: the indices of the points that matter (Douglas and Peucker 1973).
+    """Where a polyline bends: the indices of the points that matter.
 
-    What lies between two of them is within `STRAIGHT` of the line between them.
+    What lies between two of them is within `STRAIGHT` of the line between them. Found as by
+    Douglas and Peucker (1973), who may split a straight side that is parallel to the line from
+    the first point to the last; so splits that are not needed are taken back.
     """
-    along = points[-1] - points[0]
+    last = len(points) - 1
+    bends = [0]
+    for candidate, following in pairwise(_split(points, 0, last)):
+        if _farthest(points, bends[-1], following)[1] > STRAIGHT:
+            bends.append(candidate)
+    return [*bends, last]
+
+
+def _split(points: FloatArray, first: int, last: int) -> list[int]:
+    """Indices after `first`, up to `last`, where a polyline must be split."""
+    farthest, away = _farthest(points, first, last)
+    if away <= STRAIGHT:
+        return [last]
+    return _split(points, first, farthest) + _split(points, farthest, last)
+
+
+def _farthest(points: FloatArray, first: int, last: int) -> tuple[int, float]:
+    """The point farthest from the line from `first` to `last`, and how far it is."""
+    along = points[last] - points[first]
+    offset = points[first : last + 1] - points[first]
     length = math.hypot(*along)
-    offset = points - points[0]
     if length > 0.0:
         away = np.abs(along[0] * offset[:, 1] - along[1] * offset[:, 0]) / length
     else:
         away = np.hypot(*offset.T)
     farthest = int(away.argmax())
-    if away[farthest] <= STRAIGHT:
-        return [0, len(points) - 1]
-    before, after = straight_parts(points[: farthest + 1]), straight_parts(points[farthest:])
-    return before + [farthest + k for k in after[1:]]
+    return first + farthest, float(away[farthest])
 
 
 def _wall(part: list[int], outline: Outline, shapes: Shapes, spec: LidarSpec) -> Wall:
