@@ -137,6 +137,14 @@ def test_a_door_shut_is_no_door():
     assert not true_scene(hall_with_a_door(False, leaf), (4.5, 2.0, 0.0), ALL_AROUND).doors
 
 
+def test_a_door_beyond_the_range_is_not_seen():
+    far = replace(ALL_AROUND, range_max=2.0)
+    near = replace(ALL_AROUND, range_max=2.01)
+    assert not true_scene(hall_with_a_door(), (4.5, 2.0, 0.0), far).doors
+    (door,) = true_scene(hall_with_a_door(), (4.5, 2.0, 0.0), near).doors
+    assert door.visible == pytest.approx(2.0 * math.sqrt(2.01**2 - 2.0**2))
+
+
 def test_a_door_half_hidden_is_half_visible():
     screen = Surface(((3.5, 1.0), (4.5, 1.0)), Material.FURNITURE)
     (door,) = true_scene(hall_with_a_door(True, screen), (4.5, 4.0, 0.0), ALL_AROUND).doors

@@ -56,7 +56,12 @@ def _with_leaf(door: PlanDoor, leaves: list[tuple[int, tuple[Point, ...]]]) -> O
 
 
 def see_door(
-    door: OpenDoor, lidar: Pose, outline: Outline, marks: FloatArray, surfaces: set[int]
+    door: OpenDoor,
+    lidar: Pose,
+    outline: Outline,
+    marks: FloatArray,
+    surfaces: set[int],
+    range_max: float,
 ) -> Door | None:
     """The door in the lidar frame, directed with the lidar on its left, if any of it is seen.
 
@@ -66,18 +71,21 @@ def see_door(
         outline: what it sees.
         marks: directions in which the view of an opening may begin or end, radians.
         surfaces: numbers of those that are in view, for the leaf.
+        range_max: nothing is seen beyond it, metres.
     """
     start, end = to_local(lidar, door.door.start), to_local(lidar, door.door.end)
     if start[0] * end[1] - start[1] * end[0] < 0.0:
         start, end = end, start
-    share = visible_share(start, end, outline, marks)
+    share = visible_share(start, end, outline, marks, range_max)
     if share < GLIMPSE:
         return None
     leaf = _leaf(door, lidar, start, end) if door.surface in surfaces else None
     return Door(start, end, door.door.name, leaf=leaf, visible=share)
 
 
-def visible_share(start: Point, end: Point, outline: Outline, marks: FloatArray) -> float:
+def visible_share(
+    start: Point, end: Point, outline: Outline, marks: FloatArray, range_max: float
+) -> float:
     """Share of the opening from `start` to `end`, counter-clockwise, that is in view."""
     first = math.atan2(start[1], start[0])
     span = (math.atan2(end[1], end[0]) - first) % math.tau
@@ -85,7 +93,7 @@ def visible_share(start: Point, end: Point, outline: Outline, marks: FloatArray)
     inside = np.sort((marks - first) % math.tau)
     edges = first + np.concatenate(([0.0], inside[inside < span], [span]))
     middles = 0.5 * (edges[:-1] + edges[1:])
-    seen = distances_along(chord, middles)[:, 0] < outline.ranges(middles)
+    seen = distances_along(chord, middles)[:, 0] < np.minimum(outline.ranges(middles), range_max)
     rows = np.zeros(len(edges), dtype=np.intp)
     steps = np.hypot(*np.diff(points_at(chord, rows, edges), axis=0).T)
     return float(min(1.0, steps[seen].sum() / math.dist(start, end)))

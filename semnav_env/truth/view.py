@@ -94,7 +94,8 @@ class TrueView:
         walls = [piece for piece in pieces if isinstance(piece, Wall)]
         joints = [j for run in runs for j in find_joints(run, self.settings.corner_angle)]
         seen = set(self._shapes.surfaces[outline.owners[outline.owners != NOTHING]].tolist())
-        doors = [see_door(door, pose, outline, marks, seen) for door in self._doors]
+        reach = self.lidar.spec.range_max
+        doors = [see_door(door, pose, outline, marks, seen, reach) for door in self._doors]
         return Scene(
             tuple(walls),
             tuple([door for door in doors if door is not None]),
@@ -114,7 +115,7 @@ class TrueView:
         outline = sweep(lines[near], marks, spec, spec.angle_min)
         if outline.full:
             outline = sweep(lines[near], marks, spec, seam(outline))
-        owners = np.where(outline.owners == NOTHING, NOTHING, near[outline.owners])
+        owners = np.append(near, NOTHING)[outline.owners]
         return replace(outline, owners=owners), np.append(
             np.arctan2(marks[:, 1], marks[:, 0]), outline.angles
         )
