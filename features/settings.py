@@ -8,10 +8,13 @@ from enum import IntEnum
 
 import numpy as np
 
-from semnav_env.features.strategies import BreakpointRule, strategy_names
+from semnav_env.features.strategies import BreakpointRule, Segmentation, strategy_names
 
 _RECORD_TYPES = {"float": "f8", "int": "i8", "bool": "?", "str": "i8"}
-_STRATEGIES: dict[str, type[IntEnum]] = {"breakpoint_rule": BreakpointRule}
+_STRATEGIES: dict[str, type[IntEnum]] = {
+    "breakpoint_rule": BreakpointRule,
+    "segmentation": Segmentation,
+}
 """What the fields that hold a name choose from; the kernels get the number behind the name."""
 
 
@@ -36,8 +39,11 @@ class ExtractorSettings:
         breakpoint_distance: C0 of "constant", "dietmayer" and "santos", metres.
         breakpoint_ratio: largest |r1 - r2| / (r1 + r2) of neighbouring ranges, for "lee".
         dropout_beams: so many missing returns in a row do not end a wall.
-        split_distance: a point farther from the chord splits a segment, metres (thesis: 0.06;
-            here four standard deviations).
+        segmentation: how a connected group is cut into straight pieces: "end_point_fit" (thesis
+            2.4.4) or "dynamic", the most likely partition (`kernels.dynamic`), which takes a
+            hundred times as long.
+        split_distance: a point farther from the chord is where "end_point_fit" cuts, metres
+            (thesis: 0.06; here four standard deviations).
         wall_beams: fewest beams of a wall (thesis: 3).
         wall_length: shortest wall, metres.
         merge_gap: widest gap that two collinear walls are joined across, metres; nothing that
@@ -98,6 +104,7 @@ class ExtractorSettings:
     breakpoint_distance: float = 0.15
     breakpoint_ratio: float = 0.03
     dropout_beams: int = 2
+    segmentation: str = "end_point_fit"
     split_distance: float = 0.08
     wall_beams: int = 5
     wall_length: float = 0.2

@@ -20,6 +20,13 @@ class BreakpointRule(IntEnum):
     WEERAKOON = 6
 
 
+class Segmentation(IntEnum):
+    """How a connected group of points is cut into straight pieces."""
+
+    END_POINT_FIT = 0
+    DYNAMIC = 1
+
+
 def strategy_names(strategies: type[IntEnum]) -> tuple[str, ...]:
     """What the strategies are called in the settings."""
     return tuple(strategy.name.lower() for strategy in strategies)

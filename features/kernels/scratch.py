@@ -45,6 +45,7 @@ class Scratch(NamedTuple):
         beams: their beam indices, shape (n,).
         group_first: first point of each connected group, shape (n + 1,).
         stack: split points still to be visited, shape (n,).
+        table: sums and costs of one group's points, for `kernels.dynamic`, shape (n + 1, 8).
         vertices: the break points of one group, shape (n + 1,).
         pieces: straight pieces, dtype `PIECE`, shape (n,).
         start_jambs: where an opening may start, dtype `JAMB`.
@@ -60,6 +61,7 @@ class Scratch(NamedTuple):
     beams: NDArray[np.int64]
     group_first: NDArray[np.int64]
     stack: NDArray[np.int64]
+    table: FloatArray
     vertices: NDArray[np.int64]
     pieces: np.ndarray
     start_jambs: np.ndarray
@@ -98,6 +100,7 @@ def allocate_scratch(beams: int) -> Scratch:
         beams=np.zeros(beams, np.int64),
         group_first=np.zeros(beams + 1, np.int64),
         stack=np.zeros(beams, np.int64),
+        table=np.zeros((beams + 1, 8)),
         vertices=np.zeros(beams + 1, np.int64),
         pieces=np.zeros(beams, PIECE),
         start_jambs=np.zeros(JAMBS, JAMB),

@@ -9,6 +9,7 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.cuts import cut
 from semnav_env.features.kernels.layout import (
     END_BREAK,
     END_RUPTURE,
@@ -16,7 +17,7 @@ from semnav_env.features.kernels.layout import (
     START_BREAK,
     START_RUPTURE,
 )
-from semnav_env.features.kernels.lines import fit, gather, offset, refit, split
+from semnav_env.features.kernels.lines import fit, gather, offset, refit
 from semnav_env.features.kernels.segmentation import is_return
 
 PRIOR_POINTS = 4
@@ -37,7 +38,7 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
         first, last = scratch.group_first[group], scratch.group_first[group + 1] - 1
         if last == first:
             continue
-        cuts = split(xs, ys, first, last, settings.split_distance, scratch)
+        cuts = cut(xs, ys, first, last, settings, scratch)
         group_start = count
         for k in range(cuts - 1):
             low = vertices[k] + (1 if k > 0 else 0)

@@ -1,0 +1,26 @@
+"""Where a connected group of points is cut into straight pieces, by the strategy that is set."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numba import njit
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.dynamic import PIECE_PRICE, partition
+from semnav_env.features.kernels.lines import split
+from semnav_env.features.strategies import Segmentation
+
+_DYNAMIC = int(Segmentation.DYNAMIC)
+
+
+@njit(cache=True, error_model="numpy")
+def cut(xs: FloatArray, ys: FloatArray, first: int, last: int, settings: Any, scratch: Any) -> int:
+    """Cut points first to last; returns how many cuts were written to `scratch.vertices`.
+
+    The first and the last entry are the group's ends; a point where it is cut belongs to neither
+    side yet.
+    """
+    if settings.segmentation == _DYNAMIC:
+        return int(partition(xs, ys, first, last, settings.sigma**2, PIECE_PRICE, scratch))
+    return int(split(xs, ys, first, last, settings.split_distance, scratch))
