@@ -13,12 +13,11 @@ from semnav_env.features import ExtractorSettings, Scan, extract
 from semnav_env.features.extract import beam_directions
 from semnav_env.features.kernels.scratch import allocate_scratch
 from semnav_env.features.kernels.segmentation import group_points
-from semnav_env.features.reference import extract_reference
 from semnav_env.features.reference.breakpoints import threshold
+from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.strategies import BreakpointRule, strategy_names
 from tests.raycaster import heidelberg, scan_of
 from tests.strategies import Opening, awkward_scans, openings
-from tests.test_reference import assert_same
 
 RULES = strategy_names(BreakpointRule)
 DIRECTED = "borges_aldon"
@@ -74,7 +73,7 @@ def test_groups_are_the_valid_beams_in_order(scan: Scan, rule: str) -> None:
 def test_groups_are_those_of_the_equations(scan: Scan, rule: str, seed: int, sigma: float) -> None:
     scan = unequal(scan, seed)
     chosen = ExtractorSettings(breakpoint_rule=rule, sigma=sigma)
-    assert_same(extract(scan, chosen), extract_reference(scan, chosen))
+    assert groups_of(scan, chosen) == Sweep.of(scan, chosen).connected_groups(chosen)
 
 
 @settings(max_examples=60, deadline=None)
@@ -85,7 +84,7 @@ def test_every_rule_agrees_with_the_reference_in_corridors(
     rng = np.random.default_rng(seed)
     scan = scan_of(opening.segments, opening.pose, sigma=0.02, rng=rng)
     chosen = ExtractorSettings(breakpoint_rule=rule)
-    assert_same(extract(scan, chosen), extract_reference(scan, chosen))
+    assert groups_of(scan, chosen) == Sweep.of(scan, chosen).connected_groups(chosen)
 
 
 @settings(max_examples=150, deadline=None)
@@ -213,6 +212,5 @@ def test_coarse_lidars_see_the_hallway_with_every_rule(rule: str, degrees: float
         pose = (x, -0.2 + 0.24 * (x + 2.5), 0.24)
         beams = int(180 / degrees) + 1
         scan = scan_of(segments, pose, beams, math.pi, sigma=0.01, rng=rng)
-        scene = extract(scan, chosen)
-        assert_same(scene, extract_reference(scan, chosen))
-        assert len(scene.walls) >= 2
+        assert groups_of(scan, chosen) == Sweep.of(scan, chosen).connected_groups(chosen)
+        assert len(extract(scan, chosen).walls) >= 2

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
+import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.breakpoints import breakpoint_reach
+
+SMALLEST = 5e-324
+"""The smallest positive number: no range of zero is a return."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -25,43 +30,54 @@ def group_points(
     limit: float,
     settings: Any,
     scratch: Any,
-) -> tuple[int, int]:
+) -> tuple[Any, Any]:
     """Valid points (Barbret (1.2)) and where connected groups of them begin.
 
     Two neighbours are joined while they are no farther apart than the breakpoint rule allows. A
     gap of a few missing returns is bridged if, besides, nothing could pass it.
 
     Returns:
-        How many points and how many groups were written to `scratch`.
+        How many points and how many groups (int64) were written to `scratch`.
     """
     xs, ys, beams, group_first = scratch.xs, scratch.ys, scratch.beams, scratch.group_first
     longest_step = settings.dropout_beams + 1
     nearer, farther, previous, offset = breakpoint_reach(increment, settings)
-    points = groups = 0
+    plain = farther == 0.0 and previous == 0.0
+    lowest = max(range_min, SMALLEST)
+    points = groups = np.uint64(0)  # unsigned, or every index is tested for counting from the end
     last_x = last_y = last_range = 0.0
     last_beam = -longest_step - 1
-    for beam in range(len(ranges)):
-        distance = ranges[beam]
-        if not is_return(distance, range_min, limit):
+    for index in range(np.uint64(len(ranges))):
+        distance = ranges[index]
+        if not (distance >= lowest and distance < limit):
             continue
-        x = distance * directions[beam, 0]
-        y = distance * directions[beam, 1]
+        x = distance * directions[index, 0]
+        y = distance * directions[index, 1]
+        beam = np.int64(index)
         step = beam - last_beam
-        joined = step <= longest_step
-        if joined:
-            near, far = min(distance, last_range), max(distance, last_range)
-            reach = nearer * near + farther * far + previous * last_range + offset
-            if step > 1:
-                a, b, c, d = breakpoint_reach(step * increment, settings)
-                reach = min(a * near + b * far + c * last_range + d, settings.merge_gap)
-            joined = (x - last_x) ** 2 + (y - last_y) ** 2 <= reach * reach
-        if not joined:
+        if step == 1:
+            reach = nearer * min(distance, last_range) + offset
+            if not plain:
+                reach += farther * max(distance, last_range) + previous * last_range
+        elif step <= longest_step:
+            reach = bridge_reach(step * increment, last_range, distance, settings)
+        else:
+            reach = math.nan  # never within it
+        if not (x - last_x) ** 2 + (y - last_y) ** 2 <= reach * reach:
             group_first[groups] = points
-            groups += 1
+            groups += np.uint64(1)
         xs[points] = last_x = x
         ys[points] = last_y = y
         beams[points] = last_beam = beam
         last_range = distance
-        points += 1
+        points += np.uint64(1)
     group_first[groups] = points
-    return points, groups
+    return np.int64(points), np.int64(groups)
+
+
+@njit(cache=True, error_model="numpy")
+def bridge_reach(angle: float, before: float, after: float, settings: Any) -> float:
+    """How far points on either side of a few missing returns may be apart, metres."""
+    nearer, farther, previous, offset = breakpoint_reach(angle, settings)
+    reach = nearer * min(before, after) + farther * max(before, after) + previous * before + offset
+    return float(min(reach, settings.merge_gap))
