@@ -35,7 +35,13 @@ class ScriptedAgent:
         self._obstacles.reset()
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
-        """The next action."""
+        """The next action.
+
+        Raises:
+            ValueError: the observation lacks the scan or the goal.
+        """
+        if not {"scan", "goal"} <= observation.keys():
+            raise ValueError('the scripted agent needs scan and goal: give observation="all"')
         pose, velocity = read_odometry(observation)
         mount = self._pilot.robot.lidar_mount
         ranges, limit = observation["scan"], self._lidar.range_max

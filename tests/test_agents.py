@@ -75,3 +75,12 @@ def test_an_agent_can_be_used_for_one_episode_after_another() -> None:
 def test_an_unknown_agent_is_an_error_that_lists_the_known_ones() -> None:
     with pytest.raises(ValueError, match="scripted, oracle, office, quick"):
         make_agent("psychic")
+
+
+def test_the_scripted_agent_says_which_observation_it_needs() -> None:
+    env = SemNavEnv(observation="semantic")
+    observation, info = env.reset(seed=0)
+    agent = make_agent("scripted")
+    agent.reset(info)
+    with pytest.raises(ValueError, match='observation="all"'):
+        agent.act(observation)

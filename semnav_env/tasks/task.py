@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,10 @@ from semnav_env.verifier import Motion, Verifier, plan_goals
 
 START_TRIES = 200
 """Start poses drawn before a floor plan is found unfit for commands."""
+
+LEAST_AHEAD, WIDEST_HALF = 3.0, 1.5
+"""A random start has so much of a hallway ahead, no wider than twice that, metres; if there is any
+such place."""
 
 
 @dataclass
@@ -112,15 +117,18 @@ class CommandTask:
         return True
 
     def _random_start(self, rng: np.random.Generator) -> Pose:
-        """A free pose in a corridor, looking along it."""
+        """A free pose in a corridor, looking along it; not across it or from inside a junction."""
         corridors = self.floor_plan.corridors
         region = corridors[rng.integers(len(corridors))] if corridors else None
-        while True:
+        for attempt in count():
             pose = sample_pose(self.floor_plan, self.robot, rng, region)
-            axis = hallway(self.floor_plan.scene, pose).frame[2]
-            start = (*pose[:2], wrap_angle(axis + rng.uniform(-0.2, 0.2)))
-            if placement_error(self.floor_plan, self.robot, start) is None:
+            seen = hallway(self.floor_plan.scene, pose)
+            start = (*pose[:2], wrap_angle(seen.frame[2] + rng.uniform(-0.2, 0.2)))
+            along = seen.end > LEAST_AHEAD and seen.half_width < WIDEST_HALF
+            fits = placement_error(self.floor_plan, self.robot, start) is None
+            if fits and (along or attempt >= START_TRIES):
                 return start
+        raise AssertionError("count() never ends")
 
 
 def _command(given: object) -> Command | None:
