@@ -32,15 +32,16 @@ KINDS = tuple(CornerKind)
 def extract(scan: Scan, settings: ExtractorSettings = DEFAULT_SETTINGS) -> Scene:
     """Walls, doors, corners, corridors and arcs of a scan, in the lidar frame.
 
-    Beams beyond one full turn are left out. In a full-circle scan a wall across the first beam
-    is found as two.
+    Beams beyond one full turn are left out. In a scan of a full circle it makes no difference
+    which beam is the first.
 
     Args:
         scan: one sweep of a lidar.
         settings: every limit of the chain.
 
     Returns:
-        The scene, features in beam order; empty where the scan says nothing.
+        The scene, features in beam order (of a full circle from some break on); empty where
+        the scan says nothing.
 
     Raises:
         TypeError: bare ranges were given, which do not say where their beams point.

@@ -80,8 +80,10 @@ class ExtractorSettings:
         arc_extent_min: smallest angle that an arc spans about its centre, radians.
         arc_beams: fewest beams of an arc.
         corner_angle: smallest turn between two walls that is a corner, radians (thesis: 50
-            degrees).
-        corner_gap: walls whose ends are this close are extended to their corner, metres.
+            degrees; Weerakoon et al.: 30).
+        corner_gap: walls are extended this far to their corner, metres; their ends may be twice
+            as far apart.
+        corner_fuse: corners closer together than this are one, metres.
         corridor_probe: how far a corner is probed for an opposite wall, metres (thesis 3.3).
         corridor_wall_slack: a probed wall may end this far beside the probe, metres.
         corridor_angle_tolerance: how far from square a probe may meet a wall, radians.
@@ -133,6 +135,7 @@ class ExtractorSettings:
     arc_beams: int = 8
     corner_angle: float = math.radians(50.0)
     corner_gap: float = 0.3
+    corner_fuse: float = 0.1
     corridor_probe: float = 2.5
     corridor_wall_slack: float = 0.2
     corridor_angle_tolerance: float = math.radians(30.0)

@@ -1,4 +1,4 @@
-"""Corners: where neighbouring walls meet, and where a wall may turn out of sight."""
+"""Corners: where two walls meet, and where a wall may turn out of sight."""
 
 from __future__ import annotations
 
@@ -12,59 +12,137 @@ from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BRE
 
 OUTER, INNER, POTENTIAL = 0, 1, 2
 
+APART, FLAT, ASTRAY = -1, -2, -3
+"""Why two walls make no corner: their ends are too far from each other, they turn too little, or
+their lines meet too far from the ends."""
+
+NEXT_WALLS = 3
+"""So many walls after a wall are tried as the other side of its corner: an occluder or a stub may
+stand between the two."""
+
 
 @njit(cache=True, error_model="numpy")
-def find_corners(count: int, settings: Any, scratch: Any, corners: np.ndarray) -> int:
-    """Full corners between neighbouring walls and potential corners at loose wall ends.
+def find_corners(
+    count: int, is_ring: bool, settings: Any, scratch: Any, corners: np.ndarray
+) -> int:
+    """Full corners where walls meet and potential corners at their loose ends.
 
     Writes to `scratch.corner_ends` which wall ends and which starts at each corner (or -1).
+
+    Args:
+        count: how many walls there are.
+        is_ring: whether the first wall comes after the last one.
+        settings: of the extractor.
+        scratch: with the walls' pieces.
+        corners: dtype `CORNER`, written.
 
     Returns:
         How many corners were written, in beam order.
     """
+    join_ends(count, is_ring, settings, scratch)
     found = 0
-    start_is_free = True
     for k in range(count):
-        wall = scratch.pieces[scratch.wall_piece[k]]
-        if start_is_free and wall.flags & (START_BREAK | START_RUPTURE):
+        wall, joint = scratch.pieces[scratch.wall_piece[k]], scratch.joints[k]
+        if not joint.start_meets and wall.flags & (START_BREAK | START_RUPTURE):
+            x, y = wall.start_x, wall.start_y
+            found = write_potential(found, x, y, -1, k, count, settings, scratch, corners)
+        if joint.partner >= 0:
             found = write_corner(
-                found, wall.start_x, wall.start_y, POTENTIAL, -1, k, scratch, corners
+                found, joint.x, joint.y, joint.kind, k, joint.partner, scratch, corners
             )
-        start_is_free = True
-        if k + 1 < count:
-            following = scratch.pieces[scratch.wall_piece[k + 1]]
-            kind, x, y = full_corner(wall, following, settings)
-            if kind >= 0:
-                found = write_corner(found, x, y, kind, k, k + 1, scratch, corners)
-                start_is_free = False
-        if start_is_free and wall.flags & (END_BREAK | END_RUPTURE):
-            found = write_corner(found, wall.end_x, wall.end_y, POTENTIAL, k, -1, scratch, corners)
+        elif wall.flags & (END_BREAK | END_RUPTURE):
+            x, y = wall.end_x, wall.end_y
+            found = write_potential(found, x, y, k, -1, count, settings, scratch, corners)
     return found
 
 
 @njit(cache=True, error_model="numpy")
-def full_corner(a: Any, b: Any, settings: Any) -> tuple[int, float, float]:
-    """Kind and place of the corner of two successive walls; kind -1 if there is none.
+def join_ends(count: int, is_ring: bool, settings: Any, scratch: Any) -> None:
+    """Pair the end of every wall with the start of the wall it meets, nearest in order first.
 
-    The place is the intersection of the lines, which must be near the end of the first and
-    the start of the second. Both walls have the scanner on their left, so a left turn is a
-    corner that points away from it (outer) and a right turn one that points at it (inner):
-    what Barbret (3.1) decides by distances.
+    Written to `scratch.joints`; an end or a start belongs to one corner at most, and two corners
+    at one place are one.
     """
-    sine = a.along_x * b.along_y - a.along_y * b.along_x
-    cosine = a.along_x * b.along_x + a.along_y * b.along_y
+    joints = scratch.joints
+    for k in range(count):
+        joints[k].partner, joints[k].start_meets = -1, 0
+    for step in range(1, min(NEXT_WALLS, count - 1) + 1):
+        for k in range(count if is_ring else count - step):
+            partner = k + step if k + step < count else k + step - count
+            if joints[k].partner >= 0 or joints[partner].start_meets:
+                continue
+            a = scratch.pieces[scratch.wall_piece[k]]
+            b = scratch.pieces[scratch.wall_piece[partner]]
+            kind, x, y = full_corner(a, b, settings)
+            if kind >= 0 and not meets_near(x, y, count, settings, scratch):
+                joints[k].partner, joints[partner].start_meets = partner, 1
+                joints[k].kind, joints[k].x, joints[k].y = kind, x, y
+
+
+@njit(cache=True, error_model="numpy")
+def meets_near(x: float, y: float, count: int, settings: Any, scratch: Any) -> bool:
+    """Whether a full corner that was found already is at this place."""
+    for k in range(count):
+        joint = scratch.joints[k]
+        if joint.partner >= 0 and is_same_place(joint.x - x, joint.y - y, settings):
+            return True
+    return False
+
+
+@njit(cache=True, error_model="numpy")
+def is_same_place(dx: float, dy: float, settings: Any) -> bool:
+    """Whether two corners that far apart are one."""
+    return bool(dx * dx + dy * dy < settings.corner_fuse**2)
+
+
+@njit(cache=True, error_model="numpy")
+def full_corner(a: Any, b: Any, settings: Any) -> tuple[int, float, float]:
+    """Kind and place of the corner where one wall ends and a later one starts.
+
+    The place is the intersection of the lines (Barbret section 6.2.1), which must be near the
+    end of the first and the start of the second; the ends must be near each other and the turn
+    large enough (Weerakoon et al., section II D). Both walls have the scanner on their left, so a
+    left turn is a corner that points away from it (outer) and a right turn one that points at it
+    (inner): what Barbret (3.1) decides by distances.
+
+    Returns:
+        The kind, or `APART`, `FLAT` or `ASTRAY` if there is none, and the place.
+    """
     gap_x, gap_y = b.start_x - a.end_x, b.start_y - a.end_y
     reach = settings.corner_gap
     if gap_x * gap_x + gap_y * gap_y > 4.0 * reach * reach:
-        return -1, 0.0, 0.0
+        return APART, 0.0, 0.0
+    sine = a.along_x * b.along_y - a.along_y * b.along_x
+    cosine = a.along_x * b.along_x + a.along_y * b.along_y
     if math.atan2(abs(sine), cosine) < settings.corner_angle or abs(sine) < 1e-3:
-        return -1, 0.0, 0.0
+        return FLAT, 0.0, 0.0
     past_a = (gap_x * b.along_y - gap_y * b.along_x) / sine
     past_b = (gap_x * a.along_y - gap_y * a.along_x) / sine
     if abs(past_a) > reach or abs(past_b) > reach:
-        return -1, 0.0, 0.0
+        return ASTRAY, 0.0, 0.0
     kind = OUTER if sine > 0.0 else INNER
     return kind, a.end_x + past_a * a.along_x, a.end_y + past_a * a.along_y
+
+
+@njit(cache=True, error_model="numpy")
+def write_potential(
+    found: int,
+    x: float,
+    y: float,
+    ending: int,
+    starting: int,
+    count: int,
+    settings: Any,
+    scratch: Any,
+    corners: np.ndarray,
+) -> int:
+    """Append a potential corner unless there is one at its place; returns how many there are."""
+    if meets_near(x, y, count, settings, scratch):
+        return found
+    for k in range(found):
+        if is_same_place(corners[k].x - x, corners[k].y - y, settings):
+            return found
+    return write_corner(found, x, y, POTENTIAL, ending, starting, scratch, corners)
 
 
 @njit(cache=True, error_model="numpy")

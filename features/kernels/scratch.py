@@ -32,30 +32,46 @@ CANDIDATE = np.dtype(
 JAMB = np.dtype([("x", "f8"), ("y", "f8"), ("beam", "i8"), ("piece", "i8")])
 """A possible jamb: an end of a piece, and the beam that saw it."""
 
+JOINT = np.dtype(
+    [("x", "f8"), ("y", "f8")] + [(name, "i8") for name in ("kind", "partner", "start_meets")]
+)
+"""The full corner at the end of a wall: place, kind and the wall that starts there, or -1; and
+whether the wall's own start is part of one."""
+
 JAMBS, DOOR_CANDIDATES = 1024, 128
 """Entries beyond these are left out, in beam order."""
+
+
+MISSING = 10
+"""A full circle may lack so many beams: the most that `dropout_beams` allows."""
 
 
 class Scratch(NamedTuple):
     """Working memory for scans of up to n beams; contents do not matter between calls.
 
     Attributes:
-        xs: x of the valid points in beam order, metres, shape (n,).
-        ys: y of the valid points, shape (n,).
-        beams: their beam indices, shape (n,).
+        ring_ranges: a full circle unrolled twice over, shape (2 n,), n beams and `MISSING` more.
+        ring_directions: cosine and sine of its beams, shape (2 n, 2).
+        xs: x of the valid points in beam order, metres, shape (2 n,): in a full circle those of
+            the first half turn come once more.
+        ys: y of the valid points, shape (2 n,).
+        beams: their beam indices, shape (2 n,).
         group_first: first point of each connected group, shape (n + 1,).
         stack: split points still to be visited, shape (n,).
         table: sums and costs of one group's points, for `kernels.dynamic`, shape (n + 1, 8).
         vertices: the break points of one group, shape (n + 1,).
-        pieces: straight pieces, dtype `PIECE`, shape (n,).
+        pieces: straight pieces, dtype `PIECE`, shape (2 n,).
         start_jambs: where an opening may start, dtype `JAMB`.
         end_jambs: where an opening may end, dtype `JAMB`.
         candidates: possible doors, dtype `CANDIDATE`.
         wall_piece: the piece of each wall, shape of the wall array.
         near_pieces: the pieces of the walls near a corner, shape of the wall array.
+        joints: the corner at the end of each wall, dtype `JOINT`, shape of the wall array.
         corner_ends: the walls that end and start at each corner or -1, two columns.
     """
 
+    ring_ranges: FloatArray
+    ring_directions: FloatArray
     xs: FloatArray
     ys: FloatArray
     beams: NDArray[np.int64]
@@ -69,6 +85,7 @@ class Scratch(NamedTuple):
     candidates: np.ndarray
     wall_piece: NDArray[np.int64]
     near_pieces: NDArray[np.int64]
+    joints: np.ndarray
     corner_ends: NDArray[np.int64]
 
 
@@ -94,20 +111,24 @@ class Features(NamedTuple):
 
 def allocate_scratch(beams: int) -> Scratch:
     """Working memory for scans of up to that many beams."""
+    beams += MISSING
     return Scratch(
-        xs=np.zeros(beams),
-        ys=np.zeros(beams),
-        beams=np.zeros(beams, np.int64),
+        ring_ranges=np.zeros(2 * beams),
+        ring_directions=np.zeros((2 * beams, 2)),
+        xs=np.zeros(2 * beams),
+        ys=np.zeros(2 * beams),
+        beams=np.zeros(2 * beams, np.int64),
         group_first=np.zeros(beams + 1, np.int64),
         stack=np.zeros(beams, np.int64),
         table=np.zeros((beams + 1, 8)),
         vertices=np.zeros(beams + 1, np.int64),
-        pieces=np.zeros(beams, PIECE),
+        pieces=np.zeros(2 * beams, PIECE),
         start_jambs=np.zeros(JAMBS, JAMB),
         end_jambs=np.zeros(JAMBS, JAMB),
         candidates=np.zeros(DOOR_CANDIDATES, CANDIDATE),
         wall_piece=np.zeros(CAPACITY["walls"], np.int64),
         near_pieces=np.zeros(CAPACITY["walls"], np.int64),
+        joints=np.zeros(CAPACITY["walls"], JOINT),
         corner_ends=np.zeros((CAPACITY["corners"], 2), np.int64),
     )
 

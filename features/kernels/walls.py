@@ -101,9 +101,19 @@ def prefers_second(first: Any, second: Any, x: float, y: float) -> bool:
 
 @njit(cache=True, error_model="numpy")
 def flag_pieces(
-    ranges: FloatArray, range_min: float, limit: float, groups: int, count: int, scratch: Any
+    ranges: FloatArray,
+    range_min: float,
+    limit: float,
+    turn: int,
+    groups: int,
+    count: int,
+    scratch: Any,
 ) -> None:
-    """Set the flags of pieces at the ends of groups: rupture (2.1) or break (2.2)."""
+    """Set the flags of pieces at the ends of groups: rupture (2.1) or break (2.2).
+
+    In a full circle of `turn` beams, which `ranges` holds twice, the last beam comes before the
+    first one; else turn is 0.
+    """
     pieces, beams, group_first = scratch.pieces, scratch.beams, scratch.group_first
     group = 0
     for k in range(count):
@@ -111,6 +121,7 @@ def flag_pieces(
         while piece.first >= group_first[group + 1]:
             group += 1
         before, after = beams[piece.first] - 1, beams[piece.last] + 1
+        before = before + turn if before < 0 and turn > 0 else before
         piece.flags = 0
         if piece.first == group_first[group] and before >= 0:
             seen = is_return(ranges[before], range_min, limit)

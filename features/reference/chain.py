@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from semnav_env.features.kernels.walls import point_variance
 from semnav_env.features.reference.corners import find_corners
 from semnav_env.features.reference.corridors import find_corridors
 from semnav_env.features.reference.doors import find_doors
 from semnav_env.features.reference.merging import merge_pieces
+from semnav_env.features.reference.ring import (
+    beams_of_turn,
+    close_seam,
+    find_seam,
+    repeat_pieces,
+    unroll,
+)
 from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.reference.walls import Piece, find_pieces, is_wall
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Corner, Scene, Wall
 from semnav_env.features.settings import ExtractorSettings
+
+_PER_BEAM = ("ranges", "directions", "returned")
 
 
 def extract_reference(scan: Scan, settings: ExtractorSettings | None = None) -> Scene:
@@ -27,16 +37,33 @@ def extract_reference(scan: Scan, settings: ExtractorSettings | None = None) -> 
         The scene in the lidar frame.
     """
     settings = settings or ExtractorSettings()
-    sweep = Sweep.of(scan, settings)
-    pieces = merge_pieces(find_pieces(sweep, settings), settings)
+    sweep, pieces = _unrolled(Sweep.of(scan, settings), settings)
     walls = [piece for piece in pieces if is_wall(piece, settings)]
-    corners = find_corners(walls, settings)
+    around = repeat_pieces(pieces, sweep.turn)
+    corners = find_corners(walls, sweep.is_ring, settings)
     return Scene(
         walls=tuple(_wall(piece, settings) for piece in walls),
-        doors=tuple(find_doors(sweep, pieces, settings)),
+        doors=tuple(find_doors(sweep, around, settings)),
         corners=tuple(Corner(found.point, found.kind) for found in corners),
         corridors=tuple(find_corridors(sweep, walls, corners, settings)),
     )
+
+
+def _unrolled(sweep: Sweep, settings: ExtractorSettings) -> tuple[Sweep, list[Piece]]:
+    """The sweep and its pieces; of a full circle, unrolled where no wall is cut."""
+    turn = beams_of_turn(sweep, settings)
+    once = replace(sweep, **{n: getattr(sweep, n)[: turn or None] for n in _PER_BEAM})
+    pieces = _pieces(once, settings)
+    if turn == 0:
+        return sweep, pieces
+    seam, is_break = find_seam(pieces)
+    ring = unroll(sweep, turn, seam)
+    pieces = _pieces(ring, settings)
+    return ring, pieces if is_break else close_seam(pieces)
+
+
+def _pieces(sweep: Sweep, settings: ExtractorSettings) -> list[Piece]:
+    return merge_pieces(find_pieces(sweep, settings), settings)
 
 
 def _wall(piece: Piece, settings: ExtractorSettings) -> Wall:

@@ -1,14 +1,14 @@
-"""Corners: where neighbouring walls meet, and where a wall may turn out of sight."""
+"""Corners: where two walls meet, and where a wall may turn out of sight."""
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.features.frames import Point
+from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.corners import NEXT_WALLS
 from semnav_env.features.reference.walls import Piece
 from semnav_env.features.scene import CornerKind
 from semnav_env.features.settings import ExtractorSettings
@@ -24,20 +24,55 @@ class FoundCorner:
     starting: Piece | None
 
 
-def find_corners(walls: list[Piece], settings: ExtractorSettings) -> list[FoundCorner]:
-    """Full corners between neighbours and potential corners at loose ends, in beam order."""
-    joints = [_full_corner(a, b, settings) for a, b in itertools.pairwise(walls)]
+def find_corners(
+    walls: list[Piece], is_ring: bool, settings: ExtractorSettings
+) -> list[FoundCorner]:
+    """Full corners where walls meet and potential corners at loose ends, in beam order."""
+    joints = _joints(walls, is_ring, settings)
+    met = {id(joint.starting) for joint in joints.values()}
+    taken = [joint.point for joint in joints.values()]
     corners: list[FoundCorner] = []
-    for wall, before, after in zip(walls, [None, *joints], [*joints, None], strict=False):
-        if before is None and (wall.start_break or wall.start_rupture):
-            x, y = wall.start.tolist()
-            corners.append(FoundCorner((x, y), CornerKind.POTENTIAL, None, wall))
-        if after is not None:
-            corners.append(after)
+    for k, wall in enumerate(walls):
+        if id(wall) not in met and (wall.start_break or wall.start_rupture):
+            _add_potential(wall.start, None, wall, taken, corners, settings)
+        if k in joints:
+            corners.append(joints[k])
         elif wall.end_break or wall.end_rupture:
-            x, y = wall.end.tolist()
-            corners.append(FoundCorner((x, y), CornerKind.POTENTIAL, wall, None))
+            _add_potential(wall.end, wall, None, taken, corners, settings)
     return corners
+
+
+def _joints(
+    walls: list[Piece], is_ring: bool, settings: ExtractorSettings
+) -> dict[int, FoundCorner]:
+    """The full corner at the end of each wall that has one."""
+    joints: dict[int, FoundCorner] = {}
+    for step in range(1, min(NEXT_WALLS, len(walls) - 1) + 1):
+        for k in range(len(walls) if is_ring else len(walls) - step):
+            other = walls[(k + step) % len(walls)]
+            if k in joints or any(joint.starting is other for joint in joints.values()):
+                continue
+            corner = _full_corner(walls[k], other, settings)
+            if corner and _is_free(corner.point, [j.point for j in joints.values()], settings):
+                joints[k] = corner
+    return joints
+
+
+def _add_potential(
+    place: FloatArray,
+    ending: Piece | None,
+    starting: Piece | None,
+    taken: list[Point],
+    corners: list[FoundCorner],
+    settings: ExtractorSettings,
+) -> None:
+    x, y = place.tolist()
+    if _is_free((x, y), [*taken, *(corner.point for corner in corners)], settings):
+        corners.append(FoundCorner((x, y), CornerKind.POTENTIAL, ending, starting))
+
+
+def _is_free(point: Point, taken: list[Point], settings: ExtractorSettings) -> bool:
+    return all(math.dist(point, other) >= settings.corner_fuse for other in taken)
 
 
 def corner_kind(before: Point, corner: Point, after: Point) -> CornerKind:

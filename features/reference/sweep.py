@@ -16,7 +16,7 @@ from semnav_env.features.settings import ExtractorSettings
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """At most one full turn of a scan.
+    """At most one full turn of a scan, or a full circle unrolled twice over.
 
     Attributes:
         ranges: metres, shape (n,).
@@ -24,6 +24,7 @@ class Sweep:
         returned: which beams have a usable return, shape (n,).
         increment: angle between beams, radians.
         angle_min: direction of beam 0, radians.
+        turn: how many beams a circle has that is unrolled; else 0.
     """
 
     ranges: FloatArray
@@ -31,6 +32,7 @@ class Sweep:
     returned: NDArray[np.bool_]
     increment: float
     angle_min: float
+    turn: int = 0
 
     @classmethod
     def of(cls, scan: Scan, settings: ExtractorSettings) -> Sweep:
@@ -42,6 +44,11 @@ class Sweep:
         returned = scan.valid[: len(ranges)] & (ranges > 0.0) & (ranges < settings.rupture_range)
         return cls(ranges, directions, returned, scan.angle_increment, scan.angle_min)
 
+    @property
+    def is_ring(self) -> bool:
+        """Whether the first beam comes after the last one."""
+        return self.turn > 0
+
     def points(self, beams: list[int]) -> FloatArray:
         """Where beams ended (1.2), shape (k, 2)."""
         return self.ranges[beams, None] * self.directions[beams]
@@ -49,7 +56,7 @@ class Sweep:
     def connected_groups(self, settings: ExtractorSettings) -> list[list[int]]:
         """Beams that returned, cut at ruptures and adaptive breakpoints."""
         groups: list[list[int]] = []
-        for beam in map(int, np.flatnonzero(self.returned)):
+        for beam in map(int, np.flatnonzero(self.returned[: self.turn or None])):
             if groups and self._joined(groups[-1][-1], beam, settings):
                 groups[-1].append(beam)
             else:

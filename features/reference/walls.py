@@ -154,6 +154,7 @@ def _settled(
 
 def _flagged(sweep: Sweep, group: list[int], beams: list[int]) -> Piece:
     before, after = beams[0] - 1, beams[-1] + 1
+    before = before + sweep.turn if before < 0 else before
     starts = beams[0] == group[0] and before >= 0
     ends = beams[-1] == group[-1] and after < len(sweep.ranges)
     return Piece(
