@@ -121,10 +121,17 @@ def _check_ranges(ranges: ArrayLike, range_max: float) -> FloatArray:
     if len(raw) == 0:
         raise ValueError("ranges are empty; a scan has at least one beam")
     array: FloatArray = raw.astype(np.float64)
-    returns = array[np.isfinite(array) & (array > 0)]
-    if len(returns) and np.median(returns) > 20.0 * range_max:
+    _check_unit(array, range_max)
+    return array
+
+
+def _check_unit(ranges: FloatArray, range_max: float) -> None:
+    far = 20.0 * range_max
+    if not (ranges > far).any():  # spares most scans the median
+        return
+    returns = ranges[np.isfinite(ranges) & (ranges > 0)]
+    if len(returns) and np.median(returns) > far:
         raise ValueError(
             f"ranges have a median of {np.median(returns):.0f} but range_max is {range_max} m; "
             "they look like millimetres: divide them by 1000"
         )
-    return array

@@ -213,6 +213,28 @@ def test_a_flipped_byte_costs_at_most_what_follows_it(tmp_path, kind, place, mas
     assert len(records) <= 20
 
 
+@pytest.mark.parametrize(("kind", "compression"), COMPRESSIONS)
+@pytest.mark.parametrize("index", ["with", "without"])
+def test_damage_to_compressed_data_is_one_error(tmp_path, kind, compression, index):
+    path = storage(BagFile(kind, sweeps(300, 300), compression).write(tmp_path))
+    data = bytearray(path.read_bytes())
+    middle = len(data) // 2
+    data[middle : middle + 200] = bytes(200)
+    path.write_bytes(data if index == "with" else data[: len(data) * 3 // 4])
+    with pytest.raises(LogError, match=r"truncated or damaged|no laser scan"):
+        read(path)
+
+
+def test_a_bag_of_compressed_files_is_read_by_its_folder(tmp_path):
+    bag = BagFile("sqlite3", sweeps(4), "file").write(tmp_path)
+    assert len(read(bag)[0]) == 4
+    with pytest.raises(LogError, match="compressed as a whole"):
+        open_log(storage(bag))
+    storage(bag).write_bytes(storage(bag).read_bytes()[:100])
+    with pytest.raises(LogError, match=r"damaged, or without its metadata\.yaml"):
+        open_log(bag)
+
+
 @pytest.mark.parametrize("kind", ["sqlite3", "mcap"])
 def test_a_folder_whose_file_is_cut_short_gives_what_is_readable(tmp_path, kind):
     bag = BagFile(kind, sweeps(900, 900)).write(tmp_path)

@@ -52,9 +52,9 @@ class StreamedBag:
         for messages, file in self._files:
             try:  # damaged bytes raise whatever the parser of the moment stumbles over
                 yield from messages(file)
-            except OSError:
-                raise
-            except Exception:
+            except Exception as error:
+                if getattr(error, "errno", None):
+                    raise
                 damaged = True
         if damaged:
             raise DamageError
@@ -64,6 +64,11 @@ def _storage_files(path: Path) -> list[Path]:
     if not path.is_dir():
         return [path]
     files = [file for suffix in ("*.db3", "*.mcap") for file in path.glob(suffix)]
+    if packed := next(path.glob("*.zst*"), None):
+        raise LogError(
+            f"{packed} cannot be read: it is damaged, or without its metadata.yaml; decompress it "
+            "with zstd -d"
+        )
     if not files:
         raise LogError(f"{path} is a directory without a bag; expected .db3 or .mcap files in it")
     return sorted(files, key=lambda file: (len(file.name), file.name))
