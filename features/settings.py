@@ -79,6 +79,7 @@ class ExtractorSettings:
         arc_radius_max: flattest curved wall, metres.
         arc_extent_min: smallest angle that an arc spans about its centre, radians.
         arc_beams: fewest beams of an arc.
+        arc_residual: largest root mean square distance of the points of an arc, metres.
         corner_angle: smallest turn between two walls that is a corner, radians (thesis: 50
             degrees; Weerakoon et al.: 30).
         corner_gap: walls are extended this far to their corner, metres; their ends may be twice
@@ -133,6 +134,7 @@ class ExtractorSettings:
     arc_radius_max: float = 10.0
     arc_extent_min: float = math.radians(60.0)
     arc_beams: int = 8
+    arc_residual: float = 0.03
     corner_angle: float = math.radians(50.0)
     corner_gap: float = 0.3
     corner_fuse: float = 0.1

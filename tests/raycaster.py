@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from semnav_env.features import Scan
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.maps import load_floor_plan
 
 FIELD_OF_VIEW = math.radians(270.0)
@@ -39,6 +40,18 @@ def cast(segments: FloatArray, pose: Pose, angles: FloatArray) -> FloatArray:
     return np.where(hit, distance, np.inf).min(axis=1)
 
 
+def cast_circle(centre: Point, radius: float, pose: Pose, angles: FloatArray) -> FloatArray:
+    """Distance to a circle along every beam: its near side, or its far side from within."""
+    directions = np.stack((np.cos(angles + pose[2]), np.sin(angles + pose[2])), axis=1)
+    away = np.array(centre) - np.array(pose[:2])
+    along = directions @ away
+    square = along**2 - (away @ away - radius**2)
+    half = np.sqrt(np.where(square >= 0.0, square, np.nan))
+    near, far = along - half, along + half
+    distance = np.where(near > 0.0, near, far)
+    return np.where(distance > 0.0, distance, np.inf)
+
+
 def scan_of(
     segments: FloatArray,
     pose: Pose,
@@ -47,10 +60,17 @@ def scan_of(
     sigma: float = 0.0,
     rng: np.random.Generator | None = None,
     range_max: float = 10.0,
+    circles: Sequence[tuple[Point, float]] = (),
 ) -> Scan:
-    """A scan with the scanner at `pose`, x forward, and normal noise if a generator is given."""
+    """A scan with the scanner at `pose`, x forward, and normal noise if a generator is given.
+
+    Besides the segments it sees circles, given by centre and radius.
+    """
     increment = field_of_view / (beams - 1)
-    ranges = cast(segments, pose, -field_of_view / 2 + increment * np.arange(beams))
+    angles = -field_of_view / 2 + increment * np.arange(beams)
+    ranges = cast(segments, pose, angles)
+    for centre, radius in circles:
+        ranges = np.minimum(ranges, cast_circle(centre, radius, pose, angles))
     if rng is not None:
         ranges = ranges + rng.normal(0.0, sigma, beams)
     return Scan(ranges, -field_of_view / 2, increment, range_max=range_max)

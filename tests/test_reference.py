@@ -30,6 +30,8 @@ def assert_same(scene: Scene, expected: Scene) -> None:
         assert wall.beams == other.beams
         assert (wall.start_rupture, wall.end_rupture) == (other.start_rupture, other.end_rupture)
         assert (wall.start_break, wall.end_break) == (other.start_break, other.end_break)
+    for arc, same in zip(scene.arcs, expected.arcs, strict=True):
+        assert (arc.convex, arc.beams) == (same.convex, same.beams)
     assert [c.kind for c in scene.corners] == [c.kind for c in expected.corners]
 
 
@@ -39,6 +41,7 @@ def _places(scene: Scene) -> list[list[tuple[float, ...]]]:
         [(*door.start, *door.end) for door in scene.doors],
         [corner.point for corner in scene.corners],
         [(*corridor.start, *corridor.end) for corridor in scene.corridors],
+        [(*arc.centre, arc.radius, *arc.start, *arc.end, arc.residual) for arc in scene.arcs],
     ]
 
 
@@ -79,6 +82,19 @@ def test_kernels_agree_with_the_reference_on_awkward_scans(scan: Scan, seed: int
     unequal = scan.ranges * (1.0 + np.random.default_rng(seed).uniform(0.0, 1e-3, len(scan.ranges)))
     scan = Scan(unequal, scan.angle_min, scan.angle_increment)  # no ties, which rounding decides
     assert_same(extract(scan, STRAIGHT), extract_reference(scan, STRAIGHT))
+
+
+@settings(max_examples=40, deadline=None)
+@given(rooms(), seeds, st.floats(0.1, 1.0), st.sampled_from([0.005, 0.02, 0.04]))
+def test_kernels_agree_with_the_reference_on_columns(
+    room: Room, seed: int, radius: float, sigma: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    centre = (rng.uniform(0.0, room.width), rng.uniform(0.0, room.height))
+    within = math.dist(centre, room.pose[:2]) < 1.01 * radius
+    circles = [(centre, 3.0 * radius if within else radius)]
+    scan = scan_of(room.segments, room.pose, sigma=sigma, rng=rng, circles=circles)
+    assert_same(extract(scan), extract_reference(scan))
 
 
 @pytest.mark.parametrize("one_sided", [True, False])

@@ -18,7 +18,7 @@ from semnav_env.features.kernels.circles import (
 )
 from semnav_env.features.kernels.layout import ROUND
 from semnav_env.features.kernels.lines import offset
-from semnav_env.features.kernels.round_runs import SOLID, end_of_run, is_bowed, is_lonely
+from semnav_env.features.kernels.round_runs import end_of_run, is_bowed, is_lonely
 
 NEAR = 3.0
 """Points within so many standard deviations of a circle may belong to it."""
@@ -39,6 +39,9 @@ def find_arcs(
     """
     found = first = 0
     while settings.arcs and first < pieces:
+        if scratch.pieces[first].flags & ROUND:
+            first += 1
+            continue
         last, turn = end_of_run(first, pieces, settings, scratch.pieces)
         before = found
         if is_bowed(first, last, turn, settings, scratch):
@@ -68,6 +71,10 @@ def explain_run(
     start, height = first, 1
     while height > 0 and found < len(arcs):
         end = stack[height - 1]
+        if start > end or scratch.pieces[start].flags & ROUND:
+            height -= start > end
+            start += start <= end
+            continue
         worst = 0
         if end > start or is_lonely(scratch.pieces[start], settings):
             worst = try_arc(directions, groups, count, start, end, settings, scratch, arcs[found])
@@ -109,17 +116,13 @@ def try_arc(
     xs, ys, pieces = scratch.xs, scratch.ys, scratch.pieces
     first, last = pieces[start].first, pieces[end].last
     circle = algebraic_circle(xs, ys, first, last)
-    low, high = free_points(start, end, groups, count, scratch)
-    near = NEAR * settings.sigma
-    while first > low and abs(beyond(circle, xs[first - 1], ys[first - 1])) <= near:
-        first -= 1
-    while last < high and abs(beyond(circle, xs[last + 1], ys[last + 1])) <= near:
-        last += 1
+    start, first = grow(circle, start, first, -1, groups, count, settings, scratch)
+    end, last = grow(circle, end, last, 1, groups, count, settings, scratch)
     before = after = NO_RAY
     if bulges(circle, xs[(first + last) // 2], ys[(first + last) // 2]):
         before = edge_ray(first, -1, directions, groups, settings, scratch)
         after = edge_ray(last, 1, directions, groups, settings, scratch)
-    circle = refine_circle(xs, ys, first, last, circle, settings.sigma, before, after)
+    circle = refine_circle(xs, ys, first, last, circle, before, after)
     scatter, worst = circle_residuals(xs, ys, first, last, circle)
     straight = straight_scatter(start, end, first, last, scratch)
     write_arc(circle, first, last, scatter, scratch, arc)
@@ -131,33 +134,57 @@ def try_arc(
 
 
 @njit(cache=True, error_model="numpy")
-def beyond(circle: tuple[float, float, float], x: float, y: float) -> float:
-    """Signed distance of a point outside a circle, metres."""
-    return math.hypot(x - circle[0], y - circle[1]) - circle[2]
-
-
-@njit(cache=True, error_model="numpy")
 def bulges(circle: tuple[float, float, float], x: float, y: float) -> bool:
     """Whether a circle bulges towards the scanner at its point (x, y)."""
     return (circle[0] - x) * x + (circle[1] - y) * y > 0.0
 
 
 @njit(cache=True, error_model="numpy")
-def free_points(start: int, end: int, groups: int, count: int, scratch: Any) -> tuple[int, int]:
-    """First and last point that a run may grow to: in its group, on no other solid piece."""
+def grow(
+    circle: tuple[float, float, float],
+    piece: int,
+    point: int,
+    step: int,
+    groups: int,
+    count: int,
+    settings: Any,
+    scratch: Any,
+) -> tuple[int, int]:
+    """Add points beside a run, backwards (step -1) or onwards (1), while they lie on the circle.
+
+    It stays in the group of the run, and takes the points of another piece only all together: a
+    curved wall may end in a straight one. One bad point does not end it, two in a row do.
+
+    Returns:
+        The outermost piece and the outermost point.
+    """
     pieces, bounds = scratch.pieces, scratch.group_first[: groups + 1]
-    low = bounds[np.searchsorted(bounds, pieces[start].first, side="right") - 1]
-    high = bounds[np.searchsorted(bounds, pieces[end].last, side="right")] - 1
-    before, after = start - 1, end + 1
-    while before >= 0 and pieces[before].points < SOLID:
-        before -= 1
-    while after < count and pieces[after].points < SOLID:
-        after += 1
-    if before >= 0:
-        low = max(low, pieces[before].last + 1)
-    if after < count:
-        high = min(high, pieces[after].first - 1)
-    return low, high
+    group = np.searchsorted(bounds, point, side="right")
+    border = bounds[group - 1] if step < 0 else bounds[group] - 1
+    taken, reached, i, was_on = piece, point, point, True
+    while i != border:
+        i += step
+        on = is_on(circle, scratch.xs[i], scratch.ys[i], settings)
+        if not on and not was_on:
+            break
+        was_on = on
+        beside = taken + step
+        if 0 <= beside < count and pieces[beside].first <= i <= pieces[beside].last:
+            if i != (pieces[beside].first if step < 0 else pieces[beside].last):
+                continue
+            if pieces[beside].flags & ROUND:
+                break
+            taken = beside
+        if on:
+            reached = i
+    return taken, reached
+
+
+@njit(cache=True, error_model="numpy")
+def is_on(circle: tuple[float, float, float], x: float, y: float, settings: Any) -> bool:
+    """Whether a point is as near to a circle as noise lets its points be."""
+    distance = math.hypot(x - circle[0], y - circle[1]) - circle[2]
+    return bool(abs(distance) <= NEAR * settings.sigma)
 
 
 @njit(cache=True, error_model="numpy")
@@ -188,8 +215,9 @@ def edge_ray(
     # |d1 - d2| of unit vectors is the angle between them, well enough for neighbouring beams
     gap_x = directions[beams[point], 0] - directions[beam, 0]
     gap_y = directions[beams[point], 1] - directions[beam, 1]
-    variance = square * (gap_x * gap_x + gap_y * gap_y) / 12.0 + (EDGE_ERROR * settings.sigma) ** 2
-    return step * y / size, -step * x / size, 1.0 / variance
+    noise = settings.sigma * settings.sigma
+    variance = square * (gap_x * gap_x + gap_y * gap_y) / 12.0 + EDGE_ERROR * EDGE_ERROR * noise
+    return step * y / size, -step * x / size, noise / variance
 
 
 @njit(cache=True, error_model="numpy")
@@ -246,7 +274,7 @@ def is_arc(arc: Any, straight: float, lines: int, settings: Any) -> bool:
         (arc.points >= settings.arc_beams)
         & (arc.radius >= settings.arc_radius_min)
         & (arc.radius <= settings.arc_radius_max)
-        & (arc.residual <= settings.confidence * settings.sigma)
+        & (arc.residual <= settings.arc_residual)
         & (extent(arc) >= settings.arc_extent_min)
         & (gain + (3.0 * lines - 1.0 - 3.0) * math.log(n) > 0.0)
     )

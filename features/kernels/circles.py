@@ -10,8 +10,8 @@ from numba import njit
 from semnav_env.features.frames import FloatArray
 
 Ray: TypeAlias = tuple[float, float, float]
-"""A ray that touches a circle: its unit normal towards the centre and its weight, 1 / metres^2
-(variance of the distance at which it passes); a weight of 0 says nothing."""
+"""A ray that touches a circle: its unit normal towards the centre, and its weight, the variance of
+a range over that of the distance at which the ray passes; with a weight of 0 it says nothing."""
 
 NO_RAY = (0.0, 0.0, 0.0)
 ROOT_STEPS = 8
@@ -83,17 +83,16 @@ def refine_circle(
     first: int,
     last: int,
     circle: tuple[float, float, float],
-    sigma: float,
     start: Ray,
     end: Ray,
 ) -> tuple[float, float, float]:
     """Gauss-Newton steps towards the circle with the least weighted squared distances.
 
-    The error of a range lies along its beam, so across the circle it is sigma times the cosine
+    The error of a range lies along its beam, so across the circle it is smaller by the cosine
     of the incidence: a point at the edge of a column tells its width better than one in front.
     """
     for _ in range(REFINEMENTS):
-        circle = gauss_newton(xs, ys, first, last, circle, sigma, start, end)
+        circle = gauss_newton(xs, ys, first, last, circle, start, end)
     return circle
 
 
@@ -104,7 +103,6 @@ def gauss_newton(
     first: int,
     last: int,
     circle: tuple[float, float, float],
-    sigma: float,
     start: Ray,
     end: Ray,
 ) -> tuple[float, float, float]:
@@ -117,7 +115,7 @@ def gauss_newton(
         ux, uy = dx / size, dy / size
         along = ux * xs[i] + uy * ys[i]
         incidence = along * along / (xs[i] * xs[i] + ys[i] * ys[i])
-        weight = 1.0 / ((incidence + LEAST_COSINE) * sigma * sigma)
+        weight = 1.0 / (incidence + LEAST_COSINE)
         wx, wy, error = weight * ux, weight * uy, size - radius
         xx += wx * ux
         xy += wx * uy

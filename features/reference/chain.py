@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 
 from semnav_env.features.kernels.walls import point_variance
+from semnav_env.features.reference.arcs import find_arcs
 from semnav_env.features.reference.corners import find_corners
 from semnav_env.features.reference.corridors import find_corridors
 from semnav_env.features.reference.doors import find_doors
@@ -38,6 +39,7 @@ def extract_reference(scan: Scan, settings: ExtractorSettings | None = None) -> 
     """
     settings = settings or ExtractorSettings()
     sweep, pieces = _unrolled(Sweep.of(scan, settings), settings)
+    arcs, pieces = find_arcs(sweep, pieces, settings)
     walls = [piece for piece in pieces if is_wall(piece, settings)]
     around = repeat_pieces(pieces, sweep.turn)
     corners = find_corners(walls, sweep.is_ring, settings)
@@ -46,6 +48,7 @@ def extract_reference(scan: Scan, settings: ExtractorSettings | None = None) -> 
         doors=tuple(find_doors(sweep, around, settings)),
         corners=tuple(Corner(found.point, found.kind) for found in corners),
         corridors=tuple(find_corridors(sweep, walls, corners, settings)),
+        arcs=tuple(arcs),
     )
 
 

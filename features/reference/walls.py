@@ -15,7 +15,10 @@ from semnav_env.features.settings import ExtractorSettings
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """Points on one line and their total least squares fit; flags as in `Wall`."""
+    """Points on one line and their total least squares fit; flags as in `Wall`.
+
+    One that `is_round` is part of an arc and so no wall.
+    """
 
     beams: list[int]
     points: FloatArray
@@ -23,6 +26,7 @@ class Piece:
     end_rupture: bool = False
     start_break: bool = False
     end_break: bool = False
+    is_round: bool = False
 
     @cached_property
     def mean(self) -> FloatArray:
@@ -90,8 +94,9 @@ def find_pieces(sweep: Sweep, settings: ExtractorSettings) -> list[Piece]:
 
 
 def is_wall(piece: Piece, settings: ExtractorSettings) -> bool:
-    """Whether a piece is long and dense enough."""
-    return len(piece.beams) >= settings.wall_beams and piece.length >= settings.wall_length
+    """Whether a piece is straight, long and dense enough."""
+    enough = len(piece.beams) >= settings.wall_beams and piece.length >= settings.wall_length
+    return enough and not piece.is_round
 
 
 def _cuts(points: FloatArray, first: int, last: int, limit: float) -> list[int]:
