@@ -15,6 +15,7 @@ INSTALLED = {
     layer: "semnav_env" if layer == "semnav_env" else f"semnav_env.{layer}" for layer in LAYERS
 }
 MAY_NEED = {
+    "features/mapping": {"scipy"},
     "features/plot.py": {"matplotlib"},
     "features/readers": {"rosbags", "lz4", "backports", "compression"},
 }

@@ -1,5 +1,7 @@
-"""From many scans to poses and maps: scan matching."""
+"""From many scans to poses and maps: scan matching, odometry without wheels, line maps."""
 
+from semnav_env.features.mapping.line_map import LineMap
+from semnav_env.features.mapping.map_settings import MapSettings
 from semnav_env.features.mapping.matching import (
     Match,
     MatchError,
@@ -8,12 +10,17 @@ from semnav_env.features.mapping.matching import (
     match_surfaces,
     surface_of,
 )
+from semnav_env.features.mapping.odometry import KeyframeRule, ScanOdometry
 from semnav_env.features.mapping.settings import MatchSettings
 
 __all__ = [
+    "KeyframeRule",
+    "LineMap",
+    "MapSettings",
     "Match",
     "MatchError",
     "MatchSettings",
+    "ScanOdometry",
     "Surface",
     "match_scans",
     "match_surfaces",

@@ -1,0 +1,58 @@
+"""Every limit of the line map, with its unit."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+
+@dataclass(frozen=True)
+class MapSettings:
+    """Limits of `LineMap`. Lengths in metres, angles in radians.
+
+    Attributes:
+        position: standard deviation of a scan's pose, metres.
+        angle: standard deviation of its heading, radians.
+        least_move: a scan is added if the scanner has moved so far since the last, metres ...
+        least_turn: ... or turned so far, radians.
+        confidence: lines may be one if they differ by no more than so many standard deviations
+            and what the next two allow.
+        angle_tolerance: walls are not quite straight, radians.
+        offset_tolerance: nor quite flat, metres.
+        gap: of two stretches of one line that are farther apart nothing is known in between: they
+            stay two walls, metres. Narrower than anything that a robot passes.
+        wall_hits: a piece of wall counts when beams of so many scans ended on it.
+        wall_length: shortest wall, metres.
+        wall_reach: walls are taken from scenes up to this distance from the scanner, metres.
+        door_jamb: two sightings are one door if both jambs agree to this, metres.
+        door_reach: doors are taken from scenes up to this distance, metres.
+        door_sightings: a door counts when it was seen so often ...
+        door_share: ... and in at least this share of the scans that looked through its opening.
+        door_open: share of its opening through which beams pass.
+
+    Raises:
+        ValueError: a limit is negative or not finite; names it.
+    """
+
+    position: float = 0.02
+    angle: float = math.radians(0.3)
+    least_move: float = 0.1
+    least_turn: float = math.radians(5.0)
+    confidence: float = 3.0
+    angle_tolerance: float = math.radians(2.0)
+    offset_tolerance: float = 0.03
+    gap: float = 0.3
+    wall_hits: int = 3
+    wall_length: float = 0.2
+    wall_reach: float = 8.0
+    door_jamb: float = 0.35
+    door_reach: float = 5.0
+    door_sightings: int = 3
+    door_share: float = 0.1
+    door_open: float = 0.6
+
+    def __post_init__(self) -> None:
+        for limit in fields(self):
+            value = getattr(self, limit.name)
+            if not 0 <= value < math.inf:
+                raise ValueError(f"{limit.name} is {value}; it must be finite and at least 0")

@@ -1,0 +1,261 @@
+"""Maps of lines: what is one wall, where it has gaps, and what proves false."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely import LineString, box
+
+from semnav_env.features import Scene, extract
+from semnav_env.features.elements import Wall
+from semnav_env.features.frames import compose, to_parent
+from semnav_env.features.mapping import LineMap, MapSettings, ScanOdometry
+from semnav_env.features.mapping.doubles import without_doubles
+from semnav_env.features.mapping.lines import Line, Overlap, fuse, gap, line_of, overlap
+from semnav_env.lidar import Lidar
+from semnav_env.maps import FloorPlan, Surface, load_floor_plan
+
+small = st.floats(-0.02, 0.02)
+metres = st.floats(-5.0, 5.0)
+variances = st.floats(1e-6, 1e-2)
+lines = st.builds(Line, small, small, small, variances, variances)
+poses = st.tuples(metres, metres, st.floats(-math.pi, math.pi))
+OFFICE = load_floor_plan("office_cross")
+
+
+def plan_of(*walls):
+    surfaces = tuple(Surface(points) for points in walls)
+    return FloorPlan("made", surfaces, (), (), (), (), box(-100.0, -100.0, 100.0, 100.0))
+
+
+def mapped(plan, views, every=1, rounds=3, sigma=0.01, line_map=None):
+    """A map of scans from each view in turn, `rounds` times, moved a little each time."""
+    lidar = Lidar(plan, replace(Lidar(plan).spec, sigma=sigma, dropout=0.0))
+    line_map = line_map or LineMap()
+    for k in range(rounds):
+        for i, view in enumerate(views):
+            pose = compose(view, (0.0, 0.0, 0.1 * (k - 1)))
+            scan = lidar.scan(pose, key=(2, k, i))
+            line_map.add(extract(scan), scan, pose)
+    return line_map
+
+
+# Lines
+
+
+@given(lines, lines, metres)
+def test_fusing_is_symmetric(a, b, place):
+    there, back = fuse(a, b), fuse(b, a)
+    point = there.point(place)
+    # The two frames are turned by up to 0.04 rad, of which the formula keeps the first order.
+    assert abs(back.across(point)) < 0.05 * (1.0 + abs(place))
+    assert there.angle_variance == pytest.approx(back.angle_variance, rel=0.1)
+
+
+@given(lines)
+def test_a_line_fused_with_itself_stays_and_is_known_twice_as_well(line):
+    fused = fuse(line, line)
+    assert fused.heading == pytest.approx(line.heading)
+    assert abs(line.across((fused.x, fused.y))) < 1e-12
+    assert fused.offset_variance == pytest.approx(line.offset_variance / 2)
+    assert fused.angle_variance == pytest.approx(line.angle_variance / 2)
+
+
+@given(lines, lines)
+def test_fusing_makes_nothing_less_certain(a, b):
+    fused = fuse(a, b)
+    assert fused.offset_variance <= min(a.offset_variance, b.offset_variance)
+    assert fused.angle_variance <= min(a.angle_variance, b.angle_variance)
+
+
+def test_two_stretches_of_one_line_fix_its_direction_better_than_either():
+    rng = np.random.default_rng(0)
+    errors = []
+    for _ in range(300):
+        (c1, c2), (t1, t2) = rng.normal(0.0, 0.01, 2), rng.normal(0.0, 0.02, 2)
+        a, b = Line(0.0, c1, t1, 1e-4, 4e-4), Line(5.0, c2, t2, 1e-4, 4e-4)
+        fused = fuse(a, b)
+        errors.append((fused.heading, fused.angle_variance))
+    heading, variance = np.array(errors).T
+    assert np.std(heading) < 0.003
+    assert np.mean(heading**2 / variance) == pytest.approx(1.0, abs=0.25)
+
+
+@given(poses)
+def test_a_wall_keeps_its_ends_wherever_its_frame_is(frame):
+    wall = Wall((1.0, 2.0), (4.0, 2.5), beams=20, residual=0.01)
+    line = line_of(wall, frame)
+    for end in (wall.start, wall.end):
+        assert abs(line.across(to_parent(frame, end))) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("new", "case"),
+    [
+        ((2.0, 3.0), Overlap.INSIDE),
+        ((0.0, 3.0), Overlap.BEFORE),
+        ((2.0, 5.0), Overlap.BEYOND),
+        ((0.0, 5.0), Overlap.AROUND),
+    ],
+)
+def test_the_four_cases_of_weerakoons_figure(new, case):
+    assert overlap((1.0, 4.0), new) is case
+
+
+@given(metres, metres, st.floats(0.0, 5.0), st.floats(0.0, 5.0))
+def test_a_gap_is_the_same_from_either_side(a, b, length_a, length_b):
+    one, other = (a, a + length_a), (b, b + length_b)
+    assert gap(one, other) == gap(other, one)
+    assert (gap(one, other) < 0) == (min(one[1], other[1]) > max(one[0], other[0]))
+
+
+def test_a_short_line_along_a_long_one_is_a_double_and_its_back_is_not():
+    long, short = Wall((0.0, 0.0), (5.0, 0.0)), Wall((1.0, 0.03), (2.0, 0.05))
+    back, far = Wall((4.0, -0.05), (1.0, -0.05)), Wall((1.0, 0.3), (2.0, 0.3))
+    assert without_doubles((short, long, back, far)) == (long, back, far)
+
+
+# Maps
+
+
+def test_an_empty_map_is_empty():
+    assert LineMap().scene == Scene()
+
+
+def test_a_room_is_four_walls_however_many_scans_saw_it():
+    room = plan_of(((-3.0, -2.0), (3.0, -2.0), (3.0, 2.0), (-3.0, 2.0), (-3.0, -2.0)))
+    views = [(x, y, h) for x in (-1.5, 0.0, 1.5) for y in (-0.5, 0.5) for h in (0.0, 2.0)]
+    walls = mapped(room, views).walls
+    assert len(walls) == 4
+    assert sum(wall.length for wall in walls) == pytest.approx(20.0, abs=0.5)
+
+
+CORRIDOR = plan_of(
+    ((-1.66, -2.0), (-1.66, 1.67), (-1.42, 1.67), (-1.42, 2.16), (-1.06, 2.16), (-1.06, 12.0)),
+    ((1.5, -2.0), (1.5, 2.16), (0.92, 2.16), (0.92, 2.7), (0.95, 2.7), (0.95, 4.0)),
+    ((1.95, 4.0), (1.95, 3.4), (3.0, 3.4)),
+    ((1.03, 5.1), (1.03, 7.1)),
+)
+"""After the corners of Weerakoon et al., table II: a corridor with pillars and a side opening."""
+
+THREE_POSES = ((0.0, 0.0, math.pi / 2), (0.0, 2.0, math.pi / 2), (-0.5, 4.0, 0.0))
+
+
+def test_three_scans_of_a_corridor_merge_to_nine_walls_without_losing_one():
+    """Weerakoon et al., section III: from 15 segments to 9."""
+    one = MapSettings(wall_hits=1)
+    lidar = Lidar(CORRIDOR, replace(Lidar(CORRIDOR).spec, sigma=0.01, dropout=0.0))
+    line_map, seen = LineMap(one), []
+    for step, pose in enumerate(THREE_POSES):
+        scan = lidar.scan(pose, key=(1, 0, step))
+        scene = extract(scan)
+        line_map.add(scene, scan, pose)
+        seen += scene.placed(pose).walls
+    merged = line_map.walls
+    assert len(seen) >= 15
+    assert len(merged) <= 9
+    for wall in seen:  # nothing that a scan saw is lost
+        near = [LineString((m.start, m.end)).buffer(0.12) for m in merged]
+        line = LineString((wall.start, wall.end))
+        covered = max(line.intersection(area).length for area in near)
+        assert covered > 0.6 * line.length
+
+
+def test_a_wall_never_crosses_an_open_door():
+    gaps = plan_of(
+        ((-8.0, 1.0), (-1.0, 1.0)),
+        ((0.0, 1.0), (8.0, 1.0)),
+        ((8.0, -1.0), (-8.0, -1.0)),
+        ((-1.2, 3.0), (0.3, 3.0)),
+    )
+    views = [(x, 0.0, 0.3) for x in np.linspace(-4.0, 4.0, 9)]
+    line_map = mapped(gaps, views)
+    opening = LineString(((-0.85, 1.0), (-0.15, 1.0))).buffer(0.1)
+    assert not any(opening.intersects(LineString((w.start, w.end))) for w in line_map.walls)
+    assert len(line_map.doors) == 1
+    assert line_map.doors[0].midpoint == pytest.approx((-0.5, 1.0), abs=0.05)
+    assert line_map.doors[0].width == pytest.approx(1.0, abs=0.06)
+
+
+def test_what_is_later_seen_through_is_removed():
+    walls = ((-5.0, 2.0), (5.0, 2.0)), ((5.0, -2.0), (-5.0, -2.0))
+    crate = (-0.5, 1.0), (0.5, 1.0)
+    views = [(x, 0.0, 1.2) for x in np.linspace(-1.0, 1.0, 5)]
+    line_map = mapped(plan_of(*walls, crate), views, rounds=2)
+    beside = LineString(crate).buffer(0.1)
+
+    def there():
+        return any(beside.intersects(LineString((w.start, w.end))) for w in line_map.walls)
+
+    assert there()
+    mapped(plan_of(*walls), views, rounds=4, line_map=line_map)
+    assert not there()
+
+
+def test_a_door_that_is_closed_later_goes():
+    wall = ((-8.0, 1.0), (-1.0, 1.0)), ((0.0, 1.0), (8.0, 1.0)), ((-3.0, 4.0), (3.0, 4.0))
+    views = [(x, 0.0, 0.9) for x in np.linspace(-2.0, 2.0, 9)]
+    line_map = mapped(plan_of(*wall), views, rounds=2)
+    assert len(line_map.doors) == 1
+    mapped(plan_of(*wall, ((-1.0, 1.0), (0.0, 1.0))), views, rounds=6, line_map=line_map)
+    assert not line_map.doors
+
+
+def test_scans_from_one_place_count_once():
+    lidar = Lidar(OFFICE)
+    line_map = LineMap()
+    for step in range(10):
+        scan = lidar.scan((15.0, 9.1, 0.3), key=(0, 0, step))
+        line_map.add(extract(scan), scan, (15.0, 9.1, 0.3))
+    assert line_map.scans == 1
+
+
+@settings(max_examples=10)
+@given(poses)
+def test_a_map_moves_with_its_frame(frame):
+    lidar = Lidar(OFFICE)
+    still, moved = LineMap(), LineMap()
+    for step, x in enumerate(np.linspace(12.0, 18.0, 6)):
+        scan = lidar.scan((x, 9.1, 0.3), key=(0, 0, step))
+        scene = extract(scan)
+        still.add(scene, scan, (x, 9.1, 0.3))
+        moved.add(scene, scan, compose(frame, (x, 9.1, 0.3)))
+    placed = still.scene.placed(frame).walls
+    assert sum(w.length for w in moved.walls) == pytest.approx(
+        sum(w.length for w in placed), rel=0.05
+    )
+
+
+def test_limits_of_a_map_are_checked():
+    with pytest.raises(ValueError, match="gap is -1"):
+        MapSettings(gap=-1.0)
+
+
+# Odometry
+
+
+def test_odometry_without_wheels_follows_a_drive():
+    lidar = Lidar(OFFICE)
+    odometry = ScanOdometry()
+    start = (6.0, 9.1, 0.0)
+    for step in range(60):
+        pose = (6.0 + 0.15 * step, 9.1 + 0.3 * math.sin(0.2 * step), 0.3 * math.sin(0.1 * step))
+        found = compose(start, odometry.update(lidar.scan(pose, key=(0, 0, step))))
+    assert odometry.lost == 0
+    assert found == pytest.approx(pose, abs=0.06)
+
+
+def test_a_scan_that_shows_nothing_is_lost_and_no_more():
+    lidar = Lidar(OFFICE)
+    odometry = ScanOdometry()
+    blind = Lidar(plan_of(((50.0, 50.0), (51.0, 50.0))))
+    for step in range(10):
+        pose = (10.0 + 0.1 * step, 9.1, 0.0)
+        odometry.update((blind if step == 5 else lidar).scan(pose, key=(0, 0, step)))
+    assert odometry.lost == 1
+    assert odometry.pose == pytest.approx((0.9, 0.0, 0.0), abs=0.06)
