@@ -11,6 +11,7 @@ from semnav_env.features import ExtractorSettings, Scan, extract
 from semnav_env.features.frames import points_to_parent
 from semnav_env.features.kernels.dynamic import PIECE_PRICE, partition
 from semnav_env.features.kernels.scratch import allocate_scratch
+from semnav_env.features.reference import extract_reference
 from tests.raycaster import heidelberg, scan_of
 from tests.strategies import Room, awkward_scans, rooms
 
@@ -91,6 +92,19 @@ def test_both_segmentations_find_the_same_doors_of_the_hallway(seed):
     assert len(plain) == len(best) > 0
     for one, other in zip(plain, best, strict=True):
         assert math.dist(one.midpoint, other.midpoint) < 0.05
+
+
+@settings(max_examples=20, deadline=None)
+@given(rooms(), st.integers(0, 2**32 - 1))
+def test_the_kernel_agrees_with_the_reference(room: Room, seed: int):
+    scan = scan_of(room.segments, room.pose, sigma=0.02, rng=np.random.default_rng(seed))
+    chosen = ExtractorSettings(sigma=0.015, arcs=False, segmentation="dynamic")
+    ends, expected = (
+        [(*wall.start, *wall.end) for wall in look(scan, chosen).walls]
+        for look in (extract, extract_reference)
+    )
+    assert np.shape(ends) == np.shape(expected)
+    assert np.allclose(ends, expected, atol=1e-7)
 
 
 @settings(max_examples=50, deadline=None)

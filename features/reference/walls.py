@@ -9,6 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.dynamic import PIECE_PRICE
+from semnav_env.features.reference.partition import best_cuts
 from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.settings import ExtractorSettings
 
@@ -99,6 +101,13 @@ def is_wall(piece: Piece, settings: ExtractorSettings) -> bool:
     return enough and not piece.is_round
 
 
+def _cut(points: FloatArray, settings: ExtractorSettings) -> list[int]:
+    """Where a group is cut, by the strategy that is set."""
+    if settings.segmentation == "dynamic":
+        return best_cuts(points, settings.sigma**2, PIECE_PRICE)
+    return _cuts(points, 0, len(points) - 1, settings.split_distance)
+
+
 def _cuts(points: FloatArray, first: int, last: int, limit: float) -> list[int]:
     """Iterative end-point fit: where points first to last are cut (Barbret section 2.4.4)."""
     dx, dy = points[last] - points[first]
@@ -113,7 +122,7 @@ def _cuts(points: FloatArray, first: int, last: int, limit: float) -> list[int]:
 def _straight_runs(sweep: Sweep, group: list[int], settings: ExtractorSettings) -> list[list[int]]:
     """Beams of each straight run, after settling the borders between them."""
     points = sweep.points(group)
-    cuts = [-1, *_cuts(points, 0, len(group) - 1, settings.split_distance), len(group)]
+    cuts = [-1, *_cut(points, settings), len(group)]
     runs = [range(a + 1, b) for a, b in itertools.pairwise(cuts) if b - a > 2]
     lines = [Piece(list(run), points[run.start : run.stop]) for run in runs]
     for k in range(len(runs) - 1):
