@@ -13,7 +13,7 @@ from semnav_env.features.kernels.arcs import find_arcs
 from semnav_env.features.kernels.corners import find_corners
 from semnav_env.features.kernels.corridors import find_corridors
 from semnav_env.features.kernels.doors import find_doors
-from semnav_env.features.kernels.layout import ARCS, CORNERS, CORRIDORS, DOORS, WALLS
+from semnav_env.features.kernels.layout import ARCS, CORNERS, CORRIDORS, DOORS, PIECES, WALLS
 from semnav_env.features.kernels.merging import merge_pieces
 from semnav_env.features.kernels.ring import (
     beams_of_turn,
@@ -60,7 +60,7 @@ def extract_arrays(
         corners: dtype `CORNER`.
         corridors: dtype `CORRIDOR`.
         arcs: dtype `ARC`.
-        counts: how many of each were found, shape (5,).
+        counts: how many of each were found, shape (6,); see `layout`.
     """
     settings = record[0]
     limit = min(range_max, settings.rupture_range)
@@ -142,6 +142,7 @@ def find_features(
     counts[WALLS] = select_walls(pieces, settings, scratch, features.walls)
     if turn > 0:
         pieces = repeat_pieces(pieces, scratch.group_first[groups], turn, scratch)
+    counts[PIECES] = pieces
     counts[DOORS] = find_doors(
         ranges, directions, increment, range_min, limit, pieces, settings, scratch, features.doors
     )

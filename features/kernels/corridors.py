@@ -12,6 +12,9 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.corners import INNER, OUTER
 from semnav_env.features.kernels.segmentation import is_return
 
+NO_WALL, ASKEW, NARROW, TOO_NEAR, TOO_FAR, HIDDEN, REPEATED = 1, 2, 3, 4, 5, 6, 7
+"""Why a probe is no corridor."""
+
 END_ON = 0.1
 """Sine of the angle below which a probe passes along a wall instead of meeting it."""
 
@@ -44,10 +47,9 @@ def find_corridors(
     """
     found = 0
     square = math.cos(settings.corridor_angle_tolerance)
-    farthest = settings.corridor_distance_max + 0.5 * settings.corridor_probe
     for c in range(corner_count):
         corner = corners[c]
-        if corner.kind == OUTER or corner.x**2 + corner.y**2 > farthest**2:
+        if corner.kind == OUTER or is_remote(corner, settings):
             continue
         ending, starting = scratch.corner_ends[c, 0], scratch.corner_ends[c, 1]
         near = find_near_walls(corner, ending, starting, walls, settings, scratch)
@@ -61,13 +63,18 @@ def find_corridors(
             entry = corridors[found]
             entry.start_x, entry.start_y = corner.x, corner.y
             entry.end_x, entry.end_y = corner.x + reach * along_x, corner.y + reach * along_y
-            if (
-                is_in_reach(entry, settings)
-                and is_seen(entry, ranges, directions, increment, range_min, limit)
-                and is_new(entry, found, corridors, settings)
-            ):
-                found += 1
+            fault = corridor_fault(entry, settings)
+            fault = fault or view_fault(entry, ranges, directions, increment, range_min, limit)
+            fault = fault or repeat_fault(entry, found, corridors, settings)
+            found += not fault
     return found
+
+
+@njit(cache=True, error_model="numpy")
+def is_remote(corner: Any, settings: Any) -> bool:
+    """Whether no probe of a corner can have its midpoint near enough."""
+    farthest = settings.corridor_distance_max + 0.5 * settings.corridor_probe
+    return bool(corner.x**2 + corner.y**2 > farthest**2)
 
 
 @njit(cache=True, error_model="numpy")
@@ -118,12 +125,13 @@ def nearest_wall(
     settings: Any,
     scratch: Any,
 ) -> float:
-    """Distance along a probe to the first of the `near` walls that it meets, or -1.
+    """Distance along a probe to the first of the `near` walls that it meets.
 
-    -1 too if that wall is met from behind or too far from square, or beyond the probe.
+    -`NO_WALL` if it meets none, and -`ASKEW` if it meets that wall from behind or too far from
+    square.
     """
     nearest = settings.corridor_probe
-    met = False
+    is_any = met = False
     for k in range(near):
         wall = scratch.pieces[scratch.near_pieces[k]]
         dx, dy = wall.start_x - x, wall.start_y - y
@@ -136,32 +144,34 @@ def nearest_wall(
         hit = (tilt >= END_ON) & (place >= -slack * tilt) & (place <= (wall.length + slack) * tilt)
         if hit & (reach > 0.0) & (reach <= nearest):  # one branch: they are hard to predict
             nearest = reach
-            met = facing <= -square
-    return nearest if met else -1.0
+            is_any, met = True, facing <= -square
+    if met:
+        return float(nearest)
+    return float(-ASKEW if is_any else -NO_WALL)
 
 
 @njit(cache=True, error_model="numpy")
-def is_in_reach(entry: Any, settings: Any) -> bool:
-    """Whether the corridor is wide enough and its midpoint neither too near nor too far."""
+def corridor_fault(entry: Any, settings: Any) -> int:
+    """`NARROW`, or `TOO_NEAR` or `TOO_FAR` for where its midpoint is; 0 if nothing is wrong."""
     width = math.hypot(entry.end_x - entry.start_x, entry.end_y - entry.start_y)
     away = 0.5 * math.hypot(entry.start_x + entry.end_x, entry.start_y + entry.end_y)
-    return bool(
-        width >= 2.0 * settings.corridor_half_width
-        and away >= settings.corridor_distance_min
-        and away <= settings.corridor_distance_max
-    )
+    if width < 2.0 * settings.corridor_half_width:
+        return NARROW
+    if away < settings.corridor_distance_min:
+        return TOO_NEAR
+    return TOO_FAR if away > settings.corridor_distance_max else 0
 
 
 @njit(cache=True, error_model="numpy")
-def is_seen(
+def view_fault(
     entry: Any,
     ranges: FloatArray,
     directions: FloatArray,
     increment: float,
     range_min: float,
     limit: float,
-) -> bool:
-    """Whether a beam passes over the midpoint, so that it lies in free space."""
+) -> int:
+    """`HIDDEN` unless a beam passes over the midpoint, so that it lies in free space; else 0."""
     x, y = 0.5 * (entry.start_x + entry.end_x), 0.5 * (entry.start_y + entry.end_y)
     angle = math.atan2(
         directions[0, 0] * y - directions[0, 1] * x, directions[0, 0] * x + directions[0, 1] * y
@@ -170,19 +180,20 @@ def is_seen(
         angle += 2.0 * math.pi
     place = angle / increment + 0.5
     if place >= len(ranges):
-        return False
+        return HIDDEN
     distance = ranges[int(place)]
-    return not is_return(distance, range_min, limit) or distance > math.hypot(x, y)
+    is_free = not is_return(distance, range_min, limit) or distance > math.hypot(x, y)
+    return 0 if is_free else HIDDEN
 
 
 @njit(cache=True, error_model="numpy")
-def is_new(entry: Any, found: int, corridors: np.ndarray, settings: Any) -> bool:
-    """Whether no corridor found so far has its midpoint within half the least width."""
+def repeat_fault(entry: Any, found: int, corridors: np.ndarray, settings: Any) -> int:
+    """`REPEATED` if one found before has its midpoint within half the least width; else 0."""
     least = settings.corridor_half_width
     for k in range(found):
         other = corridors[k]
         dx = other.start_x + other.end_x - entry.start_x - entry.end_x
         dy = other.start_y + other.end_y - entry.start_y - entry.end_y
         if dx * dx + dy * dy < (2.0 * least) ** 2:
-            return False
-    return True
+            return REPEATED
+    return 0

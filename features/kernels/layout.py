@@ -37,5 +37,6 @@ ARC = np.dtype(
 CAPACITY = {"walls": 256, "doors": 64, "corners": 512, "corridors": 128, "arcs": 32}
 """Entries beyond these are dropped, in beam order."""
 
-WALLS, DOORS, CORNERS, CORRIDORS, ARCS = range(5)
-"""Places in the `counts` array, shape (5,), int64."""
+WALLS, DOORS, CORNERS, CORRIDORS, ARCS, PIECES = range(6)
+"""Places in the `counts` array, shape (6,), int64; the last is how many straight pieces there
+were in the end, in a full circle with those that were looked at twice."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.layout import ARC, CAPACITY, CORNER, CORRIDOR, DOOR, WALL
+from semnav_env.features.kernels.layout import ARC, CAPACITY, CORNER, CORRIDOR, DOOR, PIECES, WALL
 
 PIECE = np.dtype(
     [(name, "f8") for name in ("mean_x", "mean_y", "xx", "xy", "yy", "along_x", "along_y")]
@@ -98,7 +98,7 @@ class Features(NamedTuple):
         corners: dtype `CORNER`.
         corridors: dtype `CORRIDOR`.
         arcs: dtype `ARC`.
-        counts: how many of each are used, shape (5,), int64.
+        counts: how many of each are used, shape (6,), int64; see `layout`.
     """
 
     walls: np.ndarray
@@ -141,5 +141,5 @@ def allocate_features() -> Features:
         corners=np.zeros(CAPACITY["corners"], CORNER),
         corridors=np.zeros(CAPACITY["corridors"], CORRIDOR),
         arcs=np.zeros(CAPACITY["arcs"], ARC),
-        counts=np.zeros(len(CAPACITY), np.int64),
+        counts=np.zeros(PIECES + 1, np.int64),
     )

@@ -20,6 +20,9 @@ from semnav_env.features.kernels.layout import (
 from semnav_env.features.kernels.lines import fit, gather, offset, refit
 from semnav_env.features.kernels.segmentation import is_return
 
+FEW_BEAMS, SHORT, CURVED = 1, 2, 3
+"""Why a piece is no wall."""
+
 PRIOR_POINTS = 4
 """So many points' worth of residuals is the scanner's known `sigma` in the variance of a wall."""
 
@@ -143,6 +146,16 @@ def point_variance(scatter: float, points: int, sigma: float) -> float:
 
 
 @njit(cache=True, error_model="numpy")
+def wall_fault(piece: Any, settings: Any) -> int:
+    """Why a piece is no wall: `FEW_BEAMS`, `SHORT` or `CURVED`; 0 if it is one."""
+    if piece.points < settings.wall_beams:
+        return FEW_BEAMS
+    if piece.length < settings.wall_length:
+        return SHORT
+    return CURVED if piece.flags & ROUND else 0
+
+
+@njit(cache=True, error_model="numpy")
 def select_walls(count: int, settings: Any, scratch: Any, walls: np.ndarray) -> int:
     """Write the pieces that are long and dense enough to be walls; returns how many."""
     found = 0
@@ -150,12 +163,7 @@ def select_walls(count: int, settings: Any, scratch: Any, walls: np.ndarray) -> 
         piece = scratch.pieces[k]
         length = math.hypot(piece.end_x - piece.start_x, piece.end_y - piece.start_y)
         piece.wall, piece.length = -1, length
-        if (
-            found == min(len(walls), len(scratch.wall_piece))
-            or piece.points < settings.wall_beams
-            or length < settings.wall_length
-            or piece.flags & ROUND
-        ):
+        if found == min(len(walls), len(scratch.wall_piece)) or wall_fault(piece, settings):
             continue
         wall = walls[found]
         wall.start_x, wall.start_y = piece.start_x, piece.start_y

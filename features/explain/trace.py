@@ -1,0 +1,88 @@
+"""What the kernels leave behind of a scan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.layout import PIECES, WALLS
+from semnav_env.features.kernels.ring import beams_of_turn
+from semnav_env.features.kernels.scratch import Features, Scratch
+from semnav_env.features.scan import Scan
+from semnav_env.features.settings import ExtractorSettings
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """What `extract_arrays` looked at, left in its working memory and found.
+
+    Attributes:
+        ranges: metres; of a full circle unrolled, twice over.
+        directions: cosine and sine of their beams.
+        increment: angle between beams, radians.
+        range_min: shortest valid range, metres.
+        limit: returns at or beyond it do not count, metres.
+        turn: beams of a full circle, else 0.
+        settings: every limit.
+        scratch: with `pieces`, `joints`, `wall_piece` and so on.
+        features: what was found.
+    """
+
+    ranges: FloatArray
+    directions: FloatArray
+    increment: float
+    range_min: float
+    limit: float
+    turn: int
+    settings: ExtractorSettings
+    scratch: Scratch
+    features: Features
+
+    @classmethod
+    def of(
+        cls,
+        scan: Scan,
+        directions: FloatArray,
+        settings: ExtractorSettings,
+        scratch: Scratch,
+        features: Features,
+    ) -> Trace:
+        """The trace of a scan that was just extracted with these arrays."""
+        beams, increment = len(directions), scan.angle_increment
+        turn = beams_of_turn(beams, increment, settings.dropout_beams)
+        ranges = scan.ranges[:beams].copy()
+        if turn > 0:
+            ranges = scratch.ring_ranges[: 2 * turn]
+            directions = scratch.ring_directions[: 2 * turn]
+        limit = min(scan.range_max, settings.rupture_range)
+        found = (turn, settings, scratch, features)
+        return cls(ranges, directions, increment, scan.range_min, limit, *found)
+
+    @cached_property
+    def record(self) -> Any:
+        """The settings as the kernels read them."""
+        return self.settings.as_record()[0]
+
+    @cached_property
+    def pieces(self) -> np.ndarray:
+        """The straight pieces in the end, dtype `PIECE`, as doors were looked for among them.
+
+        In a full circle those of its first half come once more at the end.
+        """
+        return self.scratch.pieces[: self.features.counts[PIECES]]
+
+    @cached_property
+    def walls(self) -> list[Any]:
+        """The pieces that are walls."""
+        chosen = self.scratch.wall_piece[: self.features.counts[WALLS]]
+        return [self.scratch.pieces[k] for k in chosen]
+
+
+def ends(item: Any) -> tuple[Point, Point]:
+    """Start and end of a piece, a door or a corridor of the kernels."""
+    start = float(item["start_x"]), float(item["start_y"])
+    return start, (float(item["end_x"]), float(item["end_y"]))

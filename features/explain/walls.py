@@ -1,0 +1,24 @@
+"""Why a straight piece is no wall."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from semnav_env.features.elements import Rejection
+from semnav_env.features.explain.trace import Trace, ends
+from semnav_env.features.kernels.walls import CURVED, FEW_BEAMS, SHORT, wall_fault
+
+
+def rejected_walls(trace: Trace) -> Iterator[Rejection]:
+    """Straight pieces that are no walls."""
+    settings = trace.settings
+    for piece in trace.pieces:
+        if trace.turn > 0 and trace.scratch.beams[piece["first"]] >= trace.turn:
+            return
+        reasons = {
+            FEW_BEAMS: f"{piece['points']} beams; wall_beams is {settings.wall_beams}",
+            SHORT: f"{piece['length']:.3f} m long; wall_length is {settings.wall_length:g}",
+            CURVED: "part of an arc",
+        }
+        if fault := wall_fault(piece, trace.record):
+            yield Rejection("wall", *ends(piece), reasons[fault])
