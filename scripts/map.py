@@ -1,4 +1,4 @@
-"""`semnav map`: list and show floor plans."""
+"""`semnav map`: list, show and build floor plans."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Annotated, Any
 from tyro.conf import Positional, subcommand
 
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
+from semnav_env.scripts.map_build import Build
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,11 @@ class Show:
         return 0
 
 
-Arguments = Annotated[List, subcommand("list")] | Annotated[Show, subcommand("show")]
+Arguments = (
+    Annotated[List, subcommand("list")]
+    | Annotated[Show, subcommand("show")]
+    | Annotated[Build, subcommand("build")]
+)
 
 
 def summary(plan: FloorPlan) -> dict[str, Any]:

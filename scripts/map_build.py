@@ -1,0 +1,137 @@
+"""`semnav map build`: a log of lidar scans into a floor plan."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import islice
+from pathlib import Path
+from typing import Literal
+
+from tyro.conf import Positional
+
+from semnav_env.features import ExtractorSettings, extract
+from semnav_env.features.frames import Pose, relative
+from semnav_env.features.mapping import LineMap, MapSettings, ScanOdometry
+from semnav_env.features.plot import check_suffix
+from semnav_env.features.readers import (
+    Geometry,
+    LogRecord,
+    ScanLog,
+    TruncatedLogError,
+    open_log,
+)
+from semnav_env.maps import FloorPlan, save_floor_plan
+from semnav_env.maps.line_map_plan import plan_of_scene
+from semnav_env.scripts.progress import tracked
+
+
+@dataclass(frozen=True)
+class Build:
+    """Build a floor plan of walls and doors from a log of lidar scans.
+
+    Reads what `semnav extract` reads. A log that is cut short is mapped as far as it goes; the
+    exit code is then 2.
+
+    Attributes:
+        log: the log: a file, or the folder of a ROS 2 bag.
+        out: the floor plan to write (.geojson).
+        topic: of the scans in a bag, such as /scan; not needed if there is only one.
+        poses: where the scans were taken: "log" believes the log's poses, "match" matches each
+            scan with those before, from (0, 0, 0) on, guided by the wheels' odometry if the log
+            has it.
+        every: take only each Nth scan.
+        limit: stop after so many scans.
+        picture: of the plan (.png, .pdf or .svg).
+        range_max: no return at and beyond it, metres.
+        beam_spacing: degrees between beams, for FLASER lines with an unusual number of them.
+        angle_min: direction of the first beam in CSV and npz logs that leave it out, radians.
+        angle_increment: angle between the beams of such logs, radians.
+        settings: limits of the extractor, metres and radians.
+        map_settings: limits of the map, metres and radians.
+        json: print the summary as JSON on stdout.
+    """
+
+    log: Positional[Path]
+    out: Path
+    topic: str | None = None
+    poses: Literal["log", "match"] = "log"
+    every: int = 1
+    limit: int | None = None
+    picture: Path | None = None
+    range_max: float = 50.0
+    beam_spacing: float | None = None
+    angle_min: float | None = None
+    angle_increment: float | None = None
+    settings: ExtractorSettings = field(default_factory=ExtractorSettings)
+    map_settings: MapSettings = field(default_factory=MapSettings)
+    json: bool = False
+
+    def run(self) -> int:
+        """Build the plan, and say what it holds."""
+        self._check()
+        geometry = Geometry(self.range_max, self.beam_spacing, self.angle_min, self.angle_increment)
+        line_map = LineMap(self.map_settings)
+        damage: TruncatedLogError | None = None
+        with open_log(self.log, geometry, self.topic) as log:
+            try:
+                self._fill(line_map, log)
+            except TruncatedLogError as error:
+                damage = error
+        plan = plan_of_scene(line_map.scene, self.out.stem, f"mapped from {self.log.name}")
+        self._write(plan, line_map)
+        if damage:
+            raise damage
+        return 0
+
+    def _fill(self, line_map: LineMap, log: ScanLog) -> None:
+        stop = None if self.limit is None else (self.limit - 1) * self.every + 1
+        records = islice(log, 0, stop, self.every)
+        placed = _matched(records) if self.poses == "match" else map(_as_logged, records)
+        for record, pose in tracked(placed, lambda n: f"{n} scans", lambda: log.fraction):
+            line_map.add(extract(record.scan, self.settings), record.scan, pose)
+
+    def _write(self, plan: FloorPlan, line_map: LineMap) -> None:
+        self.out.parent.mkdir(parents=True, exist_ok=True)
+        save_floor_plan(plan, self.out)
+        if self.picture:
+            from semnav_env.maps.draw import save_picture
+
+            self.picture.parent.mkdir(parents=True, exist_ok=True)
+            save_picture(plan, self.picture)
+        counts = {
+            "scans": line_map.scans,
+            "walls": len(line_map.walls),
+            "doors": len(plan.doors),
+            "out": str(self.out),
+        }
+        if self.json:
+            print(json.dumps(counts))
+        else:
+            print("{scans} scans, {walls} walls, {doors} doors\nwrote {out}".format(**counts))
+
+    def _check(self) -> None:
+        for name in ("every", "limit"):
+            value = getattr(self, name)
+            if value is not None and value < 1:
+                raise ValueError(f"--{name} is {value}; it must be at least 1")
+        if self.out.resolve() == self.log.resolve():
+            raise ValueError(f"--out is the log itself, {self.log}; give another file")
+        if self.picture:
+            check_suffix(self.picture)
+
+
+def _as_logged(record: LogRecord) -> tuple[LogRecord, Pose]:
+    if record.pose is None:
+        raise ValueError("the log says no poses; find them with --poses match")
+    return record, record.pose
+
+
+def _matched(records: Iterator[LogRecord]) -> Iterator[tuple[LogRecord, Pose]]:
+    """The records with poses from their scans alone, in the frame of the first scan."""
+    odometry, wheels = ScanOdometry(), None
+    for record in records:
+        moved = relative(wheels, record.odometry) if wheels and record.odometry else None
+        wheels = record.odometry
+        yield record, odometry.update(record.scan, moved)
