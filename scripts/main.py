@@ -14,15 +14,19 @@ from importlib import import_module, metadata
 
 COMMANDS = {
     "extract": ("extract", "turn a log of lidar scans into walls, doors, corners and corridors"),
-    "map": ("map", "list and show floor plans"),
+    "map": ("map", "list, show and build floor plans"),
     "demo": ("demo", "let a robot carry out a command"),
     "ground": ("ground", "say what a command refers to in a floor plan"),
     "evaluate": ("evaluate", "measure an agent on a suite of commands"),
+    "evaluate features": ("evaluate_features", "measure the feature extractor against truth"),
     "train": ("train", "teach an agent, and keep what it learned"),
     "bench": ("bench", "time a step of the environment and its parts"),
     "doctor": ("doctor", "check the installation, and say how to mend it"),
 }
-"""Sub-command: (module in this package, help). The module's `Arguments` have `run() -> int`."""
+"""Sub-command of one or two words: (module in this package, help).
+
+The module's `Arguments` have `run() -> int`.
+"""
 
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
 
@@ -74,6 +78,8 @@ def _run(words: list[str]) -> int:
     if name == "--version":
         print(f"semnav {metadata.version('semnav-env')}")
         return 0
+    if rest and f"{name} {rest[0]}" in COMMANDS:
+        name, rest = f"{name} {rest[0]}", rest[1:]
     if name not in COMMANDS:
         near = difflib.get_close_matches(name, COMMANDS, n=1)
         hint = f"did you mean {near[0]!r}? " if near else ""
@@ -89,7 +95,7 @@ def _run(words: list[str]) -> int:
 
 
 def _help() -> str:
-    commands = "\n".join(f"  {name:<10}{help}" for name, (_, help) in COMMANDS.items())
+    commands = "\n".join(f"  {name:<19}{help}" for name, (_, help) in COMMANDS.items())
     return (
         "usage: semnav COMMAND ...\n\nSemantic indoor navigation: see, understand, drive.\n\n"
         f"commands:\n{commands}\n\n"
