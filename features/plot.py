@@ -11,12 +11,13 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.scan import Scan
-from semnav_env.features.scene import CornerKind, Scene, Wall
+from semnav_env.features.scene import Arc, CornerKind, Scene, Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _POINTS, _WALL, _DOOR, _CORRIDOR, _ROBOT = "black", "#5b9bd5", "#1a9e3f", "#8e3bb8", "#d62728"
+_ARC = "#e0a100"
 _CORNERS: dict[CornerKind, dict[str, Any]] = {
     CornerKind.OUTER: dict(marker="^", markerfacecolor="#e8590c", label="outer corner"),
     CornerKind.INNER: dict(marker="s", markerfacecolor="#1c7ed6", label="inner corner"),
@@ -30,7 +31,7 @@ def draw_scene(ax: Axes, scan: Scan, scene: Scene) -> None:
     """Draw a scan and what was made of it, the scanner at the origin.
 
     A wall's tick stands on its free side, to the left of its direction; a door's number is its
-    width in metres.
+    width in metres. A cross marks the centre of an arc.
 
     Args:
         ax: where to draw; its limits are set to show the scene.
@@ -40,6 +41,7 @@ def draw_scene(ax: Axes, scan: Scan, scene: Scene) -> None:
     points = _points(scan)
     ax.plot(*points.T, ".", color=_POINTS, markersize=1.5, zorder=2.5, label="beams")
     _draw_walls(ax, scene)
+    _draw_arcs(ax, scene)
     _draw_corridors(ax, scene)
     _draw_doors(ax, scene)
     for kind, style in _CORNERS.items():
@@ -107,6 +109,23 @@ def _draw_walls(ax: Axes, scene: Scene) -> None:
     ax.plot(*_polyline([_tick(wall) for wall in scene.walls]), color=_WALL, linewidth=1)
 
 
+def _draw_arcs(ax: Axes, scene: Scene) -> None:
+    gap = np.full((1, 2), math.nan)
+    curves = [part for arc in scene.arcs for part in (_curve(arc), gap)]
+    ax.plot(*np.concatenate([gap, *curves]).T, color=_ARC, linewidth=2.5, label="arc (+ centre)")
+    centres = np.array([arc.centre for arc in scene.arcs]).reshape(-1, 2)
+    ax.plot(*centres.T, "+", color=_ARC, markersize=6)
+
+
+def _curve(arc: Arc) -> FloatArray:
+    """Points along an arc, one for every few degrees."""
+    x, y = arc.centre
+    begin = math.atan2(arc.start[1] - y, arc.start[0] - x)
+    sense = -1.0 if arc.convex else 1.0
+    turns = begin + sense * np.linspace(0.0, arc.extent, 2 + int(arc.extent / 0.05))
+    return np.stack((x + arc.radius * np.cos(turns), y + arc.radius * np.sin(turns)), axis=1)
+
+
 def _draw_doors(ax: Axes, scene: Scene) -> None:
     from matplotlib.patheffects import withStroke
 
@@ -156,6 +175,7 @@ def _frame(ax: Axes, points: FloatArray, scene: Scene) -> None:
     """Show the scene and the scanner, not what lies far behind."""
     shown = [end for w in scene.walls for end in (w.start, w.end)]
     shown += [end for d in scene.doors for end in (d.start, d.end)]
+    shown += [end for a in scene.arcs for end in (a.start, a.end)]
     corners = np.array([(0.0, 0.0), *(shown or points.tolist())])
     low, high = corners.min(axis=0), corners.max(axis=0)
     (x, y), half = (low + high) / 2, (high - low).max() / 2 + _MARGIN

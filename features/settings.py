@@ -78,6 +78,8 @@ class ExtractorSettings:
         arc_radius_min: thinnest column, metres; thinner ones are legs of chairs and people.
         arc_radius_max: flattest curved wall, metres.
         arc_extent_min: smallest angle that an arc spans about its centre, radians.
+        arc_sagitta_min: least distance of an arc from the chord between its ends, metres; a flatter
+            one cannot be told from a wall with a bend in it.
         arc_beams: fewest beams of an arc.
         arc_residual: largest root mean square distance of the points of an arc, metres.
         corner_angle: smallest turn between two walls that is a corner, radians (thesis: 50
@@ -132,7 +134,8 @@ class ExtractorSettings:
     arcs: bool = True
     arc_radius_min: float = 0.1
     arc_radius_max: float = 10.0
-    arc_extent_min: float = math.radians(60.0)
+    arc_extent_min: float = math.radians(20.0)
+    arc_sagitta_min: float = 0.06
     arc_beams: int = 8
     arc_residual: float = 0.03
     corner_angle: float = math.radians(50.0)

@@ -6,7 +6,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
 
-from semnav_env.features import Corner, CornerKind, Corridor, Door, Scan, Scene, Wall
+from semnav_env.features import Arc, Corner, CornerKind, Corridor, Door, Scan, Scene, Wall
 from semnav_env.features.plot import draw_scene, save_page
 
 SCAN = Scan(np.full(90, 3.0), -math.pi / 4, math.pi / 180)
@@ -41,6 +41,15 @@ def test_every_feature_is_drawn_where_it_is():
     np.testing.assert_array_equal(drawn["corridor midpoint"], [[1, 0]])
     for kind in CornerKind:
         np.testing.assert_array_equal(drawn[f"{kind.name.lower()} corner"], [[4, kind]])
+
+
+def test_an_arc_is_drawn_along_its_circle_from_start_to_end():
+    arc = Arc((3.0, 0.0), 1.0, (3.0, -1.0), (3.0, 1.0))
+    drawn, _ = lines(Scene(arcs=(arc,)))
+    curve = drawn["arc (+ centre)"][1:-1]
+    np.testing.assert_allclose(np.hypot(*(curve - arc.centre).T), 1.0)
+    np.testing.assert_allclose(curve[[0, len(curve) // 2, -1], 0], [3.0, 2.0, 3.0], atol=0.01)
+    np.testing.assert_allclose(curve[[0, -1]], [arc.start, arc.end], atol=1e-12)
 
 
 def test_a_walls_tick_points_to_its_free_side():

@@ -266,16 +266,20 @@ def is_arc(arc: Any, straight: float, lines: int, settings: Any) -> bool:
 
     Better is what has the lower n ln(S / n) + k ln(n) (Schwarz's criterion) for n points, the
     sum S of their squared residuals and k parameters: three for an arc; two for each line and
-    one for each cut between lines. It needs no knowledge of the noise.
+    one for each cut between lines. It needs no knowledge of the noise. Only from within a circle
+    one sees more than half of it.
     """
-    n, finest = arc.points, (FINEST * settings.sigma) ** 2
+    n, span, finest = arc.points, extent(arc), (FINEST * settings.sigma) ** 2
+    within = math.hypot(arc.centre_x, arc.centre_y) < arc.radius
     gain = n * math.log((straight / n + finest) / (arc.residual * arc.residual + finest))
     return bool(
         (arc.points >= settings.arc_beams)
         & (arc.radius >= settings.arc_radius_min)
         & (arc.radius <= settings.arc_radius_max)
         & (arc.residual <= settings.arc_residual)
-        & (extent(arc) >= settings.arc_extent_min)
+        & (span >= settings.arc_extent_min)
+        & (within | (span <= math.pi))
+        & (arc.radius * (1.0 - math.cos(0.5 * span)) >= settings.arc_sagitta_min)
         & (gain + (3.0 * lines - 1.0 - 3.0) * math.log(n) > 0.0)
     )
 

@@ -212,5 +212,7 @@ def _is_arc(arc: Arc, straight: float, lines: int, settings: ExtractorSettings) 
         and settings.arc_radius_min <= arc.radius <= settings.arc_radius_max
         and arc.residual <= settings.arc_residual
         and arc.extent >= settings.arc_extent_min
+        and (math.hypot(*arc.centre) < arc.radius or arc.extent <= math.pi)
+        and arc.radius * (1.0 - math.cos(arc.extent / 2)) >= settings.arc_sagitta_min
         and gain + (3 * lines - 4) * math.log(n) > 0.0
     )
