@@ -12,7 +12,7 @@ from typing import Any
 from semnav_env.features import Scene
 from semnav_env.features.readers import LogRecord, ScanLog
 
-_KINDS = ("walls", "doors", "corners", "corridors")
+_KINDS = ("walls", "doors", "corners", "corridors", "arcs")
 
 
 def document(record: LogRecord, scene: Scene) -> dict[str, Any]:
@@ -35,6 +35,7 @@ def document(record: LogRecord, scene: Scene) -> dict[str, Any]:
         "corridors": [
             _rounded(dict(start=c.start, end=c.end, midpoint=c.midpoint)) for c in scene.corridors
         ],
+        "arcs": [_rounded(asdict(arc)) for arc in scene.arcs],
     }
 
 
