@@ -9,7 +9,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from shapely import Point, union_all
 
-from semnav_env.features import CornerKind
+from semnav_env.evaluation.cases import draw_cases
+from semnav_env.evaluation.door_sightings import Gate, View, matches
+from semnav_env.evaluation.overlap import Overlap
+from semnav_env.features import CornerKind, extract
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.lidar.spec import TIM561, LidarSpec
 from semnav_env.maps import Material, PlanDoor, Surface, bundled_names, load_floor_plan
@@ -167,7 +170,7 @@ def test_the_outline_is_what_the_ray_caster_measures(view):
     twin, pose = view
     outline, _ = twin._outline(pose)
     angles = twin.lidar.spec.angles
-    clear = np.abs(angles[:, None] - outline.angles).min(axis=1) > 1e-9
+    clear = np.abs(angles[:, None] - outline.angles).min(axis=1) > 2e-7
     measured = twin.lidar.exact_ranges(pose)
     np.testing.assert_allclose(outline.ranges(angles)[clear], measured[clear], atol=1e-9)
 
@@ -197,6 +200,41 @@ def test_turning_the_robot_turns_the_truth(view):
 
     assert len(first.walls) == len(turned.walls)
     assert all(nearest(wall, turned.walls) < 1e-6 for wall in first.walls)
+
+
+@given(views())
+@settings(max_examples=40, deadline=None)
+def test_extraction_of_a_truth_scan_returns_the_walls_of_the_truth(view):
+    """Those of 0.5 m and twenty beams that are met at 12 degrees or more, each in one piece."""
+    twin, pose = view
+    truth, found = twin.scene(pose).walls, extract(twin.scan(pose)).walls
+    wanted = [w for w in truth if w.length >= 0.5 and w.beams >= 20 and incidence(w) >= 0.21]
+    overlap = Overlap(wanted, found)
+    assert (overlap.longest >= 0.9 * overlap.lengths - 0.05).all()
+    back = Overlap([w for w in found if w.length >= 0.5 and w.beams >= 20], truth)
+    assert (back.covered >= 0.9 * back.lengths - 0.05).all()
+
+
+def incidence(wall):
+    """The flattest angle at which a beam meets a wall."""
+    (x1, y1), (x2, y2) = wall.start, wall.end
+    distance = (x1 * y2 - y1 * x2) / wall.length
+    return math.asin(distance / max(math.hypot(x1, y1), math.hypot(x2, y2)))
+
+
+@pytest.mark.parametrize("name", sorted(VIEWS))
+def test_extraction_of_truth_scans_returns_nearly_all_doors_in_good_view(name):
+    rng = np.random.default_rng(0)
+    gate, doors, found = Gate(reach=5.0), 0, 0
+    for case in draw_cases(load_floor_plan(name), 40, (0.0,), False, rng):
+        scan = case.scans[0][1]
+        seen = extract(scan).doors
+        for door in case.truth.doors:
+            if gate.view(scan, door.start, door.end) is View.GATED:
+                doors += 1
+                found += any(matches(other, door.start, door.end) for other in seen)
+    assert doors > 10
+    assert found >= 0.8 * doors
 
 
 def test_a_mounted_lidar_sees_from_its_mount():

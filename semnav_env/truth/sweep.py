@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray
 from semnav_env.lidar.spec import LidarSpec
 
-NARROWEST = 1e-9
+NARROWEST = 1e-7
 """Directions closer together than this are one, radians."""
 
-SNAP = 1e-7
+SNAP = 1e-9
 """A point of a segment this close to its end is the end, metres."""
 
 NOTHING = -1
