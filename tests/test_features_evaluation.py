@@ -46,6 +46,7 @@ from semnav_env.maps import Material, bundled_names, load_floor_plan
 from semnav_env.scripts import main as cli
 from semnav_env.truth import TrueView
 from semnav_env.truth.shapes import fit_circle
+from tests.small_plans import empty_hall
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 needs_data = pytest.mark.skipif(not (DATA / FREIBURG).exists(), reason="the real logs are not here")
@@ -89,6 +90,12 @@ def test_half_of_the_poses_are_in_corridors(name):
         if case.situation.place == "corridor"
     ]
     assert inside == [True] * 3
+
+
+def test_a_plan_that_names_no_rooms_is_floor_all_over():
+    for case in cases(empty_hall(), 4, (0.0,), clutter=False):
+        assert 0.35 <= case.pose[0] <= 9.65
+        assert 0.35 <= case.pose[1] <= 5.65
 
 
 def test_clutter_stands_free_and_is_partly_round():

@@ -68,11 +68,12 @@ def cluttered(
 
 
 def free_floor(plan: FloorPlan) -> BaseGeometry:
-    """Rooms and corridors, without what stands in them."""
+    """Rooms and corridors, or all of a plan that names none, without what stands in them."""
     closed = [s.points for s in plan.surfaces if len(s.points) > 3 and s.points[0] == s.points[-1]]
     blocks = [block for points in closed if _is_thing(block := Polygon(points), plan)]
-    regions = shapely.union_all([region.polygon for region in plan.regions])
-    return regions.intersection(plan.boundary).difference(shapely.union_all(blocks))
+    rooms = [region.polygon for region in plan.regions] or [plan.boundary]
+    inside = shapely.union_all(rooms).intersection(plan.boundary)
+    return inside.difference(shapely.union_all(blocks))
 
 
 def _is_thing(block: Polygon, plan: FloorPlan) -> bool:
