@@ -36,15 +36,17 @@ Counts = NDArray[np.int32]
 
 @dataclass(slots=True, eq=False)
 class Cells:
-    """Per piece of a line, how many scans had a beam end there, and how many one go through.
+    """Per piece of a line, how many scans say that something is there, and how many that not.
 
     Attributes:
         base: number of the first cell; cell k covers k CELL to (k + 1) CELL along the line.
-        hits: shape (n,).
-        passes: shape (n,).
+        seen: in how many scans it was part of an extracted wall, shape (n,).
+        hits: in how many a beam ended there, shape (n,).
+        passes: in how many a beam went through, shape (n,).
     """
 
     base: int = 0
+    seen: Counts = field(default_factory=lambda: np.zeros(0, np.int32))
     hits: Counts = field(default_factory=lambda: np.zeros(0, np.int32))
     passes: Counts = field(default_factory=lambda: np.zeros(0, np.int32))
 
@@ -56,9 +58,16 @@ class Cells:
         before = max(0, self.base - low)
         after = max(0, high - self.base - len(self.hits))
         if before or after:
+            self.seen = np.pad(self.seen, (before, after))
             self.hits = np.pad(self.hits, (before, after))
             self.passes = np.pad(self.passes, (before, after))
             self.base -= before
+
+    def see(self, first: float, last: float) -> None:
+        """Count a wall that was extracted from `first` to `last`, metres along the line."""
+        self.cover(first, last)
+        low, high = round(first / CELL) - self.base, round(last / CELL) - self.base
+        self.seen[max(low, 0) : high] += 1
 
     def add(self, other: Cells, shift: float) -> None:
         """Add the counts of another line's cells, `shift` metres farther along than these."""
@@ -67,22 +76,34 @@ class Cells:
         low = other.base + round(shift / CELL)
         self.cover(low * CELL + 1e-9, (low + len(other.hits)) * CELL - 1e-9)
         place = slice(low - self.base, low - self.base + len(other.hits))
+        self.seen[place] += other.seen
         self.hits[place] += other.hits
         self.passes[place] += other.passes
 
-    def observe(self, line: Line, scan: Scan, pose: Pose) -> int:
-        """Count what a scan from `pose` says of the cells; returns of how many it says anything.
+    def observe(self, line: Line, scan: Scan, pose: Pose, opening: bool = False) -> None:
+        """Count what the beams of a scan from `pose` say of the cells.
 
         Args:
             line: along which the cells lie, from its point (x, y).
             scan: the scan.
             pose: of the lidar in the frame of the line.
+            opening: ask whether one can pass, seen from either side, rather than whether there
+                is a wall: what lies a little behind the line is in the way, too, and a beam
+                without a return went through.
         """
-        limits = scan.range_min, min(scan.range_max, REACH)
+        limits = scan.range_min, scan.range_max
         angles = scan.angle_min, scan.angle_increment
         place = line.x, line.y, line.heading
-        return int(
-            _observe(scan.ranges, angles, limits, pose, place, self.base, self.hits, self.passes)
+        _observe(
+            scan.ranges,
+            angles,
+            limits,
+            pose,
+            place,
+            opening,
+            self.base,
+            self.hits,
+            self.passes,
         )
 
 
@@ -93,33 +114,35 @@ def _observe(
     limits: tuple[float, float],
     pose: tuple[float, float, float],
     line: tuple[float, float, float],
+    opening: bool,
     base: int,
     hits: Counts,
     passes: Counts,
-) -> int:
+) -> None:
     """Follow the beam nearest to each cell's middle to the line; see `Cells.observe`."""
     c, s = math.cos(line[2]), math.sin(line[2])
     dx, dy = pose[0] - line[0], pose[1] - line[1]
     along, across = c * dx + s * dy, c * dy - s * dx
     if abs(across) < _NEAREST:
-        return 0
+        return
     side = 1.0 if across > 0.0 else -1.0
-    told = 0
     for k in range(len(hits)):
         place = (base + k + 0.5) * CELL
         towards = math.atan2(-across, place - along) + line[2] - pose[2] - angles[0]
         towards -= 2.0 * math.pi * math.floor(towards / (2.0 * math.pi))
         beam = int(towards / angles[1] + 0.5)
-        if beam >= len(ranges) or not limits[0] <= ranges[beam] < 1e9:
+        if beam >= len(ranges):
             continue
         sine = math.sin(angles[0] + beam * angles[1] + pose[2] - line[2])
-        if abs(sine) < _FLATTEST or abs(across) > limits[1] * abs(sine):
+        if abs(sine) < _FLATTEST or abs(across) > REACH * abs(sine):
             continue
-        front = side * (across + min(ranges[beam], 1e3) * sine)
-        if abs(front) <= _ON and side > 0.0:
-            hits[k] += 1
-            told += 1
-        elif front < -_THROUGH:
+        reach = ranges[beam]
+        if not limits[0] <= reach < limits[1]:
+            # Below zero it was too near to tell.
+            passes[k] += opening and not reach < 0.0
+            continue
+        front = side * (across + reach * sine)
+        if front < -_THROUGH:
             passes[k] += 1
-            told += 1
-    return told
+        elif front <= _ON and (opening or (side > 0.0 and front >= -_ON)):
+            hits[k] += 1

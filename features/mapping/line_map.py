@@ -76,7 +76,7 @@ class LineMap:
             wall.as_wall(stretch)
             for wall in self._walls
             if wall is not None
-            for stretch in wall.solid(s.wall_hits, s.gap)
+            for stretch in wall.solid(s.wall_hits, s.wall_share, s.gap)
             if stretch[1] - stretch[0] >= s.wall_length
         ]
         return without_doubles(there)
@@ -84,13 +84,12 @@ class LineMap:
     @property
     def doors(self) -> tuple[Door, ...]:
         """The doors that were seen often enough and stayed open, in the order first seen."""
-        return self.scene.doors
+        return self._doors.believed
 
     @property
     def scene(self) -> Scene:
         """Walls and doors in the map's frame."""
-        walls = self.walls
-        return Scene(walls, self._doors.believed(walls))
+        return Scene(self.walls, self.doors)
 
     def _add_walls(self, scene: Scene, pose: Pose) -> None:
         s = self._settings
@@ -141,7 +140,7 @@ class LineMap:
         kept = [
             wall
             for wall in self._walls
-            if wall is not None and (self.scans - wall.born < _TIDY or wall.solid(fewest, 0.0))
+            if wall is not None and (self.scans - wall.born < _TIDY or wall.solid(fewest, 0.0, 0.0))
         ]
         self._walls = []
         for wall in kept:

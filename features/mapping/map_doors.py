@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from semnav_env.features.elements import Door, Wall
+from semnav_env.features.elements import Door
 from semnav_env.features.frames import FloatArray, Pose, to_parent
 from semnav_env.features.mapping.map_door import MapDoor
 from semnav_env.features.mapping.map_settings import MapSettings
@@ -35,17 +35,14 @@ class MapDoors:
             if math.dist((known.ends[:2] + known.ends[2:]) / 2, pose[:2]) < reach:
                 known.observe(scan, pose)
 
-    def believed(self, walls: Sequence[Wall]) -> tuple[Door, ...]:
-        """The doors that count, in the order first seen; of two in one place the one seen more.
-
-        Args:
-            walls: of the map, whose ends are the jambs.
-        """
+    @property
+    def believed(self) -> tuple[Door, ...]:
+        """The doors that count, in the order first seen; of two in one place the one seen more."""
         kept: list[MapDoor] = []
         for door in sorted(filter(self._counts, self._doors), key=lambda door: -len(door.seen)):
             if all(door.apart(other) > self._settings.door_jamb for other in kept):
                 kept.append(door)
-        return tuple(door.as_door(walls) for door in self._doors if door in kept)
+        return tuple(door.as_door() for door in self._doors if door in kept)
 
     def _see(self, door: FloatArray) -> None:
         turned = door[[2, 3, 0, 1]]
@@ -62,7 +59,7 @@ class MapDoors:
     def _counts(self, door: MapDoor) -> bool:
         s = self._settings
         return (
-            len(door.seen) >= s.door_sightings
+            min(len(door.seen), door.looks) >= s.door_sightings
             and len(door.seen) >= s.door_share * door.looks
             and door.openness >= s.door_open
         )

@@ -21,13 +21,16 @@ class MapSettings:
         offset_tolerance: nor quite flat, metres.
         gap: of two stretches of one line that are farther apart nothing is known in between: they
             stay two walls, metres. Narrower than anything that a robot passes.
-        wall_hits: a piece of wall counts when beams of so many scans ended on it.
+        wall_hits: a piece of wall counts when so many scans showed it.
+        wall_share: ... and at least this share of the scans whose beams ended on it showed it as
+            part of a wall; beams end on lines that only cut corners, too.
         wall_length: shortest wall, metres.
         wall_reach: walls are taken from scenes up to this distance from the scanner, metres.
         door_jamb: two sightings are one door if both jambs agree to this, metres.
         door_reach: doors are taken from scenes up to this distance, metres.
         door_sightings: a door counts when it was seen so often ...
-        door_share: ... and in at least this share of the scans that looked through its opening.
+        door_share: ... and in at least this share of the scans that looked through its opening,
+            of which there must be as many.
         door_open: share of its opening through which beams pass.
 
     Raises:
@@ -43,12 +46,13 @@ class MapSettings:
     offset_tolerance: float = 0.03
     gap: float = 0.3
     wall_hits: int = 3
+    wall_share: float = 0.15
     wall_length: float = 0.2
     wall_reach: float = 8.0
     door_jamb: float = 0.35
     door_reach: float = 5.0
     door_sightings: int = 3
-    door_share: float = 0.1
+    door_share: float = 0.25
     door_open: float = 0.6
 
     def __post_init__(self) -> None:

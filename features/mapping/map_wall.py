@@ -38,7 +38,9 @@ class MapWall:
     @classmethod
     def of(cls, line: Line, start: Point, end: Point, born: int = 0) -> MapWall:
         """A wall that was seen once."""
-        return cls(line, (line.along(start), line.along(end)), born)
+        wall = cls(line, (line.along(start), line.along(end)), born)
+        wall.cells.see(*wall.extent)
+        return wall
 
     def stretch_of(self, other: MapWall) -> Stretch:
         """The extent of another wall along this one's line."""
@@ -70,20 +72,22 @@ class MapWall:
         self.cells.cover(*self.extent)
         self.cells.observe(self.line, scan, pose)
 
-    def solid(self, fewest: int, widest_gap: float) -> list[Stretch]:
+    def solid(self, fewest: int, share: float, widest_gap: float) -> list[Stretch]:
         """The stretches of the wall that are really there.
 
         Args:
-            fewest: beams of so many scans must have ended on a piece.
-            widest_gap: pieces that no beam told of are bridged up to this length, metres; so are
-                pieces seen through, but only if they are no longer than two.
+            fewest: so many scans must say so of a piece.
+            share: of the scans whose beams ended on it, at least this share must have shown it
+                as part of a wall.
+            widest_gap: pieces that are not, but that no beam went through, are bridged up to this
+                length, metres; pieces that were seen through only if they are no more than two.
         """
-        hits, passes = self.cells.hits, self.cells.passes
-        there = (hits >= fewest) & (hits > passes)
-        seen_through = (passes >= fewest) & (passes >= hits)
-        runs = _runs(there)
+        cells = self.cells
+        support = np.maximum(cells.hits, cells.seen)
+        there = (support >= fewest) & (support > cells.passes) & (cells.seen >= share * cells.hits)
+        seen_through = (cells.passes >= fewest) & (cells.passes >= support)
         joined: list[tuple[int, int]] = []
-        for first, stop in runs:
+        for first, stop in _runs(there):
             if joined:
                 hole = slice(joined[-1][1], first)
                 length = first - joined[-1][1]
