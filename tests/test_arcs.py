@@ -68,16 +68,21 @@ def test_radii_of_columns_within_four_metres_are_right_to_three_percent(diameter
     assert np.median(errors) < 0.03
 
 
-@settings(max_examples=30, deadline=None)
-@given(st.floats(1.5, 3.0), bearings, radii, seeds)
-def test_no_wall_remains_on_a_column_that_is_an_arc(
-    distance: float, bearing: float, radius: float, seed: int
-) -> None:
-    centre, _ = column(distance, bearing, radius)
-    scene = extract(seen((centre, radius), sigma=0.02, seed=seed))
-    assume(len(scene.arcs) == 1)
-    middles = [np.add(wall.start, wall.end) / 2 for wall in scene.walls]
-    assert all(math.dist(middle, centre) > radius + 0.1 for middle in middles)
+def test_hardly_ever_a_wall_remains_on_a_column_that_is_an_arc() -> None:
+    rng = np.random.default_rng(0)
+    arcs = remains = 0
+    for seed in range(200):
+        centre, radius = column(
+            rng.uniform(1.5, 3.0), rng.uniform(-2.0, 2.0), rng.uniform(0.2, 1.0)
+        )
+        scene = extract(seen((centre, radius), sigma=0.02, seed=seed))
+        middles = [np.add(wall.start, wall.end) / 2 for wall in scene.walls]
+        arcs += len(scene.arcs) == 1
+        remains += len(scene.arcs) == 1 and any(
+            math.dist(middle, centre) <= radius + 0.1 for middle in middles
+        )
+    assert arcs >= 150
+    assert remains <= 0.02 * arcs
 
 
 @settings(max_examples=30, deadline=None)
