@@ -19,6 +19,7 @@ COMMANDS = {
     "ground": ("ground", "say what a command refers to in a floor plan"),
     "evaluate": ("evaluate", "measure an agent on a suite of commands"),
     "evaluate features": ("evaluate_features", "measure the feature extractor against truth"),
+    "evaluate lines": ("evaluate_lines", "measure lines on real scans, walls on simulated ones"),
     "train": ("train", "teach an agent, and keep what it learned"),
     "bench": ("bench", "time a step of the environment and its parts"),
     "doctor": ("doctor", "check the installation, and say how to mend it"),
