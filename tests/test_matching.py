@@ -13,16 +13,26 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import box
 
-from semnav_env.evaluation.matching import PairSpec, errors_of, read_ways, simulated_pairs
+from semnav_env.evaluation.matching import (
+    PairSpec,
+    errors_of,
+    log_differences,
+    poses_on,
+    read_ways,
+    simulated_pairs,
+)
 from semnav_env.features import Scan
 from semnav_env.features.frames import compose, relative
 from semnav_env.features.mapping import MatchError, MatchSettings, match_scans
+from semnav_env.features.readers import open_log
 from semnav_env.lidar import Lidar
 from semnav_env.lidar.spec import TIM561
 from semnav_env.maps import FloorPlan, Surface, load_floor_plan
 from semnav_env.maps.vector_map import load_vector_map
 
-AMRL = Path(__file__).resolve().parents[2] / "shared" / "data" / "amrl_floors"
+DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
+AMRL = DATA / "amrl_floors"
+FREIBURG = DATA / "carmen" / "freiburg-079-corrected.log.gz"
 OFFICE = load_floor_plan("office_cross")
 WAYS = (((4.0, 9.1), (26.0, 9.1)), ((15.0, 4.0), (15.0, 16.0)))
 """Along the corridors of the office."""
@@ -46,7 +56,8 @@ def corridor_scan(pose, step):
 
 
 def some_errors(sigma, count, seed=5):
-    pairs = simulated_pairs(OFFICE, WAYS, np.random.default_rng(seed), PairSpec(sigma=sigma))
+    rng = np.random.default_rng(seed)
+    pairs = simulated_pairs(OFFICE, poses_on(WAYS, rng), rng, PairSpec(sigma=sigma))
     return list(errors_of(itertools.islice(pairs, count)))
 
 
@@ -126,10 +137,22 @@ def test_exact_pairs_in_a_vector_map_match_to_a_millimetre(name):
     if not AMRL.exists():
         pytest.skip(f"{AMRL} is missing")
     plan, ways = load_vector_map(AMRL / f"{name}.vectormap.json"), AMRL / f"{name}.navigation.json"
-    pairs = simulated_pairs(plan, read_ways(ways), np.random.default_rng(1))
+    rng = np.random.default_rng(1)
+    pairs = simulated_pairs(plan, poses_on(read_ways(ways), rng), rng)
     errors = list(errors_of(itertools.islice(pairs, 100)))
     assert np.median([error.position for error in errors]) < 0.0013
     assert np.median([error.angle for error in errors]) < math.radians(0.014)
+
+
+def test_real_scans_match_as_well_as_their_poses_are_known():
+    if not FREIBURG.exists():
+        pytest.skip(f"{FREIBURG} is missing")
+    with open_log(FREIBURG) as log:
+        found = list(log_differences(itertools.islice(log, 1000)))
+    assert len(found) > 990
+    assert np.median([difference.position for difference in found]) < 0.023
+    assert np.median([difference.angle for difference in found]) < math.radians(0.44)
+    assert np.median([difference.loop_position for difference in found]) < 0.01
 
 
 @pytest.mark.parametrize(
@@ -185,3 +208,20 @@ def test_a_guess_is_finite(guess):
 def test_limits_are_checked(limit):
     with pytest.raises(ValueError, match=f"{next(iter(limit))} is .* it must be from"):
         MatchSettings(**limit)
+
+
+@pytest.mark.parametrize("text", ["[]", "{", '[{"p0": {"x": 0}}]', '{"a": 1}', "[3]"])
+def test_what_is_no_vector_map_is_refused_in_one_line(tmp_path, text):
+    path = tmp_path / "floor.vectormap.json"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=r"floor\.vectormap\.json: ") as error:
+        load_vector_map(path)
+    assert "\n" not in str(error.value)
+
+
+def test_a_vector_map_keeps_its_walls(tmp_path):
+    path = tmp_path / "floor.vectormap.json"
+    path.write_text('[{"p0": {"x": 0, "y": 1}, "p1": {"x": 2, "y": 1}}]')
+    plan = load_floor_plan(load_vector_map(path))
+    assert plan.name == "floor"
+    np.testing.assert_array_equal(plan.segments, [[0.0, 1.0, 2.0, 1.0]])

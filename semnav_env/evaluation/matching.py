@@ -13,9 +13,12 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point, Pose, compose, relative
 from semnav_env.features.mapping import Match, MatchError, MatchSettings, match_scans
+from semnav_env.features.readers import LogRecord
 from semnav_env.features.scan import Scan
 from semnav_env.lidar import Lidar, LidarSpec, lidar_spec
 from semnav_env.maps import FloorPlan
+from semnav_env.maps.placement import sample_pose
+from semnav_env.robots import WHEELCHAIR
 
 Way = tuple[Point, Point]
 """A straight way that a robot can take, metres."""
@@ -54,7 +57,7 @@ class Pair:
 
 
 @dataclass(frozen=True, slots=True)
-class MatchError2D:
+class PairError:
     """One match against the truth.
 
     Attributes:
@@ -73,35 +76,57 @@ class MatchError2D:
     undetermined: bool
 
 
-def read_ways(path: str | Path) -> tuple[Way, ...]:
-    """The edges of a `.navigation.json` graph, the companion of a vector map."""
-    graph = json.loads(Path(path).read_text("utf-8"))
-    places = {node["id"]: (node["loc"]["x"], node["loc"]["y"]) for node in graph["nodes"]}
-    return tuple([(places[edge["s0_id"]], places[edge["s1_id"]]) for edge in graph["edges"]])
-
-
-def simulated_pairs(
-    plan: FloorPlan,
-    ways: Sequence[Way],
-    rng: np.random.Generator,
-    spec: PairSpec = PairSpec(),
-    lidar: str | LidarSpec = "tim561",
-) -> Iterator[Pair]:
-    """Pairs of scans from poses along the ways, any heading, without end.
-
-    Args:
-        plan: what the lidar sees.
-        ways: where the first pose of a pair may lie.
-        rng: source of everything random.
-        spec: how they are drawn.
-        lidar: its sigma is replaced by that of `spec`; it never drops a beam.
-    """
-    sensor = Lidar(plan, replace(lidar_spec(lidar), sigma=spec.sigma, dropout=0.0))
+def poses_on(ways: Sequence[Way], rng: np.random.Generator) -> Iterator[Pose]:
+    """Poses uniform along the ways, any heading, without end."""
     lengths = np.array([math.dist(*way) for way in ways])
     while True:
         (x1, y1), (x2, y2) = ways[rng.choice(len(ways), p=lengths / lengths.sum())]
         share = rng.random()
-        first = (x1 + share * (x2 - x1), y1 + share * (y2 - y1), rng.uniform(-math.pi, math.pi))
+        yield x1 + share * (x2 - x1), y1 + share * (y2 - y1), rng.uniform(-math.pi, math.pi)
+
+
+def poses_in(plan: FloorPlan, rng: np.random.Generator) -> Iterator[Pose]:
+    """Poses in the corridors of a plan where a wheelchair can stand, without end."""
+    while True:
+        yield sample_pose(plan, WHEELCHAIR, rng)
+
+
+def read_ways(path: str | Path) -> tuple[Way, ...]:
+    """The edges of a `.navigation.json` graph, the companion of a vector map.
+
+    Raises:
+        ValueError: not such a file.
+        OSError: the file cannot be opened.
+    """
+    try:
+        graph = json.loads(Path(path).read_text("utf-8"))
+        places = {n["id"]: (float(n["loc"]["x"]), float(n["loc"]["y"])) for n in graph["nodes"]}
+        return tuple([(places[edge["s0_id"]], places[edge["s1_id"]]) for edge in graph["edges"]])
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(
+            f"{path}: not a navigation graph ({error}); it must have nodes with an id and a loc, "
+            "and edges with s0_id and s1_id"
+        ) from None
+
+
+def simulated_pairs(
+    plan: FloorPlan,
+    poses: Iterable[Pose],
+    rng: np.random.Generator,
+    spec: PairSpec = PairSpec(),
+    lidar: str | LidarSpec = "tim561",
+) -> Iterator[Pair]:
+    """A pair of scans for each pose; none for a pose that has no room around it.
+
+    Args:
+        plan: what the lidar sees.
+        poses: of the lidar for the first scan of a pair.
+        rng: source of everything random.
+        spec: how the second is drawn.
+        lidar: its sigma is replaced by that of `spec`; it never drops a beam.
+    """
+    sensor = Lidar(plan, replace(lidar_spec(lidar), sigma=spec.sigma, dropout=0.0))
+    for first in poses:
         pose = _moved((0.0, 0.0, 0.0), rng.uniform(*spec.moved), rng.uniform(*spec.turned), rng)
         second = compose(first, pose)
         if min(_clearance(sensor, first), _clearance(sensor, second)) < CLEARANCE:
@@ -111,26 +136,73 @@ def simulated_pairs(
         yield Pair(sensor.scan(first, (key, 0, 0)), sensor.scan(second, (key, 0, 1)), pose, guess)
 
 
+@dataclass(frozen=True, slots=True)
+class LogDifference:
+    """Three successive scans a, b, c of a log: how well their matches agree.
+
+    Attributes:
+        position: between the match of a with b and the log's poses, metres.
+        angle: the same, radians.
+        loop_position: between the match of a with c and those of a with b and b with c, one after
+            the other, metres: no pose of the log has a part in it.
+        loop_angle: the same, radians.
+    """
+
+    position: float
+    angle: float
+    loop_position: float
+    loop_angle: float
+
+
+def log_differences(
+    records: Iterable[LogRecord], settings: MatchSettings = MatchSettings()
+) -> Iterator[LogDifference]:
+    """Match the successive scans of a log that has poses, from the motion before as a guess.
+
+    Scans without a match are left out.
+    """
+    moved: Pose = (0.0, 0.0, 0.0)
+    last: list[LogRecord] = []
+    for record in records:
+        last = [*last[-2:], record]
+        if len(last) < 3:
+            continue
+        a, b, c = last
+        if a.pose is None or b.pose is None:
+            raise ValueError("the log says no poses to compare with")
+        try:
+            first = match_scans(a.scan, b.scan, moved, settings).pose
+            second = match_scans(b.scan, c.scan, first, settings).pose
+            both = match_scans(a.scan, c.scan, compose(first, second), settings).pose
+        except MatchError:
+            moved = (0.0, 0.0, 0.0)
+            continue
+        moved = first
+        x, y, turn = relative(relative(a.pose, b.pose), first)
+        u, v, loop = relative(compose(first, second), both)
+        yield LogDifference(math.hypot(x, y), abs(turn), math.hypot(u, v), abs(loop))
+
+
 def errors_of(
     pairs: Iterable[Pair], settings: MatchSettings = MatchSettings()
-) -> Iterator[MatchError2D]:
+) -> Iterator[PairError]:
     """Match each pair and compare; a pair that cannot be matched is infinitely wrong."""
     for pair in pairs:
         start = time.perf_counter()
         try:
             match = match_scans(pair.reference, pair.scan, pair.guess, settings)
         except MatchError:
-            yield MatchError2D(math.inf, math.inf, math.inf, time.perf_counter() - start, False)
+            yield PairError(math.inf, math.inf, math.inf, time.perf_counter() - start, False)
             continue
         yield _error(match, pair.pose, time.perf_counter() - start)
 
 
-def _error(match: Match, truth: Pose, seconds: float) -> MatchError2D:
+def _error(match: Match, truth: Pose, seconds: float) -> PairError:
     turn = relative(truth, match.pose)[2]
     error: FloatArray = np.array((match.pose[0] - truth[0], match.pose[1] - truth[1], turn))
     nees = float(error @ np.linalg.solve(match.covariance, error))
     position = math.hypot(error[0], error[1])
-    return MatchError2D(position, abs(turn), nees, seconds, match.undetermined is not None)
+    return PairError(position, abs(turn), nees, seconds, match.undetermined is not None)
 
 
 def _moved(pose: Pose, distance: float, turn: float, rng: np.random.Generator) -> Pose:
