@@ -20,6 +20,7 @@ COMMANDS = {
     "evaluate": ("evaluate", "measure an agent on a suite of commands"),
     "evaluate features": ("evaluate_features", "measure the feature extractor against truth"),
     "evaluate lines": ("evaluate_lines", "measure lines on real scans, walls on simulated ones"),
+    "evaluate segmentation": ("evaluate_segmentation", "measure how walls are cut into pieces"),
     "train": ("train", "teach an agent, and keep what it learned"),
     "bench": ("bench", "time a step of the environment and its parts"),
     "doctor": ("doctor", "check the installation, and say how to mend it"),
