@@ -13,8 +13,6 @@ from tests.raycaster import heidelberg, scan_of
 from tests.strategies import Opening, Room, awkward_scans, openings, rooms
 
 seeds = st.integers(0, 2**32 - 1)
-STRAIGHT = ExtractorSettings(arcs=False)
-"""The reference knows no arcs."""
 
 
 def assert_same(scene: Scene, expected: Scene) -> None:
@@ -54,14 +52,14 @@ def test_kernels_agree_with_the_reference_in_corridors(
     scan = scan_of(opening.segments, opening.pose, sigma=sigma, rng=rng)
     ranges = np.where(rng.random(811) < 0.02 * dropouts, np.nan, scan.ranges)
     scan = Scan(ranges, scan.angle_min, scan.angle_increment)
-    assert_same(extract(scan, STRAIGHT), extract_reference(scan, STRAIGHT))
+    assert_same(extract(scan), extract_reference(scan))
 
 
 @settings(max_examples=30, deadline=None)
 @given(rooms(), seeds)
 def test_kernels_agree_with_the_reference_in_rooms(room: Room, seed: int) -> None:
     scan = scan_of(room.segments, room.pose, sigma=0.02, rng=np.random.default_rng(seed))
-    chosen = ExtractorSettings(arcs=False, sigma=0.01, split_distance=0.05, rupture_range=4.0)
+    chosen = ExtractorSettings(sigma=0.01, split_distance=0.05, rupture_range=4.0)
     assert_same(extract(scan, chosen), extract_reference(scan, chosen))
 
 
@@ -73,7 +71,16 @@ def test_kernels_agree_with_the_reference_on_full_circles(
     rng = np.random.default_rng(seed)
     turn = 2.0 * math.pi * (beams - 1) / 360.0
     scan = scan_of(place.segments, place.pose, beams, turn, sigma=0.02, rng=rng)
-    assert_same(extract(scan, STRAIGHT), extract_reference(scan, STRAIGHT))
+    assert_same(extract(scan), extract_reference(scan))
+
+
+@settings(max_examples=30, deadline=None)
+@given(openings(0.5, 2.5), seeds, st.sampled_from([0.005, 0.02]))
+def test_robust_kernels_agree_with_the_reference(opening: Opening, seed: int, sigma: float) -> None:
+    rng = np.random.default_rng(seed)
+    scan = scan_of(opening.segments, opening.pose, sigma=sigma, rng=rng)
+    chosen = ExtractorSettings(robust_fit=True)
+    assert_same(extract(scan, chosen), extract_reference(scan, chosen))
 
 
 @settings(max_examples=100, deadline=None)
@@ -81,7 +88,7 @@ def test_kernels_agree_with_the_reference_on_full_circles(
 def test_kernels_agree_with_the_reference_on_awkward_scans(scan: Scan, seed: int) -> None:
     unequal = scan.ranges * (1.0 + np.random.default_rng(seed).uniform(0.0, 1e-3, len(scan.ranges)))
     scan = Scan(unequal, scan.angle_min, scan.angle_increment)  # no ties, which rounding decides
-    assert_same(extract(scan, STRAIGHT), extract_reference(scan, STRAIGHT))
+    assert_same(extract(scan), extract_reference(scan))
 
 
 @settings(max_examples=40, deadline=None)
@@ -101,7 +108,7 @@ def test_kernels_agree_with_the_reference_on_columns(
 def test_kernels_agree_with_the_reference_in_a_real_hallway(one_sided: bool) -> None:
     segments, _ = heidelberg()
     rng = np.random.default_rng(3)
-    chosen = ExtractorSettings(arcs=False, one_sided_doors=one_sided)
+    chosen = ExtractorSettings(one_sided_doors=one_sided)
     for x in np.linspace(-2.0, 7.0, 15):
         pose = (float(x), -0.2 + 0.24 * (float(x) + 2.5), rng.uniform(-math.pi, math.pi))
         scan = scan_of(segments, pose, sigma=0.02, rng=rng)

@@ -23,6 +23,7 @@ from semnav_env.features.kernels.ring import (
     turn_back,
     unroll,
 )
+from semnav_env.features.kernels.robust import refit_robustly
 from semnav_env.features.kernels.scratch import Features
 from semnav_env.features.kernels.segmentation import group_points
 from semnav_env.features.kernels.walls import fit_pieces, flag_pieces, select_walls
@@ -139,6 +140,8 @@ def find_features(
     """Write what the pieces make; see `extract_arrays` and `find_pieces`."""
     counts = features.counts
     counts[ARCS] = find_arcs(directions, groups, pieces, settings, scratch, features.arcs)
+    if settings.robust_fit:
+        refit_robustly(pieces, settings, scratch)
     counts[WALLS] = select_walls(pieces, settings, scratch, features.walls)
     if turn > 0:
         pieces = repeat_pieces(pieces, scratch.group_first[groups], turn, scratch)

@@ -87,6 +87,7 @@ def refit(xs: FloatArray, ys: FloatArray, piece: Any) -> None:
         count_point(xs[i], ys[i], -1, piece)
     for i in range(piece.last + 1, piece.fitted_last + 1):
         count_point(xs[i], ys[i], -1, piece)
+    piece.fitted_first, piece.fitted_last = piece.first, piece.last
     fit(xs, ys, piece)
 
 

@@ -18,6 +18,7 @@ from semnav_env.features.reference.ring import (
     repeat_pieces,
     unroll,
 )
+from semnav_env.features.reference.robust import refit_robustly
 from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.reference.walls import Piece, find_pieces, is_wall
 from semnav_env.features.scan import Scan
@@ -40,6 +41,8 @@ def extract_reference(scan: Scan, settings: ExtractorSettings | None = None) -> 
     settings = settings or ExtractorSettings()
     sweep, pieces = _unrolled(Sweep.of(scan, settings), settings)
     arcs, pieces = find_arcs(sweep, pieces, settings)
+    if settings.robust_fit:
+        pieces = refit_robustly(sweep, pieces, settings)
     walls = [piece for piece in pieces if is_wall(piece, settings)]
     around = repeat_pieces(pieces, sweep.turn)
     corners = find_corners(walls, sweep.is_ring, settings)
@@ -70,7 +73,7 @@ def _pieces(sweep: Sweep, settings: ExtractorSettings) -> list[Piece]:
 
 
 def _wall(piece: Piece, settings: ExtractorSettings) -> Wall:
-    variance = point_variance(piece.scatter, len(piece.beams), settings.sigma)
+    variance = point_variance(piece.scatter, piece.count, settings.sigma)
     return Wall(
         start=(float(piece.start[0]), float(piece.start[1])),
         end=(float(piece.end[0]), float(piece.end[1])),
@@ -78,9 +81,9 @@ def _wall(piece: Piece, settings: ExtractorSettings) -> Wall:
         end_rupture=piece.end_rupture,
         start_break=piece.start_break,
         end_break=piece.end_break,
-        beams=len(piece.beams),
-        residual=math.sqrt(piece.scatter / len(piece.beams)),
+        beams=piece.count,
+        residual=math.sqrt(piece.scatter / piece.count),
         angle_deviation=math.sqrt(variance / piece.spread),
-        offset_deviation=math.sqrt(variance / len(piece.beams)),
+        offset_deviation=math.sqrt(variance / piece.count),
         centroid=(float(piece.mean[0]), float(piece.mean[1])),
     )

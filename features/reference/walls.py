@@ -10,6 +10,7 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.dynamic import PIECE_PRICE
+from semnav_env.features.kernels.robust import LOSS
 from semnav_env.features.reference.partition import best_cuts
 from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.settings import ExtractorSettings
@@ -19,7 +20,7 @@ from semnav_env.features.settings import ExtractorSettings
 class Piece:
     """Points on one line and their total least squares fit; flags as in `Wall`.
 
-    One that `is_round` is part of an arc and so no wall.
+    One that `is_round` is part of an arc and so no wall. With `weights` the points count by these.
     """
 
     beams: list[int]
@@ -29,16 +30,29 @@ class Piece:
     start_break: bool = False
     end_break: bool = False
     is_round: bool = False
+    weights: FloatArray | None = None
+
+    @cached_property
+    def _shares(self) -> FloatArray:
+        """How much each point counts; the sum is how many do."""
+        if self.weights is None:
+            return np.ones(len(self.points))
+        return np.asarray(self.weights * (self.weights > 0.0).sum() / self.weights.sum())
+
+    @cached_property
+    def count(self) -> int:
+        """How many points count."""
+        return int((self._shares > 0.0).sum())
 
     @cached_property
     def mean(self) -> FloatArray:
         """Mean of the points, shape (2,)."""
-        return np.asarray(self.points.mean(axis=0))
+        return np.asarray(self._shares @ self.points / self.count)
 
     @cached_property
     def _moments(self) -> tuple[FloatArray, FloatArray]:
         centred = self.points - self.mean
-        return np.linalg.eigh(centred.T @ centred)
+        return np.linalg.eigh((self._shares * centred.T) @ centred)
 
     @property
     def spread(self) -> float:
@@ -48,7 +62,7 @@ class Piece:
     @property
     def scatter(self) -> float:
         """Sum of squared distances to the line."""
-        return max(float(self._moments[0][0]), 0.0)
+        return max(float(self._moments[0][0]), 0.0) * (1.0 if self.weights is None else LOSS)
 
     @cached_property
     def along(self) -> FloatArray:
@@ -82,7 +96,7 @@ class Piece:
     def deviation(self, point: FloatArray, sigma: float) -> float:
         """Standard deviation of the line beside a point, as in a straight-line regression."""
         along = (point - self.mean) @ self.along
-        return float(sigma * np.sqrt(1.0 / len(self.beams) + along**2 / self.spread))
+        return float(sigma * np.sqrt(1.0 / self.count + along**2 / self.spread))
 
 
 def find_pieces(sweep: Sweep, settings: ExtractorSettings) -> list[Piece]:
@@ -97,7 +111,7 @@ def find_pieces(sweep: Sweep, settings: ExtractorSettings) -> list[Piece]:
 
 def is_wall(piece: Piece, settings: ExtractorSettings) -> bool:
     """Whether a piece is straight, long and dense enough."""
-    enough = len(piece.beams) >= settings.wall_beams and piece.length >= settings.wall_length
+    enough = piece.count >= settings.wall_beams and piece.length >= settings.wall_length
     return enough and not piece.is_round
 
 
