@@ -49,6 +49,7 @@ class ExtractorSettings:
         merge_gap: widest gap that two collinear walls are joined across, metres; nothing that
             is wanted as a wall has a gap that a robot could pass.
         merge_offset: a step between two walls that is still taken for one wall, metres.
+        robust_fit: fit every line once more with less weight on points that are off it.
         confidence: how many standard deviations of a line fit are tolerated.
         door_width_min: narrowest door, metres (thesis section 3.1: 0.8).
         door_width_max: widest door, metres (thesis section 3.1: 1.2).
@@ -115,6 +116,7 @@ class ExtractorSettings:
     wall_length: float = 0.2
     merge_gap: float = 0.3
     merge_offset: float = 0.015
+    robust_fit: bool = False
     confidence: float = 2.0
     door_width_min: float = 0.8
     door_width_max: float = 1.2
@@ -213,6 +215,7 @@ _LIMITS = {
     "split_distance": (1e-4, 10.0),
     "wall_beams": (2, 10_000),
     "wall_length": (0.01, 100.0),
+    "robust_fit": (0, 1),
     "confidence": (0.0, 10.0),
     "door_angle_tolerance": (0.0, _RIGHT_ANGLE / 2),
     "door_clear_fraction": (0.0, 1.0),
