@@ -1,6 +1,7 @@
 """Draw docs/images/mapping.png: the map of a drive through the office, poses found by matching."""
 
 import math
+from itertools import pairwise
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -23,7 +24,7 @@ def drive() -> list[tuple[float, float, float]]:
     """Poses along the way, turning on the spot at its corners."""
     poses: list[tuple[float, float, float]] = []
     heading = 0.0
-    for (x1, y1), (x2, y2) in zip(WAY, WAY[1:], strict=False):
+    for (x1, y1), (x2, y2) in pairwise(WAY):
         turn = math.remainder(math.atan2(y2 - y1, x2 - x1) - heading, math.tau)
         turns = math.ceil(abs(turn) / TURN)
         poses += [(x1, y1, heading + turn * k / turns) for k in range(turns)]

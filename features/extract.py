@@ -13,18 +13,20 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.layout import (
     ARCS,
+    AT_START,
     CORNERS,
     CORRIDORS,
     DOORS,
     END_BREAK,
     END_RUPTURE,
+    NO_LEAF,
     START_BREAK,
     START_RUPTURE,
     WALLS,
 )
 from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
 from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Arc, Corner, CornerKind, Corridor, Door, Scene, Wall
+from semnav_env.features.scene import Arc, Corner, CornerKind, Corridor, Door, Leaf, Scene, Wall
 from semnav_env.features.settings import ExtractorSettings
 
 DEFAULT_SETTINGS = ExtractorSettings()
@@ -94,11 +96,24 @@ def to_scene(features: Features) -> Scene:
     arcs = features.arcs[: counts[ARCS]].tolist()
     return Scene(
         tuple([_wall(*row) for row in walls]),
-        tuple([Door((ax, ay), (bx, by)) for ax, ay, bx, by in doors]),
+        tuple([_door(*row) for row in doors]),
         tuple([Corner((x, y), KINDS[kind]) for x, y, kind in corners]),
         tuple([Corridor((ax, ay), (bx, by)) for ax, ay, bx, by in corridors]),
         tuple([_arc(*row) for row in arcs]),
     )
+
+
+def _door(
+    start_x: float,
+    start_y: float,
+    end_x: float,
+    end_y: float,
+    confidence: float,
+    leaf_angle: float,
+    hinge: int,
+) -> Door:
+    leaf = None if hinge == NO_LEAF else Leaf(hinge == AT_START, leaf_angle)
+    return Door((start_x, start_y), (end_x, end_y), confidence=confidence, leaf=leaf)
 
 
 def _wall(

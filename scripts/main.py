@@ -21,6 +21,7 @@ COMMANDS = {
     "evaluate features": ("evaluate_features", "measure the feature extractor against truth"),
     "evaluate lines": ("evaluate_lines", "measure lines on real scans, walls on simulated ones"),
     "evaluate segmentation": ("evaluate_segmentation", "measure how walls are cut into pieces"),
+    "evaluate matching": ("evaluate_matching", "measure how exactly scans are matched"),
     "train": ("train", "teach an agent, and keep what it learned"),
     "bench": ("bench", "time a step of the environment and its parts"),
     "doctor": ("doctor", "check the installation, and say how to mend it"),

@@ -59,23 +59,27 @@ def rooms(draw: st.DrawFn) -> Room:
 class Opening:
     """A corridor along x with one opening of `width` in its right wall, starting at x = 0.
 
+    Behind it is a room, `wider` than the opening by so much on either side; the wall between is
+    0.1 m thick. A room that is no wider is a side corridor.
+
     The scanner is at `pose`, looking along the corridor.
     """
 
     corridor: float
     width: float
     pose: Pose
+    wider: float = 1.0
 
     @property
     def segments(self) -> FloatArray:
         """Walls of the corridor and of what lies behind the opening, shape (n, 2, 2)."""
         right = -self.corridor / 2
-        behind = right - 4.0
+        inside, behind, low, high = right - 0.1, right - 4.0, -self.wider, self.width + self.wider
         return np.concatenate(
             (
-                polyline((-6.0, right), (0.0, right), (0.0, behind)),
-                polyline((0.0, behind), (self.width, behind)),
-                polyline((self.width, behind), (self.width, right), (6.0, right)),
+                polyline((-6.0, right), (0.0, right), (0.0, inside), (low, inside), (low, behind)),
+                polyline((low, behind), (high, behind), (high, inside)),
+                polyline((high, inside), (self.width, inside), (self.width, right), (6.0, right)),
                 polyline((6.0, right), (6.0, -right), (-6.0, -right), (-6.0, right)),
             )
         )

@@ -72,7 +72,7 @@ def test_the_scanner_is_on_the_left_of_every_wall_and_door(opening: Opening, see
 def test_an_opening_of_door_width_is_a_door_and_the_only_one(opening: Opening) -> None:
     scene = extract(scan_of(opening.segments, opening.pose)).placed(opening.pose)
     assert len(scene.doors) == 1
-    assert is_door(scene.doors[0], opening.jambs, within=0.1)
+    assert is_door(scene.doors[0], opening.jambs, within=0.12)  # either edge of the wall
 
 
 @quick
@@ -233,7 +233,7 @@ def test_a_few_missing_returns_do_not_end_a_wall() -> None:
 
 
 def test_a_side_corridor_gives_a_midpoint_in_its_mouth() -> None:
-    opening = Opening(corridor=2.0, width=2.0, pose=(-2.0, 0.0, 0.0))
+    opening = Opening(corridor=2.0, width=2.0, pose=(-2.0, 0.0, 0.0), wider=0.0)
     scene = extract(scan_of(opening.segments, opening.pose)).placed(opening.pose)
     assert min(math.dist(c.midpoint, (1.0, -1.0)) for c in scene.corridors) < 0.1
 

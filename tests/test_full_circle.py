@@ -91,7 +91,8 @@ def test_a_door_across_the_first_beam_is_found(opening: Opening, turn: float) ->
     pose = (x, y, to_door + math.pi + turn)  # the door lies behind, where the scan begins
     doors = extract(circle(opening.segments, pose)).placed(pose).doors
     assert len(doors) == 1
-    assert max(math.dist(doors[0].start, start), math.dist(doors[0].end, end)) < 0.1
+    off = max(math.dist(doors[0].start, start), math.dist(doors[0].end, end))
+    assert off < 0.12  # either edge of the wall
 
 
 @quick

@@ -53,7 +53,7 @@ def test_numpy_numbers_become_python_numbers() -> None:
         ({"breakpoint_rule": "certat"}, "'certat'; it must be one of constant, borges_aldon, cer"),
         ({"breakpoint_rule": "CERTAD"}, "'CERTAD'; it must be one of"),
         ({"breakpoint_rule": 2}, "breakpoint_rule is 2; it must be one of"),
-        ({"jamb_beams": 1}, "jamb_beams is 1; it must be from 2"),
+        ({"door_beams": 0}, "door_beams is 0; it must be from 1"),
         ({"one_sided_doors": 1}, "one_sided_doors is 1; it must be True or False"),
         ({"breakpoint_angle": 0.0}, "breakpoint_angle"),
         ({"door_clear_fraction": 1.5}, "from 0 to 1"),

@@ -202,7 +202,6 @@ def test_turning_the_robot_turns_the_truth(view):
     assert all(nearest(wall, turned.walls) < 1e-6 for wall in first.walls)
 
 
-@pytest.mark.xfail(reason="a wall may still come back a seventh too short", strict=False)
 @given(views())
 @settings(max_examples=40, deadline=None)
 def test_extraction_of_a_truth_scan_returns_the_walls_of_the_truth(view):

@@ -147,7 +147,17 @@ def find_features(
         pieces = repeat_pieces(pieces, scratch.group_first[groups], turn, scratch)
     counts[PIECES] = pieces
     counts[DOORS] = find_doors(
-        ranges, directions, increment, range_min, limit, pieces, settings, scratch, features.doors
+        ranges,
+        directions,
+        increment,
+        range_min,
+        limit,
+        turn,
+        groups,
+        pieces,
+        settings,
+        scratch,
+        features.doors,
     )
     counts[CORNERS] = find_corners(counts[WALLS], turn > 0, settings, scratch, features.corners)
     counts[CORRIDORS] = find_corridors(

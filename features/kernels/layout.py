@@ -24,7 +24,12 @@ WALL = np.dtype(
 many beams support it, `mean` their centroid, `spread` their sum of squares along the line and
 `variance` that of one point across it."""
 
-DOOR = np.dtype(_ENDS)
+DOOR = np.dtype([*_ENDS, ("confidence", "f8"), ("leaf_angle", "f8"), ("hinge", "i8")])
+"""A door; `hinge` says which jamb its leaf hangs on."""
+
+NO_LEAF, AT_START, AT_END = range(3)
+"""Values of `hinge`."""
+
 CORNER = np.dtype([("x", "f8"), ("y", "f8"), ("kind", "i8")])
 CORRIDOR = np.dtype(_ENDS)
 

@@ -7,7 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.features.door_scorer import default_scorer
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.door_evidence import EVIDENCE
 from semnav_env.features.kernels.layout import ARC, CAPACITY, CORNER, CORRIDOR, DOOR, PIECES, WALL
 
 PIECE = np.dtype(
@@ -25,12 +27,17 @@ projected ends and their distance, first and last point now and at the last fit,
 `layout`, and its wall's index or -1."""
 
 CANDIDATE = np.dtype(
-    [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y", "score")] + [("state", "i8")]
+    [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y", "along_x", "along_y")]
+    + [(name, "f8") for name in ("width", "distance", "start_spacing", "end_spacing")]
+    + [("confidence", "f8")]
+    + [(name, "i8") for name in ("first", "last", "start_piece", "end_piece", "state")]
 )
-"""A possible door; `state` is 0 open, 1 kept, 2 suppressed."""
+"""A possible door: its last points, unit direction and width, the scanner's `distance` from its
+line, the spacing of the beams at its jambs, the `first` and `last` beam between them, the pieces
+beside them; `state` is 0 open, 1 kept, 2 suppressed."""
 
 JAMB = np.dtype([("x", "f8"), ("y", "f8"), ("beam", "i8"), ("piece", "i8")])
-"""A possible jamb: an end of a piece, and the beam that saw it."""
+"""A possible jamb, the beam that saw it, and the piece there or the next one beside it."""
 
 JOINT = np.dtype(
     [("x", "f8"), ("y", "f8")] + [(name, "i8") for name in ("kind", "partner", "start_meets")]
@@ -64,6 +71,9 @@ class Scratch(NamedTuple):
         start_jambs: where an opening may start, dtype `JAMB`.
         end_jambs: where an opening may end, dtype `JAMB`.
         candidates: possible doors, dtype `CANDIDATE`.
+        evidence: what speaks for each of them, see `door_evidence.EVIDENCE`.
+        scorer: what weighs it, as `door_scorer.load_scorer` gives it.
+        levels: of its units.
         wall_piece: the piece of each wall, shape of the wall array.
         near_pieces: the pieces of the walls near a corner, shape of the wall array.
         joints: the corner at the end of each wall, dtype `JOINT`, shape of the wall array.
@@ -83,6 +93,9 @@ class Scratch(NamedTuple):
     start_jambs: np.ndarray
     end_jambs: np.ndarray
     candidates: np.ndarray
+    evidence: FloatArray
+    scorer: FloatArray
+    levels: FloatArray
     wall_piece: NDArray[np.int64]
     near_pieces: NDArray[np.int64]
     joints: np.ndarray
@@ -126,6 +139,9 @@ def allocate_scratch(beams: int) -> Scratch:
         start_jambs=np.zeros(JAMBS, JAMB),
         end_jambs=np.zeros(JAMBS, JAMB),
         candidates=np.zeros(DOOR_CANDIDATES, CANDIDATE),
+        evidence=np.zeros((DOOR_CANDIDATES, len(EVIDENCE))),
+        scorer=default_scorer(),
+        levels=np.zeros(default_scorer().shape[1]),
         wall_piece=np.zeros(CAPACITY["walls"], np.int64),
         near_pieces=np.zeros(CAPACITY["walls"], np.int64),
         joints=np.zeros(CAPACITY["walls"], JOINT),

@@ -40,7 +40,7 @@ class MatchSettings:
 
     sigma: float | None = None
     roughness: float = 0.003
-    window: int = 40
+    window: int = 20
     max_distance: float = 0.6
     outliers: float = 3.0
     point_to_point: bool = False

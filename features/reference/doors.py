@@ -1,126 +1,110 @@
-"""Doors: gaps of door width in line with a wall, with nothing close behind."""
+"""Doors: gaps of door width between things in line, with room behind, told by a small scorer."""
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator
-from itertools import combinations
+from dataclasses import replace
 
 import numpy as np
 
+from semnav_env.features.door_scorer import SCORER_FILE
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.doors import LONGEST_SPACING, SUPPORT_PIECES
+from semnav_env.features.kernels.doors import LONGEST_SPACING
+from semnav_env.features.reference.door_evidence import Gap, Jamb, evidence_of, is_open
+from semnav_env.features.reference.door_leaf import find_leaf
 from semnav_env.features.reference.sweep import Sweep
-from semnav_env.features.reference.walls import Piece, is_wall
+from semnav_env.features.reference.walls import Piece
 from semnav_env.features.scene import Door
 from semnav_env.features.settings import ExtractorSettings
 
 
 def find_doors(sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings) -> list[Door]:
     """The best of every set of overlapping candidates, in beam order."""
-    candidates = list(_candidates(sweep, pieces, settings))
+    gaps = list(_candidates(sweep, pieces, settings))
     kept: list[int] = []
-    for i in sorted(range(len(candidates)), key=lambda i: -candidates[i][0]):
-        place = candidates[i][1]
-        others = (candidates[k][1] for k in kept)
-        if all(math.dist(place.midpoint, o.midpoint) >= settings.door_width_min for o in others):
+    for i in sorted(range(len(gaps)), key=lambda i: -gaps[i].confidence):
+        middle = gaps[i].middle
+        if all(math.dist(middle, gaps[k].middle) >= settings.door_width_min for k in kept):
             kept.append(i)
-    return [candidates[i][1] for i in sorted(kept)]
+    return [_door(gaps[i], pieces) for i in sorted(kept)]
 
 
-def _candidates(
+def confidence(evidence: dict[str, float]) -> float:
+    """The formula of `features.door_scorer`."""
+    scorer = json.loads(SCORER_FILE.read_text(encoding="utf-8"))
+    inputs = np.array([evidence[name] for name in scorer["inputs"]])
+    level = np.array(scorer["weights"]) @ inputs + scorer["bias"]
+    total = scorer["offset"] + (level / (1.0 + np.abs(level))) @ scorer["output"]
+    return float(1.0 / (1.0 + np.exp(-total)))
+
+
+def _candidates(sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings) -> Iterator[Gap]:
+    starts, ends = _jambs(sweep, pieces, settings)
+    for start in starts:
+        for end in ends:
+            gap = _gap(start, end, sweep, settings)
+            if gap is None or not is_open(gap, sweep, settings):
+                continue
+            evidence = evidence_of(gap, sweep, pieces, settings)
+            gap = replace(gap, confidence=confidence(evidence))
+            supported = settings.one_sided_doors or evidence["misfit_more"] <= 1.0
+            if supported and gap.confidence >= settings.door_confidence_min:
+                yield gap
+
+
+def _jambs(
     sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings
-) -> Iterator[tuple[float, Door]]:
-    jambs = [k for k, piece in enumerate(pieces) if len(piece.beams) >= settings.jamb_beams]
-    for a, b in combinations(jambs, 2):
-        start, end = pieces[a].end, pieces[b].start
-        beams = range(pieces[a].beams[-1] + 1, pieces[b].beams[0])
-        spacing = [_beam_spacing(jamb, end - start, sweep.increment) for jamb in (start, end)]
-        if len(beams) < settings.door_beams or not _has_width(start, end, spacing, settings):
-            continue
-        misfit = _misfit(pieces, a, b, settings)
-        if misfit is None:
-            continue
-        clear = _clear_fraction(sweep, beams, start, end, settings)
-        if clear >= settings.door_clear_fraction:
-            along = (end - start) / np.linalg.norm(end - start)
-            first, last = start + 0.5 * spacing[0] * along, end - 0.5 * spacing[1] * along
-            yield clear - misfit, Door(tuple(first.tolist()), tuple(last.tolist()))
+) -> tuple[list[Jamb], list[Jamb]]:
+    """Where openings may start and end: the ends of pieces, and of groups beyond them."""
+    once = [k for k, p in enumerate(pieces) if not sweep.turn or p.beams[0] < sweep.turn]
+    starts = [Jamb(pieces[k].end, pieces[k].beams[-1], k) for k in once]
+    ends = [Jamb(piece.start, piece.beams[0], k) for k, piece in enumerate(pieces)]
+    for group in sweep.connected_groups(settings):
+        first, last = group[0], group[-1]
+        if not any(pieces[k].beams[0] <= first <= pieces[k].beams[-1] for k in once):
+            k = next((k for k in once if pieces[k].beams[0] > first), len(once))
+            ends.append(Jamb(sweep.points([first])[0], first, k))
+        if not any(pieces[k].beams[0] <= last <= pieces[k].beams[-1] for k in once):
+            k = next((k for k in once[::-1] if pieces[k].beams[-1] < last), -1)
+            starts.append(Jamb(sweep.points([last])[0], last, k))
+    return sorted(starts, key=lambda j: j.beam), sorted(ends, key=lambda j: j.beam)
 
 
-def _has_width(
-    start: FloatArray, end: FloatArray, spacing: list[float], settings: ExtractorSettings
-) -> bool:
-    width = float(np.linalg.norm(end - start))
-    tolerance = settings.door_width_tolerance
-    widest = settings.door_width_max + tolerance
-    return width >= settings.door_width_min - tolerance and width - sum(spacing) <= widest
+def _gap(start: Jamb, end: Jamb, sweep: Sweep, settings: ExtractorSettings) -> Gap | None:
+    """The gap between two jambs if it can have the width of a door."""
+    chord = end.point - start.point
+    width = float(np.linalg.norm(chord))
+    widest = settings.door_width_max + settings.door_width_tolerance
+    narrowest = settings.door_width_min - settings.door_width_tolerance
+    too_narrow = width < narrowest or end.beam - start.beam <= settings.door_beams
+    if too_narrow or _farthest_beam(start, widest, sweep) < end.beam:
+        return None
+    along = chord / width
+    distance = float(start.point[0] * along[1] - start.point[1] * along[0])
+    if distance <= 0.0:
+        return None
+    spacing = [_spacing(jamb.point, distance, sweep.increment) for jamb in (start, end)]
+    too_wide = width > widest + 2.0 * LONGEST_SPACING or width - sum(spacing) > widest
+    return None if too_wide else Gap(start, end, along, width, distance, spacing[0], spacing[1])
 
 
-def _beam_spacing(point: FloatArray, gap: FloatArray, increment: float) -> float:
-    """R dphi / sin(incidence) on a line through a point, at most `LONGEST_SPACING`."""
-    size = float(np.linalg.norm(gap))
-    across = abs(gap[0] * point[1] - gap[1] * point[0]) / size if size > 0.0 else 0.0
+def _farthest_beam(jamb: Jamb, widest: float, sweep: Sweep) -> int:
+    """The last beam at which the other jamb can be."""
+    distance, reach = float(np.linalg.norm(jamb.point)), widest + 2.0 * LONGEST_SPACING
+    angle = math.asin(reach / distance) if distance > reach else math.pi
+    return jamb.beam + int(angle / sweep.increment) + 1
+
+
+def _spacing(point: FloatArray, distance: float, increment: float) -> float:
+    """R dphi / sin(incidence) on the chord's line at a jamb, at most `LONGEST_SPACING`."""
     along = float(point @ point) * increment
-    return along / across if along < across * LONGEST_SPACING else LONGEST_SPACING
+    return along / distance if along < distance * LONGEST_SPACING else LONGEST_SPACING
 
 
-def _misfit(pieces: list[Piece], a: int, b: int, settings: ExtractorSettings) -> float | None:
-    """0 to 1 with a wall on both sides of the gap, 1 to 2 with one, None with no wall."""
-    start, end = pieces[a].end, pieces[b].start
-    walls_before = [p for p in pieces[max(a - SUPPORT_PIECES + 1, 0) : a + 1][::-1]]
-    walls_after = pieces[b : b + SUPPORT_PIECES]
-    before = [_support(p, p.end, start, end, 1.0, settings) for p in walls_before]
-    after = [_support(p, p.start, end, start, -1.0, settings) for p in walls_after]
-    best = [next((s for s in side if s is not None), None) for side in (before, after)]
-    found = [s for s in best if s is not None]
-    if len(found) == 2:
-        return max(found)
-    return 1.0 + found[0] if found and settings.one_sided_doors else None
-
-
-def _support(
-    wall: Piece,
-    wall_end: FloatArray,
-    near: FloatArray,
-    far: FloatArray,
-    sense: float,
-    settings: ExtractorSettings,
-) -> float | None:
-    """How far the far jamb is from the wall's line as a share of what is allowed, or None."""
-    gap = far - near
-    if not is_wall(wall, settings) or np.linalg.norm(near - wall_end) > settings.door_wall_gap:
-        return None
-    if sense * (gap @ wall.along) <= 0.0:
-        return None
-    near_error, far_error = (
-        settings.confidence * wall.deviation(jamb, settings.sigma) for jamb in (near, far)
-    )
-    if abs(wall.offset(near)) > settings.door_offset_tolerance + near_error:
-        return None
-    if far_error > settings.door_line_error:
-        return None
-    allowed = settings.door_point_tolerance + far_error
-    allowed += math.tan(settings.door_angle_tolerance) * float(np.linalg.norm(gap))
-    return abs(wall.offset(far)) / allowed if 0.0 < allowed >= abs(wall.offset(far)) else None
-
-
-def _clear_fraction(
-    sweep: Sweep, beams: range, start: FloatArray, end: FloatArray, settings: ExtractorSettings
-) -> float:
-    """Share of the beams that reach well beyond the chord, or 0 where it is no opening."""
-    gap = end - start
-    width, chord = float(np.linalg.norm(gap)), start[0] * gap[1] - start[1] * gap[0]
-    if chord <= 0.0:
-        return 0.0
-    chosen = np.array(beams)
-    missing = ~sweep.returned[chosen]
-    slant = sweep.directions[chosen, 0] * gap[1] - sweep.directions[chosen, 1] * gap[0]
-    with np.errstate(invalid="ignore"):
-        beyond = np.where(missing, np.inf, sweep.ranges[chosen] * slant - chord)
-    if (beyond[[0, -1]] < -settings.door_depth * slant[[0, -1]]).any():
-        return 0.0
-    deep = np.count_nonzero(beyond >= settings.door_recess * width)
-    if deep < settings.door_deep_fraction * len(chosen):
-        return 0.0
-    return float(np.count_nonzero(beyond >= settings.door_depth * slant) / len(chosen))
+def _door(gap: Gap, pieces: list[Piece]) -> Door:
+    first = gap.start.point + 0.5 * gap.start_spacing * gap.along
+    last = gap.end.point - 0.5 * gap.end_spacing * gap.along
+    ends = (tuple(first.tolist()), tuple(last.tolist()))
+    return Door(*ends, confidence=gap.confidence, leaf=find_leaf(gap, pieces))

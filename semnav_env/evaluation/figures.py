@@ -61,10 +61,7 @@ def by_noise(study: Study) -> Figure:
     for kind in Kind:
         scores = [score(pool.sightings, pool.detections, kind) for pool in pools]
         _draw(axes, kind, millimetres, scores)
-    axes[0].legend(fontsize=8)
-    for ax in axes:
-        ax.set_xlabel("sigma, mm")
-        ax.set_xticks(millimetres)
+    _finish(axes, "sigma, mm", millimetres)
     return figure
 
 
@@ -78,10 +75,7 @@ def by_bin(
     for kind in Kind:
         scores = binned(pool.sightings, pool.detections, kind, column, borders)
         _draw(axes, kind, (0.5 * (edges[:-1] + edges[1:])).tolist(), scores)
-    axes[0].legend(fontsize=8)
-    for ax in axes:
-        ax.set_xlabel(label)
-        ax.set_xticks(edges)
+    _finish(axes, label, edges.tolist())
     figure.suptitle(f"sigma {1e3 * sigma:g} mm")
     return figure
 
@@ -145,7 +139,14 @@ def _draw(axes: list[Axes], kind: Kind, places: list[float], scores: list[Score]
     for ax, read in zip(axes, _READ, strict=True):
         values = [read(each) for each in scores]
         ax.plot(places, values, "o-", color=COLOURS[kind], label=kind.label, markersize=4)
+
+
+def _finish(axes: list[Axes], label: str, ticks: list[float]) -> None:
     axes[0].set_ylim(top=1.01)
+    axes[0].legend(fontsize=8)
+    for ax in axes:
+        ax.set_xlabel(label)
+        ax.set_xticks(ticks)
 
 
 def _figure(width: float, height: float) -> Figure:

@@ -39,26 +39,27 @@ EXTRACTORS: Mapping[str, Extractor] = {
 VERTICES = (10, 20, 30, 40, 50)
 
 BESIDE = 1e-3
-"""A beam that passes the end of a line by less still meets it, radians."""
+"""A beam that meets no line but passes the end of one by less meets that, radians."""
 
 
 def predicted_ranges(scan: Scan, lines: Lines) -> FloatArray:
     """Where every beam first meets a line: metres, infinity where it meets none."""
     angles = scan.angles
-    nearest = np.full(len(angles), np.inf)
     directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+    inside, beside = np.full((2, len(angles)), np.inf)
     for line in lines:
         for a, b in pairwise(line):
             middle = np.arctan2(*(a / np.hypot(*a) + b / np.hypot(*b))[::-1])
             half = abs(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b)) / 2
-            off = np.abs(np.remainder(angles - middle + np.pi, 2 * np.pi) - np.pi)
-            met = np.flatnonzero(off <= half + BESIDE)
+            off = np.abs(np.remainder(angles - middle + np.pi, 2 * np.pi) - np.pi) - half
+            met = np.flatnonzero(off <= BESIDE)
             slope = directions[met] @ (b[1] - a[1], a[0] - b[0])
             with np.errstate(divide="ignore", invalid="ignore"):
                 reach = (a[0] * b[1] - a[1] * b[0]) / slope
             reach[~(reach > 0)] = np.inf
-            nearest[met] = np.minimum(nearest[met], reach)
-    return nearest
+            beside[met] = np.minimum(beside[met], reach)
+            inside[met] = np.minimum(inside[met], np.where(off[met] <= 1e-9, reach, np.inf))
+    return np.where(np.isfinite(inside), inside, beside)
 
 
 @dataclass(frozen=True)

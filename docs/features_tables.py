@@ -1,0 +1,47 @@
+"""The tables of docs/features_evaluation.md, from what `semnav evaluate features --out` wrote.
+
+python docs/features_tables.py out/features.json
+"""
+
+import json
+import sys
+from pathlib import Path
+
+SIGMA = 20.0
+COUNTED = ("in good view", "recall", "recall, all in view", "detections", "precision", "F1")
+
+
+def written(value):
+    if value is None:
+        return "-"
+    return f"{value:.3f}" if isinstance(value, float) else str(value)
+
+
+def table(rows, columns):
+    lines = [columns, ["---"] * len(columns), *([written(row[c]) for c in columns] for row in rows)]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def at_sigma(rows):
+    return [row for row in rows if row["sigma, mm"] == SIGMA]
+
+
+def main(path):
+    tables = json.loads(Path(path).read_text())["tables"]
+    found = tables["Found and missed, default settings"]
+    errors = tables["Errors of what was found, default settings"]
+    doors = [row for row in found if row["feature"] == "doors"]
+    print(table(at_sigma(found), ("poses", "clutter", "feature", *COUNTED)), end="\n\n")
+    print(table(doors, ("poses", "clutter", "sigma, mm", *COUNTED)), end="\n\n")
+    rest = ("Doors by floor plan, sigma 20 mm", "Strategies", "Real doors, freiburg-079")
+    shown = [
+        at_sigma(errors),
+        *(tables[name] for name in rest),
+        tables["Real logs, features a scan"],
+    ]
+    for rows in shown:
+        print(table(rows, tuple(rows[0])), end="\n\n")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -1,0 +1,58 @@
+"""The open leaf of a door: a straight piece of about its width that ends at a jamb."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from numba import njit
+
+from semnav_env.features.kernels.layout import AT_END, AT_START, NO_LEAF
+
+HINGE = 0.12
+"""A leaf ends this near to its jamb, metres."""
+SHORTEST, LONGEST = 0.5, 1.15
+"""Length of what counts as a leaf, in widths of the opening: a part of it may be hidden."""
+NARROWEST = math.radians(20.0)
+"""Least angle of a leaf to the wall and to the closed door: less is no leaf but wall."""
+
+
+@njit(cache=True, error_model="numpy")
+def find_leaf(gap: Any, pieces: int, scratch: Any) -> tuple[int, float]:
+    """Which jamb the leaf hangs on, and its angle to the closed door; see `elements.Leaf`.
+
+    Returns:
+        `AT_START` or `AT_END` and radians, positive away from the scanner; `NO_LEAF` and 0 if
+        no leaf is seen.
+    """
+    hinge, angle, nearest = NO_LEAF, 0.0, HINGE
+    for k in range(pieces):
+        piece = scratch.pieces[k]
+        if not SHORTEST * gap.width <= piece.length <= LONGEST * gap.width:
+            continue
+        for end in range(4):
+            first, at_start = end % 2 == 0, end < 2
+            x, y = (piece.start_x, piece.start_y) if first else (piece.end_x, piece.end_y)
+            jamb_x = gap.start_x if at_start else gap.end_x
+            jamb_y = gap.start_y if at_start else gap.end_y
+            distance = math.hypot(x - jamb_x, y - jamb_y)
+            turn = leaf_angle(gap, piece, first, at_start)
+            if distance < nearest and NARROWEST <= abs(turn) <= math.pi - NARROWEST:
+                hinge, angle, nearest = AT_START if at_start else AT_END, turn, distance
+    return hinge, angle
+
+
+@njit(cache=True, error_model="numpy")
+def leaf_angle(gap: Any, piece: Any, first: bool, at_start: bool) -> float:
+    """Angle from the closed door to a piece, both seen from a jamb; positive away from the scanner.
+
+    Args:
+        gap: the opening, the scanner on its left.
+        piece: the leaf.
+        first: whether its start is at the jamb, or its end.
+        at_start: whether the jamb is the start of the opening.
+    """
+    sense = (1.0 if first else -1.0) * (1.0 if at_start else -1.0)
+    along = sense * (piece.along_x * gap.along_x + piece.along_y * gap.along_y)
+    away = piece.along_x * gap.along_y - piece.along_y * gap.along_x
+    return math.atan2(away if first else -away, along)

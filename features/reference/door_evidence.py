@@ -1,0 +1,171 @@
+"""What speaks for and against a gap being a door, in plain NumPy; see `kernels.door_evidence`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels import door_evidence as kernel
+from semnav_env.features.reference.sweep import Sweep
+from semnav_env.features.reference.walls import Piece, is_wall
+from semnav_env.features.settings import ExtractorSettings
+
+
+@dataclass(frozen=True, eq=False)
+class Jamb:
+    """A possible jamb, the beam that saw it, and the piece there or the next one beside it."""
+
+    point: FloatArray
+    beam: int
+    piece: int
+
+
+@dataclass(frozen=True, eq=False)
+class Gap:
+    """A possible door.
+
+    Attributes:
+        start: the jamb where it starts.
+        end: where it ends.
+        along: unit direction from start to end.
+        width: metres.
+        distance: of the scanner from the chord's line, metres.
+        start_spacing: between the hits of neighbouring beams on that line, metres.
+        end_spacing: the same at the end.
+        confidence: how likely it is a door.
+    """
+
+    start: Jamb
+    end: Jamb
+    along: FloatArray
+    width: float
+    distance: float
+    start_spacing: float
+    end_spacing: float
+    confidence: float = 0.0
+
+    @property
+    def beams(self) -> slice:
+        """Those between the jambs."""
+        return slice(self.start.beam + 1, self.end.beam)
+
+    @property
+    def middle(self) -> FloatArray:
+        """Between the last points that were seen, shape (2,)."""
+        return 0.5 * (self.start.point + self.end.point)
+
+    def beyond(self, sweep: Sweep, beams: slice) -> tuple[FloatArray, FloatArray]:
+        """How far beams reach past the chord's line: along the beam and across the line, metres."""
+        slant = _cross(sweep.directions[beams], self.along)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            across = sweep.ranges[beams] * slant - self.distance
+            beyond = across / slant
+        missing = ~sweep.returned[beams]
+        far = kernel.DEEPEST
+        return np.where(missing, far, beyond), np.where(missing, far, across)
+
+
+def _cross(directions: FloatArray, along: FloatArray) -> FloatArray:
+    slant: FloatArray = directions[..., 0] * along[1] - directions[..., 1] * along[0]
+    return slant
+
+
+def is_open(gap: Gap, sweep: Sweep, settings: ExtractorSettings) -> bool:
+    """Whether a gap is deep, clear and no shadow."""
+    beyond, across = gap.beyond(sweep, gap.beams)
+    is_deep = bool((across >= settings.door_recess).any())
+    clear = np.count_nonzero(beyond >= settings.door_depth)
+    is_clear = clear >= settings.door_clear_fraction * len(beyond)
+    in_shadow = min(beyond[0], beyond[-1]) < -settings.door_shadow
+    return bool(is_deep and is_clear and not in_shadow)
+
+
+def evidence_of(
+    gap: Gap, sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings
+) -> dict[str, float]:
+    """Everything in `kernels.door_evidence.EVIDENCE`, by name."""
+    beyond, across = gap.beyond(sweep, gap.beams)
+    jumps = np.clip(beyond[[0, -1]], -0.5, 1.0)
+    width = gap.width - 0.5 * (gap.start_spacing + gap.end_spacing)
+    away = float(np.linalg.norm(gap.middle))
+    walls = [_best_wall(gap, step, pieces, settings) for step in (-1, 1)]
+    missing = [_missing_wall(gap, step, sweep) for step in (-1, 1)]
+    longest = max(pieces, key=lambda piece: piece.length, default=None)
+    main = longest.along if longest is not None else np.array((1.0, 0.0))
+    return {
+        **_more_or_less("past", missing),
+        **_more_or_less("misfit", [misfit for misfit, _ in walls]),
+        "clear": float(np.mean(beyond >= settings.door_depth)),
+        "deep": float(np.mean(across >= settings.door_recess)),
+        "front": float(np.mean(beyond < -kernel.FRONT)),
+        "depth": float(np.mean(np.clip(across, 0.0, kernel.DEEPEST))),
+        "beams": math.log(len(beyond)),
+        "narrow": max(kernel.NARROW - width, 0.0),
+        "wide": max(width - kernel.WIDE, 0.0),
+        "incidence": gap.distance / away,
+        "range": away,
+        **_more_or_less("jump", jumps.tolist()),
+        "spacing": gap.start_spacing + gap.end_spacing,
+        **_more_or_less("wall", [length for _, length in walls]),
+        "skew": 2.0 * abs(float(main @ gap.along) * float(_cross(main, gap.along))),
+        "longest": min(longest.length if longest is not None else 0.0, kernel.LONGEST_WALL),
+    }
+
+
+def _more_or_less(name: str, sides: list[float]) -> dict[str, float]:
+    return {f"{name}_more": max(sides), f"{name}_less": min(sides)}
+
+
+def _missing_wall(gap: Gap, step: int, sweep: Sweep) -> float:
+    """Metres of the chord's line beside a jamb that beams pass, so that no wall is there."""
+    jamb, spacing = (gap.start, gap.start_spacing) if step < 0 else (gap.end, gap.end_spacing)
+    stride = step * max(int(kernel.FINEST / spacing), 1)
+    beam, missing, reached = jamb.beam, 0.0, 0.0
+    while 0 <= beam < len(sweep.ranges) and reached < kernel.BESIDE:
+        slant = float(_cross(sweep.directions[beam], gap.along))
+        if slant <= kernel.FLATTEST:
+            break
+        line = gap.distance / slant * sweep.directions[beam]
+        place = step * float((line - jamb.point) @ gap.along)
+        if place > reached:
+            across = sweep.ranges[beam] * slant - gap.distance
+            band = kernel.BAND + kernel.BAND_SLOPE * place
+            if not sweep.returned[beam] or across > band:
+                missing += min(place, kernel.BESIDE) - reached
+            reached = place
+        beam += stride
+        beam += sweep.turn if beam < 0 else 0
+    return missing
+
+
+def _best_wall(
+    gap: Gap, step: int, pieces: list[Piece], settings: ExtractorSettings
+) -> tuple[float, float]:
+    """Misfit and length of the wall that best supports a jamb; see `wall_misfit`."""
+    near, far = (gap.start, gap.end) if step < 0 else (gap.end, gap.start)
+    best, length = kernel.NO_WALL, 0.0
+    for k in range(near.piece, near.piece + kernel.SUPPORT_PIECES * step, step):
+        if not 0 <= k < len(pieces):
+            break
+        wall = pieces[k]
+        end = wall.end if step < 0 else wall.start
+        away = np.linalg.norm(end - near.point) > settings.door_wall_gap
+        if away or not is_wall(wall, settings) or wall.along @ gap.along <= 0.0:
+            continue
+        slack = settings.door_angle_tolerance * gap.width
+        misfit = max(
+            _misfit(wall, far.point, slack, settings), _misfit(wall, near.point, 0.0, settings)
+        )
+        if misfit < best:
+            best, length = misfit, min(wall.length, kernel.LONGEST_SUPPORT)
+    return best, length
+
+
+def _misfit(wall: Piece, point: FloatArray, slack: float, settings: ExtractorSettings) -> float:
+    """Distance from a wall's line as a share of what is allowed there."""
+    allowed = settings.door_point_tolerance + slack
+    allowed += settings.confidence * wall.deviation(point, settings.sigma)
+    return abs(wall.offset(point)) / max(allowed, 1e-9)

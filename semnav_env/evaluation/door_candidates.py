@@ -1,0 +1,70 @@
+"""Every gap in a scan that the door scorer is asked about, with its evidence."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from semnav_env.features import ExtractorSettings, Scan
+from semnav_env.features.extract import beam_directions
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.chain import extract_arrays
+from semnav_env.features.kernels.door_evidence import EVIDENCE
+from semnav_env.features.kernels.scratch import CANDIDATE, allocate_features, allocate_scratch
+from semnav_env.features.scene import Door, ends_of
+
+MOST = 2048
+UNUSED = -1
+
+
+class Candidates(NamedTuple):
+    """Gaps of a scan.
+
+    Attributes:
+        ends: their jambs as a door's, lidar frame, shape (n, 4), metres.
+        evidence: what speaks for them, shape (n, len(EVIDENCE)).
+    """
+
+    ends: FloatArray
+    evidence: FloatArray
+
+
+def candidates_of(scan: Scan, settings: ExtractorSettings) -> Candidates:
+    """The candidates of a scan at or above the least confidence of the settings, in beam order."""
+    directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
+    beams = len(directions)
+    scratch = allocate_scratch(beams)._replace(
+        candidates=np.zeros(MOST, CANDIDATE), evidence=np.zeros((MOST, len(EVIDENCE)))
+    )
+    scratch.candidates["state"] = UNUSED
+    extract_arrays(
+        scan.ranges[:beams].copy(),
+        directions,
+        scan.angle_increment,
+        scan.range_min,
+        scan.range_max,
+        settings.as_record(),
+        scratch,
+        *allocate_features(),
+    )
+    count = np.count_nonzero(scratch.candidates["state"] != UNUSED)
+    return Candidates(_ends(scratch.candidates[:count]), scratch.evidence[:count].copy())
+
+
+def _ends(gaps: np.ndarray) -> FloatArray:
+    along = np.stack((gaps["along_x"], gaps["along_y"]), axis=1)
+    start = np.stack((gaps["start_x"], gaps["start_y"]), axis=1)
+    end = np.stack((gaps["end_x"], gaps["end_y"]), axis=1)
+    start = start + 0.5 * gaps["start_spacing"][:, None] * along
+    end = end - 0.5 * gaps["end_spacing"][:, None] * along
+    return np.concatenate((start, end), axis=1)
+
+
+def apart(ends: FloatArray, doors: tuple[Door, ...]) -> FloatArray:
+    """The larger distance between the jambs of each gap and each door, shape (n, doors), metres."""
+    others = ends_of(doors)
+    gaps = ends[:, None].reshape(-1, 1, 2, 2)
+    same = np.hypot(*np.moveaxis(gaps - others.reshape(1, -1, 2, 2), -1, 0)).max(axis=-1)
+    turned = others.reshape(1, -1, 2, 2)[:, :, ::-1]
+    return np.asarray(np.minimum(same, np.hypot(*np.moveaxis(gaps - turned, -1, 0)).max(axis=-1)))
