@@ -25,7 +25,7 @@ from semnav_env.evaluation.sheets import Cell, Sheet
 from semnav_env.features.mapping import MatchSettings
 from semnav_env.features.readers import open_log
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
-from semnav_env.maps.vector_map import load_vector_map
+from semnav_env.maps.importers import load_vector_map
 from semnav_env.scripts.progress import tracked
 
 
@@ -105,7 +105,7 @@ def _plan_and_poses(
 ) -> tuple[FloorPlan, Iterator[tuple[float, float, float]]]:
     if name.endswith(".vectormap.json"):
         ways = read_ways(name.replace(".vectormap.json", ".navigation.json"))
-        return load_vector_map(name), poses_on(ways, rng)
+        return load_vector_map(name).plan, poses_on(ways, rng)
     plan = load_floor_plan(name)
     return plan, poses_in(plan, rng)
 

@@ -14,7 +14,7 @@ from importlib import import_module, metadata
 
 COMMANDS = {
     "extract": ("extract", "turn a log of lidar scans into walls, doors, corners and corridors"),
-    "map": ("map", "list, show and build floor plans"),
+    "map": ("map", "list, show, build and import floor plans"),
     "demo": ("demo", "let a robot carry out a command"),
     "ground": ("ground", "say what a command refers to in a floor plan"),
     "evaluate": ("evaluate", "measure an agent on a suite of commands"),

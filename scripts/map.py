@@ -1,4 +1,4 @@
-"""`semnav map`: list, show and build floor plans."""
+"""`semnav map`: list, show, build and import floor plans."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from tyro.conf import Positional, subcommand
 
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
 from semnav_env.scripts.map_build import Build
+from semnav_env.scripts.map_import import Import
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,7 @@ Arguments = (
     Annotated[List, subcommand("list")]
     | Annotated[Show, subcommand("show")]
     | Annotated[Build, subcommand("build")]
+    | Annotated[Import, subcommand("import")]
 )
 
 

@@ -28,7 +28,7 @@ from semnav_env.features.readers import open_log
 from semnav_env.lidar import Lidar
 from semnav_env.lidar.spec import TIM561
 from semnav_env.maps import FloorPlan, Surface, load_floor_plan
-from semnav_env.maps.vector_map import load_vector_map
+from semnav_env.maps.importers import load_vector_map
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 AMRL = DATA / "amrl_floors"
@@ -136,7 +136,10 @@ def test_the_covariance_covers_the_error(sigma):
 def test_exact_pairs_in_a_vector_map_match_to_a_millimetre(name):
     if not AMRL.exists():
         pytest.skip(f"{AMRL} is missing")
-    plan, ways = load_vector_map(AMRL / f"{name}.vectormap.json"), AMRL / f"{name}.navigation.json"
+    plan, ways = (
+        load_vector_map(AMRL / f"{name}.vectormap.json").plan,
+        AMRL / f"{name}.navigation.json",
+    )
     rng = np.random.default_rng(1)
     pairs = simulated_pairs(plan, poses_on(read_ways(ways), rng), rng)
     errors = list(errors_of(itertools.islice(pairs, 100)))
@@ -222,6 +225,6 @@ def test_what_is_no_vector_map_is_refused_in_one_line(tmp_path, text):
 def test_a_vector_map_keeps_its_walls(tmp_path):
     path = tmp_path / "floor.vectormap.json"
     path.write_text('[{"p0": {"x": 0, "y": 1}, "p1": {"x": 2, "y": 1}}]')
-    plan = load_floor_plan(load_vector_map(path))
+    plan = load_floor_plan(load_vector_map(path).plan)
     assert plan.name == "floor"
     np.testing.assert_array_equal(plan.segments, [[0.0, 1.0, 2.0, 1.0]])

@@ -26,6 +26,9 @@ MAX_EXTENT = 1000.0
 SHORTEST = 0.001
 """Metres; shorter segments have no direction worth the name."""
 
+LEAST_AREA = TOUCH**2
+"""Of a polygon, square metres."""
+
 
 class FloorPlanError(ValueError):
     """A floor plan that cannot be used: one line that says where, what and what would be right."""
@@ -85,7 +88,7 @@ def check_polygon(polygon: Polygon, what: str) -> None:
     if not polygon.is_valid:
         reason = explain_validity(polygon).replace("[", " at (").replace("]", ")")
         raise FloorPlanError(f"{what} is not a simple polygon: {reason}; order its corners anew")
-    if polygon.area < TOUCH**2:
+    if polygon.area < LEAST_AREA:
         raise FloorPlanError(f"{what} has no area; give its corners in metres")
 
 
@@ -107,8 +110,13 @@ def check_together(plan: FloorPlan) -> None:
     for door in plan.doors:
         if not inside.covers(LineString((door.start, door.end))):
             raise FloorPlanError(f"door {door.name!r} leaves the boundary; widen the boundary")
-        _check_jambs(door, plan)
-        _check_state(door, plan)
+        check_doorway(door, plan)
+
+
+def check_doorway(door: PlanDoor, plan: FloorPlan) -> None:
+    """A jamb at either end, and as open as it says."""
+    _check_jambs(door, plan)
+    _check_state(door, plan)
 
 
 def _check_jambs(door: PlanDoor, plan: FloorPlan) -> None:

@@ -12,7 +12,7 @@ from shapely import Polygon
 from semnav_env.maps.doorways import door_state
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.reader import parse_plan
-from semnav_env.maps.rules import check_plan
+from semnav_env.maps.rules import LEAST_AREA, check_plan
 
 
 def save_floor_plan(plan: FloorPlan, path: str | Path) -> None:
@@ -60,10 +60,12 @@ def _feature(geometry: dict[str, Any], **properties: object) -> dict[str, Any]:
 
 
 def _solid(surface: Surface) -> dict[str, Any]:
-    """A closed line that encloses something is an area, any other one a line."""
+    """A closed line is an area if it encloses what the rules call one, any other one a line."""
     points = list(surface.points)
-    if len(points) > 3 and points[0] == points[-1] and Polygon(points).is_valid:
-        return _area(Polygon(points))
+    if len(points) > 3 and points[0] == points[-1]:
+        area = Polygon(points)
+        if area.is_valid and area.area >= LEAST_AREA:
+            return _area(area)
     return {"type": "LineString", "coordinates": points}
 
 

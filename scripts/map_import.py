@@ -1,0 +1,57 @@
+"""`semnav map import`: a floor plan from somebody else's map."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from tyro.conf import Positional
+
+from semnav_env.features.plot import check_suffix
+from semnav_env.maps import save_floor_plan
+from semnav_env.maps.importers import Tracing, import_map
+
+
+@dataclass(frozen=True)
+class Import:
+    """Make a floor plan of somebody else's map, and say what was understood of it.
+
+    Reads maps of ROS's map_server (.yaml, with doors.yaml and locations.yaml beside it if there
+    are any; or the image alone), vector maps (.json), and lists of wall segments (.csv).
+
+    Attributes:
+        source: the map.
+        out: the floor plan to write (.geojson).
+        resolution: of an image alone, metres a pixel.
+        tracing: how walls are made of the pixels of an occupancy map.
+        picture: of the plan (.png, .pdf or .svg).
+        json: print the report as JSON.
+    """
+
+    source: Positional[Path]
+    out: Path
+    resolution: float | None = None
+    tracing: Tracing = field(default_factory=Tracing)
+    picture: Path | None = None
+    json: bool = False
+
+    def run(self) -> int:
+        """Read, write and report."""
+        if self.out.resolve() == self.source.resolve():
+            raise ValueError(f"--out is the map itself, {self.source}; give another file")
+        if self.picture:
+            check_suffix(self.picture)
+        plan, report = import_map(self.source, self.resolution, self.tracing)
+        self.out.parent.mkdir(parents=True, exist_ok=True)
+        save_floor_plan(plan, self.out)
+        if self.picture:
+            from semnav_env.maps.draw import save_picture
+
+            self.picture.parent.mkdir(parents=True, exist_ok=True)
+            save_picture(plan, self.picture)
+        if self.json:
+            print(json.dumps({**asdict(report), "out": str(self.out)}))
+        else:
+            print(f"{report}\nwrote {self.out}")
+        return 0

@@ -1,0 +1,27 @@
+"""Floor plans from other people's maps: occupancy maps of ROS, vector maps, labelled buildings."""
+
+from semnav_env.maps.importers.building import load_building
+from semnav_env.maps.importers.imported import Imported, ImportReport
+from semnav_env.maps.importers.occupancy import (
+    OccupancyMap,
+    OccupancySpec,
+    Tracing,
+    read_occupancy,
+    trace,
+)
+from semnav_env.maps.importers.opening import import_map
+from semnav_env.maps.importers.segments import load_csv, load_vector_map
+
+__all__ = [
+    "ImportReport",
+    "Imported",
+    "OccupancyMap",
+    "OccupancySpec",
+    "Tracing",
+    "import_map",
+    "load_building",
+    "load_csv",
+    "load_vector_map",
+    "read_occupancy",
+    "trace",
+]

@@ -1,0 +1,137 @@
+"""Occupancy maps with labels beside them: real floors with named doors and rooms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Container, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import shapely
+from shapely import Polygon
+
+from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
+from semnav_env.maps.importers.fitting import fit_door
+from semnav_env.maps.importers.imported import MARGIN, Imported
+from semnav_env.maps.importers.labels import (
+    DOORS,
+    PLACES,
+    DoorLabel,
+    PlaceLabel,
+    read_door_labels,
+    read_place_labels,
+)
+from semnav_env.maps.importers.occupancy import OccupancyMap, Tracing, read_occupancy, trace
+from semnav_env.maps.rules import FloorPlanError, check_door, check_doorway, check_region
+
+LONG = 4.0
+"""A place so many times as long as it is wide is taken for a corridor."""
+
+
+def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
+    """The floor plan of an occupancy map, with what `doors.yaml` and `locations.yaml` name.
+
+    Either file may be missing beside the map. A labelled door gets the jambs that the map shows
+    (`fit_door`), and is open if the map shows a way through; a closed one gets a leaf. A place is
+    a room, or a corridor if it is at least `LONG` times as long as wide.
+
+    Args:
+        path: the map's YAML file.
+        tracing: how walls are made of pixels.
+
+    Raises:
+        FloorPlanError: names the file, what is wrong and what would be right.
+    """
+    where = Path(path)
+    pixels = read_occupancy(where)
+    plan, report = trace(pixels, tracing)
+    doors, places = where.with_name(DOORS), where.with_name(PLACES)
+    plan, lost_places = _with_places(plan, read_place_labels(places), pixels)
+    plan, lost_doors = _with_doors(plan, read_door_labels(doors))
+    taken = {
+        "open doors": sum(door.open for door in plan.doors),
+        "closed doors": sum(not door.open for door in plan.doors),
+        "rooms": len(plan.rooms),
+        "corridors": len(plan.corridors),
+    }
+    halls = f"places at least {LONG:g} times as long as wide are taken for corridors"
+    report = replace(
+        report,
+        source=(*report.source, *(str(file) for file in (doors, places) if file.is_file())),
+        taken=report.taken | {name: number for name, number in taken.items() if number},
+        left_out=report.left_out + lost_places + lost_doors,
+        notes=report.notes + ((halls,) if plan.regions else ()),
+    )
+    return Imported(plan, report)
+
+
+def _with_places(
+    plan: FloorPlan, labels: Sequence[PlaceLabel], pixels: OccupancyMap
+) -> tuple[FloorPlan, tuple[str, ...]]:
+    """The plan with those of the labelled places that keep to the rules; and why others do not."""
+    regions: dict[str, Region] = {}
+    lost = []
+    for label in labels:
+        whole = shapely.make_valid(Polygon(pixels.to_world(label.ring)))
+        parts = [part for part in shapely.get_parts(whole) if isinstance(part, Polygon)]
+        region = Region(label.name, max(parts, key=shapely.area, default=Polygon()))
+        try:
+            check_region(region)
+            _check_new(label.name, regions, "region")
+        except FloorPlanError as error:
+            lost.append(str(error))
+        else:
+            regions[label.name] = region
+    wide = [plan.boundary, *(region.polygon.buffer(MARGIN) for region in regions.values())]
+    boundary = shapely.box(*shapely.total_bounds(wide))
+    halls = tuple([region for region in regions.values() if is_long(region.polygon)])
+    rooms = tuple([region for region in regions.values() if not is_long(region.polygon)])
+    return replace(plan, rooms=rooms, corridors=halls, boundary=boundary), tuple(lost)
+
+
+def is_long(polygon: Polygon) -> bool:
+    """Whether a rectangle of the same area and perimeter is `LONG` times as long as wide.
+
+    So an L or a T of corridors is long too.
+    """
+    half = float(polygon.length) / 4.0
+    spread = math.sqrt(max(0.0, half**2 - float(polygon.area)))
+    return half + spread >= LONG * (half - spread)
+
+
+def _with_doors(plan: FloorPlan, labels: Sequence[DoorLabel]) -> tuple[FloorPlan, tuple[str, ...]]:
+    """The plan with those of the labelled doors that keep to the rules; and why others do not."""
+    doors: dict[str, PlanDoor] = {}
+    lost = []
+    for label in labels:
+        fit = fit_door(label, plan.solids)
+        try:
+            if fit is None:
+                raise FloorPlanError(f"door {label.name!r}: no wall beside one of its jambs")
+            door = _turned(PlanDoor(label.name, fit.start, fit.end, fit.open), plan)
+            check_door(door)
+            _check_new(label.name, doors, "door")
+            if door.open:
+                check_doorway(door, plan)
+        except FloorPlanError as error:
+            lost.append(str(error))
+        else:
+            doors[label.name] = door
+    closed = [door for door in doors.values() if not door.open]
+    leaves = [Surface((door.start, door.end), Material.LEAF) for door in closed]
+    surfaces = (*plan.surfaces, *leaves)
+    return replace(plan, surfaces=surfaces, doors=tuple(doors.values())), tuple(lost)
+
+
+def _check_new(name: str, known: Container[str], what: str) -> None:
+    if name in known:
+        raise FloorPlanError(f"{what} {name!r}: there is another one of that name")
+
+
+def _turned(door: PlanDoor, plan: FloorPlan) -> PlanDoor:
+    """The door with the corridor, if it leads to one, to the left of the way between its jambs."""
+    (x1, y1), (x2, y2) = door.start, door.end
+    right = door.midpoint[0] + (y2 - y1) / door.width, door.midpoint[1] - (x2 - x1) / door.width
+    if any(shapely.contains_xy(hall.polygon, *right) for hall in plan.corridors):
+        return replace(door, start=door.end, end=door.start)
+    return door

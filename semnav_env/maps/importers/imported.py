@@ -1,0 +1,54 @@
+"""What every importer returns: a floor plan, and what was understood of its source."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from shapely import Polygon, box
+
+from semnav_env.maps.floor_plan import FloorPlan, Surface
+
+MARGIN = 1.0
+"""From the outermost wall to the boundary, metres."""
+
+
+@dataclass(frozen=True)
+class ImportReport:
+    """What was read, and what was not.
+
+    Attributes:
+        source: the files.
+        kind: what kind of map it is.
+        taken: how many of each thing are in the plan.
+        left_out: what was not taken, one line each with the reason.
+        notes: what else is good to know.
+    """
+
+    source: tuple[str, ...]
+    kind: str
+    taken: dict[str, int]
+    left_out: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        """As lines of text."""
+        taken = ", ".join(f"{count} {name}" for name, count in self.taken.items())
+        lines = [f"{self.kind}: {', '.join(self.source)}", f"taken: {taken or 'nothing'}"]
+        lines += [f"left out: {line}" for line in self.left_out]
+        return "\n".join([*lines, *(f"note: {line}" for line in self.notes)])
+
+
+class Imported(NamedTuple):
+    """A plan and the report of how it was read; unpack it as `plan, report = ...`."""
+
+    plan: FloorPlan
+    report: ImportReport
+
+
+def boundary_of(surfaces: Sequence[Surface]) -> Polygon:
+    """A rectangle around everything solid, with a margin."""
+    points = [point for surface in surfaces for point in surface.points]
+    xs, ys = [x for x, _ in points], [y for _, y in points]
+    return box(min(xs) - MARGIN, min(ys) - MARGIN, max(xs) + MARGIN, max(ys) + MARGIN)

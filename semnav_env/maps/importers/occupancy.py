@@ -1,0 +1,227 @@
+"""Occupancy maps of ROS's map_server: a YAML file and an image."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray, Pose, points_to_parent
+from semnav_env.maps.floor_plan import FloorPlan, Surface
+from semnav_env.maps.importers.documents import finite, read_yaml
+from semnav_env.maps.importers.imported import Imported, ImportReport, boundary_of
+from semnav_env.maps.importers.outlines import outlines
+from semnav_env.maps.importers.raster import free_pixels, mended, read_grey, solid_pixels
+from semnav_env.maps.rules import SHORTEST, FloorPlanError
+
+IMAGES = (".pgm", ".png", ".ppm", ".bmp", ".tif", ".tiff", ".gif")
+
+
+@dataclass(frozen=True)
+class OccupancySpec:
+    """What map_server's YAML file says.
+
+    Attributes:
+        image: the image's path.
+        resolution: metres per pixel.
+        origin: pose of the lower left corner of the image in the world.
+        occupied_thresh: pixels with a greater occupancy are solid.
+        free_thresh: pixels with a smaller one are free; in between nothing is known.
+        negate: light pixels are solid.
+
+    Raises:
+        FloorPlanError: a value out of its range.
+    """
+
+    image: Path
+    resolution: float
+    origin: Pose = (0.0, 0.0, 0.0)
+    occupied_thresh: float = 0.65
+    free_thresh: float = 0.196
+    negate: bool = False
+
+    def __post_init__(self) -> None:
+        rules = (
+            (0.001 <= self.resolution <= 10.0, "resolution", "0.001 to 10 metres a pixel"),
+            (all(map(math.isfinite, self.origin)), "origin", "finite: x, y, heading"),
+            (0.0 <= self.free_thresh <= 1.0, "free_thresh", "from 0 to 1"),
+            (
+                self.free_thresh <= self.occupied_thresh <= 1.0,
+                "occupied_thresh",
+                "from free_thresh to 1",
+            ),
+        )
+        for holds, name, right in rules:
+            if not holds:
+                raise FloorPlanError(f"{name} is {getattr(self, name)}; it must be {right}")
+
+    def to_world(self, pixels: FloatArray, rows: int) -> FloatArray:
+        """Metres of points (column, row) in an image of so many rows; row 0 is at the top."""
+        columns, lines = np.asarray(pixels, dtype=np.float64).T
+        local = self.resolution * np.stack((columns, rows - lines), axis=1)
+        return np.asarray(points_to_parent(self.origin, local))
+
+
+@dataclass(frozen=True, eq=False)
+class OccupancyMap:
+    """A map of pixels.
+
+    Attributes:
+        files: it was read from.
+        spec: what its pixels mean.
+        grey: their brightness, shape (rows, columns).
+    """
+
+    files: tuple[str, ...]
+    spec: OccupancySpec
+    grey: FloatArray
+
+    @property
+    def solid(self) -> NDArray[np.bool_]:
+        """Which pixels are occupied."""
+        return solid_pixels(self.grey, self.spec.occupied_thresh, self.spec.negate)
+
+    @property
+    def free(self) -> NDArray[np.bool_]:
+        """Which pixels are known to be free."""
+        return free_pixels(self.grey, self.spec.free_thresh, self.spec.negate)
+
+    def to_world(self, pixels: FloatArray) -> FloatArray:
+        """Metres of points (column, row), shape (n, 2); (0, 0) is the upper left corner."""
+        return self.spec.to_world(pixels, len(self.grey))
+
+
+def read_occupancy(path: str | Path, resolution: float | None = None) -> OccupancyMap:
+    """The pixels of an occupancy map.
+
+    Args:
+        path: the YAML file of a map, or an image alone: black solid, the lower left corner at the
+            origin.
+        resolution: metres per pixel of an image alone.
+
+    Raises:
+        FloorPlanError: names the file, what is wrong and what would be right.
+    """
+    spec = _spec(Path(path), resolution)
+    files = tuple(dict.fromkeys((str(path), str(spec.image))))
+    return OccupancyMap(files, spec, read_grey(spec.image))
+
+
+@dataclass(frozen=True)
+class Tracing:
+    """How walls are made of pixels.
+
+    Attributes:
+        mend: gaps of at most so many pixels in walls are closed; maps that a robot made have
+            perforated walls, which beams would pass.
+        simplify: pixels by which an outline may be simplified, see `outlines`; with 0 both here
+            and in `mend`, the walls are exactly the pixels' edges.
+
+    Raises:
+        FloorPlanError: a value out of its range.
+    """
+
+    mend: int = 2
+    simplify: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.mend <= 10:
+            raise FloorPlanError(f"mend is {self.mend}; it must be 0 to 10 pixels")
+        if not 0.0 <= self.simplify <= 5.0:
+            raise FloorPlanError(f"simplify is {self.simplify}; it must be 0 to 5 pixels")
+
+
+def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> Imported:
+    """The floor plan of an occupancy map: the outlines of what is solid, along the pixels' edges.
+
+    Args:
+        pixels: the map.
+        tracing: how; `Tracing()` if None.
+
+    Returns:
+        The plan (walls only) and the report.
+
+    Raises:
+        FloorPlanError: names the file, what is wrong and what would be right.
+    """
+    tracing = tracing or Tracing()
+    spec, solid = pixels.spec, pixels.solid
+    if not solid.any():
+        raise FloorPlanError(
+            f"{spec.image}: no pixel is darker than occupied_thresh {spec.occupied_thresh}; "
+            "lower it, or set negate if walls are white"
+        )
+    rings = outlines(mended(solid, tracing.mend), tracing.simplify)
+    surfaces = tuple([s for ring in rings if (s := _surface(pixels.to_world(ring))) is not None])
+    where = Path(pixels.files[0])
+    boundary = boundary_of(surfaces)
+    source = f"occupancy map {where.name}"
+    plan = FloorPlan(where.stem, surfaces, (), (), (), (), boundary, source)
+    rows, columns = solid.shape
+    notes = (
+        f"{spec.resolution:g} m a pixel, {columns} x {rows} pixels",
+        f"{solid.mean():.1%} solid, {pixels.free.mean():.1%} free, the rest unknown (not a wall)",
+    )
+    taken = {"outlines": len(surfaces), "segments": len(plan.segments)}
+    return Imported(plan, ImportReport(pixels.files, "occupancy map", taken, notes=notes))
+
+
+def read_spec(path: Path) -> OccupancySpec:
+    """What a map's YAML file says.
+
+    Raises:
+        FloorPlanError: not such a file; names what is wrong with which entry.
+    """
+    fields = read_yaml(path)
+    if not isinstance(fields, dict):
+        raise FloorPlanError(f"{path}: no map description; it has image, resolution, origin")
+    if fields.get("mode", "trinary") == "raw":
+        raise FloorPlanError(f"{path}: mode raw is not read; save the map as trinary or scale")
+    try:
+        image = fields["image"]
+        origin = [finite(value) for value in fields["origin"]]
+        x, y, heading = origin if len(origin) == 3 else (*origin, 0.0)
+        return OccupancySpec(
+            path.parent / str(image),
+            finite(fields["resolution"]),
+            (x, y, heading),
+            finite(fields.get("occupied_thresh", 0.65)),
+            finite(fields.get("free_thresh", 0.196)),
+            bool(finite(fields.get("negate", 0))),
+        )
+    except KeyError as error:
+        raise FloorPlanError(
+            f"{path}: lacks {error}; a map has image, resolution, origin"
+        ) from None
+    except FloorPlanError as error:
+        raise FloorPlanError(f"{path}: {error}") from None
+    except (TypeError, ValueError) as error:
+        raise FloorPlanError(
+            f"{path}: {error}; resolution is a number, origin is [x, y, heading]"
+        ) from None
+
+
+def _spec(path: Path, resolution: float | None) -> OccupancySpec:
+    if path.suffix.lower() in IMAGES:
+        if resolution is None:
+            raise FloorPlanError(
+                f"{path}: an image alone has no scale; give the resolution in metres a pixel, "
+                "such as 0.05, or the map's YAML file"
+            )
+        return OccupancySpec(path, resolution)
+    spec = read_spec(path)
+    if resolution is not None and resolution != spec.resolution:
+        raise FloorPlanError(
+            f"{path}: says resolution {spec.resolution}, not {resolution}; leave resolution out"
+        )
+    return spec
+
+
+def _surface(points: FloatArray) -> Surface | None:
+    """A surface through these points without repeated ones; None if there is but one."""
+    far = np.linalg.norm(np.diff(points, axis=0), axis=1) >= SHORTEST
+    kept = points[np.append(True, far)]
+    return Surface(tuple([(x, y) for x, y in kept.tolist()])) if len(kept) > 1 else None

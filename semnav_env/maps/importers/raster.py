@@ -1,0 +1,103 @@
+"""Reading images of maps: which pixels are solid, safely."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, UnidentifiedImageError
+from scipy.ndimage import binary_closing
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.maps.rules import FloorPlanError
+
+MAX_PIXELS = 25_000_000
+"""Larger images are refused before they are decoded."""
+
+FORMATS = ("PPM", "PNG", "BMP", "TIFF", "GIF")
+
+
+def read_grey(path: Path) -> FloatArray:
+    """Brightness of every pixel, 0 black to 255 white, shape (rows, columns).
+
+    Colours are averaged, as ROS's map_server does; what is transparent counts as unknown grey.
+
+    Raises:
+        FloorPlanError: no such file, no image, or too many pixels.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+            with Image.open(path, formats=FORMATS) as image:
+                _check_size(path, image.width, image.height)
+                return _brightness(image)
+    except UnidentifiedImageError:
+        raise FloorPlanError(
+            f"{path}: no image that can be read; give a {', '.join(FORMATS)} file"
+        ) from None
+    except Image.DecompressionBombError:
+        raise FloorPlanError(_too_large(path, "far more")) from None
+    except (OSError, SyntaxError, ValueError, EOFError) as error:
+        if isinstance(error, FloorPlanError):
+            raise
+        raise FloorPlanError(f"{path}: cannot be read: {_reason(error)}") from None
+
+
+def _check_size(path: Path, width: int, height: int) -> None:
+    if width * height > MAX_PIXELS:
+        raise FloorPlanError(_too_large(path, f"{width} x {height} ="))
+
+
+def _too_large(path: Path, what: str) -> str:
+    return (
+        f"{path}: {what} pixels; at most {MAX_PIXELS:,} are read: crop the map or "
+        "make its resolution coarser"
+    )
+
+
+def _reason(error: Exception) -> str:
+    stated = error.strerror if isinstance(error, OSError) else None
+    return stated or str(error) or type(error).__name__
+
+
+def _brightness(image: Image.Image) -> FloatArray:
+    if image.mode.startswith("I;16") or image.mode in ("I", "F"):
+        values = np.asarray(image, dtype=np.float64)
+        return values / 257.0 if values.max(initial=0.0) > 255.0 else values
+    if image.mode in ("1", "L"):
+        return np.asarray(image.convert("L"), dtype=np.float64)
+    rgba = np.asarray(image.convert("RGBA"), dtype=np.float64)
+    grey: FloatArray = rgba[:, :, :3].mean(axis=2)
+    grey[rgba[:, :, 3] == 0.0] = UNKNOWN
+    return grey
+
+
+UNKNOWN = 205.0
+"""What map_saver writes where nothing is known."""
+
+
+def solid_pixels(grey: FloatArray, threshold: float, negate: bool) -> NDArray[np.bool_]:
+    """Which pixels are occupied: darker (lighter, if `negate`) than the threshold says.
+
+    The occupancy is (255 - brightness) / 255, or brightness / 255 if `negate` (ROS map_server).
+    """
+    occupancy = grey / 255.0 if negate else (255.0 - grey) / 255.0
+    return np.asarray(occupancy > threshold)
+
+
+def free_pixels(grey: FloatArray, threshold: float, negate: bool) -> NDArray[np.bool_]:
+    """Which pixels are known to be free."""
+    occupancy = grey / 255.0 if negate else (255.0 - grey) / 255.0
+    return np.asarray(occupancy < threshold)
+
+
+def mended(solid: NDArray[np.bool_], gap: int) -> NDArray[np.bool_]:
+    """The solid pixels with gaps of at most so many pixels closed, as in perforated walls."""
+    if not gap:
+        return solid
+    wide = np.pad(solid, gap + 1)
+    closed = binary_closing(wide, np.ones((gap + 1, gap + 1), dtype=bool))
+    inside = slice(gap + 1, -gap - 1)
+    return np.asarray(solid | closed[inside, inside])
