@@ -6,13 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.door_memory import REMEMBERED_DOOR
+from semnav_env.features.kernels.layout import DOOR, DOORS, PIECES, WALL, WALLS
 from semnav_env.features.kernels.memory import (
-    REMEMBERED,
+    REMEMBERED_WALL,
     how_many_count,
     remember,
     what_counts,
 )
-from semnav_env.features.scene import Door, PlainWalls, Scene
+from semnav_env.features.scan import Scan
+from semnav_env.features.scene import Door, PlainWalls, Scene, ends_of
+
+ENDS = ("start_x", "start_y", "end_x", "end_y")
 
 MAX_WALLS, MAX_DOORS = 512, 64
 """When so many are remembered, a new one replaces the one that was seen least."""
@@ -21,14 +26,14 @@ MAX_WALLS, MAX_DOORS = 512, 64
 class SceneMemory:
     """What was seen so far, in one fixed frame (the odometry frame).
 
-    A wall counts from its second sighting. A door counts from its third, while no more than a
-    third of the scans contradict it, that is, found its opening filled; of two doors in one place,
-    only the one that was seen more often.
+    A wall counts from its second sighting. A door counts while its sightings, by their confidence,
+    outweigh the scans that looked at its opening and found no door there, or found it filled
+    (`kernels.door_memory`); of two doors in one place, only the likelier one.
     """
 
     def __init__(self) -> None:
-        self._walls = np.zeros(MAX_WALLS, dtype=REMEMBERED)
-        self._doors = np.zeros(MAX_DOORS, dtype=REMEMBERED)
+        self._walls = np.zeros(MAX_WALLS, dtype=REMEMBERED_WALL)
+        self._doors = np.zeros(MAX_DOORS, dtype=REMEMBERED_DOOR)
         self._used = np.zeros(2, dtype=np.int64)
 
     @property
@@ -61,6 +66,24 @@ class SceneMemory:
         """
         remember(walls, doors, counts, ranges, *angles, lidar_pose, self.arrays)
 
+    def see(self, scene: Scene, scan: Scan, lidar_pose: Pose) -> None:
+        """Add a scan of which the scene is at hand, such as one of a log; as `update`.
+
+        Args:
+            scene: what was extracted from the scan, lidar frame.
+            scan: the scan.
+            lidar_pose: of the lidar in the memory's frame.
+        """
+        walls, doors = np.zeros(len(scene.walls), WALL), np.zeros(len(scene.doors), DOOR)
+        for array, items in ((walls, scene.walls), (doors, scene.doors)):
+            for name, column in zip(ENDS, ends_of(items).T, strict=True):
+                array[name] = column
+        doors["confidence"] = [door.confidence for door in scene.doors]
+        counts = np.zeros(PIECES + 1, np.int64)
+        counts[WALLS], counts[DOORS] = len(walls), len(doors)
+        angles = scan.angle_min, scan.angle_increment
+        self.update(walls, doors, counts, scan.ranges, angles, lidar_pose)
+
     @property
     def size(self) -> tuple[int, int]:
         """How many walls and doors count."""
@@ -70,6 +93,7 @@ class SceneMemory:
         """The walls and doors that count, in the memory's frame, in the order first seen."""
         walls, doors = what_counts(*self.arrays)
         counting = [
-            Door((x1, y1), (x2, y2), sightings=int(hits)) for x1, y1, x2, y2, hits in doors.tolist()
+            Door((x1, y1), (x2, y2), sightings=int(hits), confidence=confidence)
+            for x1, y1, x2, y2, hits, confidence in doors.tolist()
         ]
         return Scene(PlainWalls(walls), tuple(counting))

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from semnav_env.commands import MAX_CLAUSES, token_space
 from semnav_env.features.frames import Pose
+from semnav_env.features.kernels.door_memory import door_counts
 from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
-from semnav_env.features.kernels.memory import door_counts
 from semnav_env.features.kernels.scratch import Features
 from semnav_env.grounding.goal import Goal, GoalKind
 

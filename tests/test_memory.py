@@ -33,6 +33,7 @@ def see(
     doors: Sequence[Ends] = (),
     pose: Pose = HERE,
     ranges: FloatArray = NOTHING,
+    confidence: float = 0.8,
 ) -> None:
     """Show the memory one scan, taken at `pose`, of things given in the memory's frame."""
     wall_array, door_array = np.zeros(CAPACITY["walls"], WALL), np.zeros(CAPACITY["doors"], DOOR)
@@ -40,6 +41,7 @@ def see(
         for entry, (x1, y1, x2, y2) in zip(array, items, strict=False):
             entry["start_x"], entry["start_y"] = to_local(pose, (x1, y1))
             entry["end_x"], entry["end_y"] = to_local(pose, (x2, y2))
+    door_array["confidence"] = confidence
     counts = np.zeros(4, dtype=np.int64)
     counts[WALLS], counts[DOORS] = len(walls), len(doors)
     memory.update(wall_array, door_array, counts, ranges, ANGLES, pose)
@@ -62,16 +64,27 @@ def test_a_wall_counts_from_its_second_sighting() -> None:
     assert sizes == [(0, 0), (1, 0), (1, 0)]
 
 
-def test_a_door_counts_from_its_third_sighting_and_stays_when_out_of_view() -> None:
+@pytest.mark.parametrize(("confidence", "sightings"), [(1.0, 2), (0.8, 2), (0.7, 5), (0.6, None)])
+def test_a_door_counts_the_sooner_the_surer_its_sightings_are(
+    confidence: float, sightings: int | None
+) -> None:
     memory = SceneMemory()
     sizes = []
+    for _ in range(10):
+        see(memory, doors=[DOOR_A], confidence=confidence)
+        sizes.append(memory.size[1])
+    assert (sizes.index(1) + 1 if 1 in sizes else None) == sightings
+
+
+def test_a_door_stays_when_it_is_out_of_view() -> None:
+    memory = SceneMemory()
     for _ in range(3):
         see(memory, doors=[DOOR_A])
-        sizes.append(memory.size[1])
     for _ in range(50):
         see(memory)
-    assert sizes == [0, 0, 1]
-    assert memory.scene().doors[0].sightings == 3
+    (door,) = memory.scene().doors
+    assert door.sightings == 3
+    assert 0.85 < door.confidence < 0.95
 
 
 @given(views=st.lists(poses, min_size=3, max_size=6))
@@ -128,27 +141,53 @@ def test_a_jamb_is_known_better_with_every_sighting() -> None:
     assert rms[-3:].mean() < 0.65 * rms[0]
 
 
-def test_a_door_whose_opening_is_found_filled_counts_no_longer() -> None:
-    door = (-0.5, 2.0, 0.5, 2.0)
+AHEAD: Ends = (-0.5, 2.0, 0.5, 2.0)
+
+
+def test_a_door_whose_opening_is_found_filled_is_given_up_and_comes_back() -> None:
     memory = SceneMemory()
-    for _ in range(4):
-        see(memory, doors=[door])
-    for _ in range(2):
+    for _ in range(20):
+        see(memory, doors=[AHEAD])
+    for _ in range(12):
         see(memory, ranges=beams_that_end_at(2.0))
+    assert memory.size[1] == 0
+    for _ in range(9):
+        see(memory, doors=[AHEAD])
     assert memory.size[1] == 1
-    see(memory, ranges=beams_that_end_at(2.0))
+
+
+def test_an_open_gap_in_which_most_scans_find_no_door_is_none() -> None:
+    memory = SceneMemory()
+    for k in range(30):
+        see(memory, doors=[AHEAD] if k % 4 == 0 else [], ranges=beams_that_end_at(4.0))
     assert memory.size[1] == 0
 
 
-def test_a_door_that_is_seen_through_or_hidden_is_not_contradicted() -> None:
-    door = (-0.5, 2.0, 0.5, 2.0)
+@pytest.mark.parametrize(
+    "ranges",
+    [beams_that_end_at(1.0), np.full(360, np.nan), np.full(360, -np.inf)],
+    ids=["hidden", "nan", "too near"],
+)
+def test_a_scan_that_cannot_tell_says_nothing_of_a_door(ranges: FloatArray) -> None:
     memory = SceneMemory()
     for _ in range(4):
-        see(memory, doors=[door])
-    for y in (1.0, 4.0):
-        for _ in range(20):
-            see(memory, ranges=beams_that_end_at(y))
-    see(memory, ranges=np.full(360, np.nan))
+        see(memory, doors=[AHEAD])
+    for _ in range(20):
+        see(memory, ranges=ranges)
+    assert memory.size[1] == 1
+
+
+@pytest.mark.parametrize(
+    "pose",
+    [(0.0, -3.0, 0.0), (0.0, 1.8, 0.0), (6.0, 0.5, 0.0)],
+    ids=["too far", "in the doorway", "too flat"],
+)
+def test_only_a_good_view_speaks_against_a_door(pose: Pose) -> None:
+    memory = SceneMemory()
+    for _ in range(4):
+        see(memory, doors=[AHEAD])
+    for _ in range(20):
+        see(memory, pose=pose)
     assert memory.size[1] == 1
 
 

@@ -3,28 +3,23 @@
 from __future__ import annotations
 
 import math
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.door_memory import door_counts, doubt_doors, remember_door
 from semnav_env.features.kernels.layout import DOORS, WALLS
+from semnav_env.features.kernels.remembered import Ends, place_for_new
 
-REMEMBERED = np.dtype(
-    [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y")]
-    + [(name, "i8") for name in ("hits", "misses")]
+REMEMBERED_WALL = np.dtype(
+    [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y")] + [("hits", "i8")]
 )
-"""A remembered wall or door: its ends, how often it was seen, how often contradicted."""
+"""A remembered wall: its ends, and how often it was seen."""
 
-Ends: TypeAlias = tuple[float, float, float, float]
-"""Start and end of a wall or door: x1, y1, x2, y2 in metres."""
-
-WALL_HITS, DOOR_HITS = 2, 3
-"""A wall counts from so many sightings on, and a door."""
-
-SAME_PLACE = 0.5
-"""Of two doors whose middles are nearer than this only one counts, metres."""
+WALL_HITS = 2
+"""A wall counts from so many sightings on."""
 
 RECENT_HITS = 10
 """Older sightings together weigh no more than so many: odometry drifts."""
@@ -37,12 +32,6 @@ SAME_LINE = 0.15
 
 WALL_GAP = 0.3
 """Walls less than this apart along their line may be one, metres: nothing passes between them."""
-
-SAME_JAMB = 0.4
-"""Two sightings are one door if both jambs agree to this, metres."""
-
-FILLED = 0.12
-"""A beam that ends this near to a door's line finds its opening filled, metres."""
 
 
 @njit(cache=True)
@@ -66,44 +55,25 @@ def remember(
         angle_min: of the scan, radians.
         angle_increment: of the scan, radians.
         pose: of the lidar in the memory's frame.
-        memory: walls, doors (`REMEMBERED`) and how many of each are used, changed in place.
+        memory: `REMEMBERED_WALL` and `REMEMBERED_DOOR` arrays and how many of each are used,
+            changed in place.
     """
     known_walls, known_doors, used = memory
     for i in range(counts[WALLS]):
         wall = walls[i]
         ends = (wall.start_x, wall.start_y, wall.end_x, wall.end_y)
         used[0] = remember_wall(placed(ends, pose), known_walls, used[0])
-    contradict_doors(ranges, angle_min, angle_increment, pose, known_doors[: used[1]])
     for i in range(counts[DOORS]):
         door = doors[i]
         ends = (door.start_x, door.start_y, door.end_x, door.end_y)
-        used[1] = remember_door(placed(ends, pose), known_doors, used[1])
+        used[1] = remember_door(placed(ends, pose), door.confidence, known_doors, used[1])
+    doubt_doors(ranges, angle_min, angle_increment, pose, known_doors[: used[1]])
 
 
 @njit(cache=True)
 def wall_counts(walls: Any, k: int) -> bool:
     """Whether wall `k` of the remembered ones was seen often enough."""
     return bool(walls[k].hits >= WALL_HITS)
-
-
-@njit(cache=True)
-def door_counts(doors: Any, k: int) -> bool:
-    """Whether door `k` of the remembered ones was seen often enough to be taken for a door.
-
-    At most a third of the scans may contradict it; and of two in the same place, such as a door
-    and the gap to its leaf, only the one that was seen more often counts.
-    """
-    door = doors[k]
-    if door.hits < DOOR_HITS or 2 * door.misses > door.hits:
-        return False
-    for i in range(len(doors)):
-        rival = doors[i]
-        first = rival.hits > door.hits or (rival.hits == door.hits and i < k)
-        x = 0.5 * (rival.start_x + rival.end_x - door.start_x - door.end_x)
-        y = 0.5 * (rival.start_y + rival.end_y - door.start_y - door.end_y)
-        if first and x * x + y * y < SAME_PLACE**2 and 2 * rival.misses <= rival.hits:
-            return False
-    return True
 
 
 @njit(cache=True)
@@ -122,10 +92,10 @@ def what_counts(walls: Any, doors: Any, used: Any) -> tuple[FloatArray, FloatArr
     """The remembered walls and doors that count.
 
     Returns:
-        Ends of the walls, shape (n, 4), metres; ends of the doors and how often each was seen,
-        shape (m, 5).
+        Ends of the walls, shape (n, 4), metres; ends of the doors, how often each was seen and
+        how likely it is one, shape (m, 6).
     """
-    wall_rows, door_rows = np.empty((used[0], 4)), np.empty((used[1], 5))
+    wall_rows, door_rows = np.empty((used[0], 4)), np.empty((used[1], 6))
     n = m = 0
     for k in range(used[0]):
         if wall_counts(walls, k):
@@ -137,6 +107,7 @@ def what_counts(walls: Any, doors: Any, used: Any) -> tuple[FloatArray, FloatArr
             door = doors[k]
             door_rows[m, :4] = door.start_x, door.start_y, door.end_x, door.end_y
             door_rows[m, 4] = door.hits
+            door_rows[m, 5] = 1.0 / (1.0 + math.exp(-door.odds))
             m += 1
     return wall_rows[:n], door_rows[:m]
 
@@ -158,7 +129,7 @@ def remember_wall(wall: Ends, memory: Any, used: int) -> int:
 
     Args:
         wall: in the memory's frame.
-        memory: `REMEMBERED` walls, changed in place.
+        memory: `REMEMBERED_WALL` array, changed in place.
         used: entries used before.
 
     Returns:
@@ -177,7 +148,11 @@ def remember_wall(wall: Ends, memory: Any, used: int) -> int:
         if aligned and _on_one_line(old, wall):
             _fuse_wall(old, wall)
             return used
-    return _add(wall, memory, used)
+    place, used = place_for_new(memory, used)
+    new = memory[place]
+    new.start_x, new.start_y, new.end_x, new.end_y = wall
+    new.hits = 1
+    return used
 
 
 @njit(cache=True)
@@ -214,86 +189,3 @@ def _fuse_wall(old: Any, wall: Ends) -> None:
     old.start_x, old.start_y = x + first * ux, y + first * uy
     old.end_x, old.end_y = x + last * ux, y + last * uy
     old.hits += 1
-
-
-@njit(cache=True)
-def remember_door(door: Ends, memory: Any, used: int) -> int:
-    """Fuse a door with the remembered one that it repeats, or add it; as `remember_wall`.
-
-    Both jambs must agree, whichever side the door is seen from; they become the mean of the
-    last sightings.
-    """
-    best, nearest, swapped = -1, SAME_JAMB, False
-    turned = (door[2], door[3], door[0], door[1])
-    for k in range(used):
-        same, other = _apart(memory[k], door), _apart(memory[k], turned)
-        if min(same, other) < nearest:
-            best, nearest, swapped = k, min(same, other), other < same
-    if best < 0:
-        return _add(door, memory, used)
-    x1, y1, x2, y2 = turned if swapped else door
-    old = memory[best]
-    share = 1.0 / min(old.hits + 1, RECENT_HITS)
-    old.start_x += share * (x1 - old.start_x)
-    old.start_y += share * (y1 - old.start_y)
-    old.end_x += share * (x2 - old.end_x)
-    old.end_y += share * (y2 - old.end_y)
-    old.hits += 1
-    return used
-
-
-@njit(cache=True)
-def _apart(old: Any, door: Ends) -> float:
-    """The larger distance between the starts and between the ends of two doors, metres."""
-    return max(
-        math.hypot(door[0] - old.start_x, door[1] - old.start_y),
-        math.hypot(door[2] - old.end_x, door[3] - old.end_y),
-    )
-
-
-@njit(cache=True)
-def _add(ends: Ends, memory: Any, used: int) -> int:
-    """Add an entry; when the memory is full it replaces the one that was seen least."""
-    place = used
-    if used == len(memory):
-        place = 0
-        for k in range(used):
-            if memory[k].hits < memory[place].hits:
-                place = k
-    new = memory[place]
-    new.start_x, new.start_y, new.end_x, new.end_y = ends
-    new.hits, new.misses = 1, 0
-    return min(used + 1, len(memory))
-
-
-@njit(cache=True)
-def contradict_doors(
-    ranges: FloatArray,
-    angle_min: float,
-    angle_increment: float,
-    pose: tuple[float, float, float],
-    doors: Any,
-) -> None:
-    """Count a miss for every remembered door whose opening the scan finds filled.
-
-    Args:
-        ranges: of the scan, metres, shape (n,).
-        angle_min: of the scan, radians.
-        angle_increment: of the scan, radians.
-        pose: of the lidar in the memory's frame.
-        doors: `REMEMBERED`, changed in place.
-    """
-    for k in range(len(doors)):
-        door = doors[k]
-        filled = 0
-        for share in (0.3, 0.5, 0.7):
-            dx = door.start_x + share * (door.end_x - door.start_x) - pose[0]
-            dy = door.start_y + share * (door.end_y - door.start_y) - pose[1]
-            turn = math.atan2(dy, dx) - pose[2] - angle_min
-            turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi))
-            beam = int(turn / angle_increment + 0.5)
-            distance = math.hypot(dx, dy)
-            if beam < len(ranges) and distance > 0.5 and abs(ranges[beam] - distance) < FILLED:
-                filled += 1
-        if filled >= 2:
-            door.misses += 1

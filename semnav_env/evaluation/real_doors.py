@@ -13,7 +13,7 @@ from semnav_env.evaluation.openings import LABELS, Opening
 from semnav_env.evaluation.sheets import Sheet
 from semnav_env.features import ExtractorSettings, Scan, extract
 from semnav_env.features.frames import Pose
-from semnav_env.features.mapping import LineMap, MapSettings
+from semnav_env.features.memory import SceneMemory
 from semnav_env.features.readers import open_log
 from semnav_env.features.scene import Door, Scene
 
@@ -22,9 +22,6 @@ FREIBURG_LABELS = LABELS / "freiburg_079_openings.csv"
 
 MEMORY = 5
 """Scans that a short memory joins."""
-
-MEMORY_SETTINGS = MapSettings(least_move=0.0, least_turn=0.0, door_sightings=2)
-"""The memory takes every scan, and a door counts that two of them saw."""
 
 PASS_GAP = 5
 """A door out of good view for so many of the scans that are looked at ends a pass."""
@@ -93,11 +90,11 @@ def look_through(path: Path, settings: ExtractorSettings, every: int = 8) -> Ite
 
 
 def remember(window: Iterable[tuple[Scene, Scan, Pose]]) -> tuple[Door, ...]:
-    """The doors in the map of a few scans, in the frame of their poses."""
-    memory = LineMap(MEMORY_SETTINGS)
+    """The doors that a memory holds after a few scans, in the frame of their poses."""
+    memory = SceneMemory()
     for scene, scan, pose in window:
-        memory.add(scene, scan, pose)
-    return memory.doors
+        memory.see(scene, scan, pose)
+    return memory.scene().doors
 
 
 def seen_from(pose: Pose, doors: Iterable[Door]) -> tuple[Door, ...]:

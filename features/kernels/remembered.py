@@ -1,0 +1,22 @@
+"""What remembered walls and doors have in common."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+from numba import njit
+
+Ends: TypeAlias = tuple[float, float, float, float]
+"""Start and end of a wall or door: x1, y1, x2, y2 in metres."""
+
+
+@njit(cache=True)
+def place_for_new(memory: Any, used: int) -> tuple[int, int]:
+    """Where a new entry goes, and how many are used then; a full memory gives up the rarest."""
+    if used < len(memory):
+        return used, used + 1
+    place = 0
+    for k in range(used):
+        if memory[k].hits < memory[place].hits:
+            place = k
+    return place, used
