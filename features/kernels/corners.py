@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
 
@@ -40,19 +41,24 @@ def find_corners(
         How many corners were written, in beam order.
     """
     join_ends(count, is_ring, settings, scratch)
+    joints, corner_ends = scratch.joints, scratch.corner_ends
     found = 0
     for k in range(count):
-        wall, joint = scratch.pieces[scratch.wall_piece[k]], scratch.joints[k]
+        wall, joint = scratch.pieces[scratch.wall_piece[k]], joints[k]
         if not joint.start_meets and wall.flags & (START_BREAK | START_RUPTURE):
             x, y = wall.start_x, wall.start_y
-            found = write_potential(found, x, y, -1, k, count, settings, scratch, corners)
+            found = write_potential(
+                found, x, y, -1, k, count, settings, joints, corner_ends, corners
+            )
         if joint.partner >= 0:
             found = write_corner(
-                found, joint.x, joint.y, joint.kind, k, joint.partner, scratch, corners
+                found, joint.x, joint.y, joint.kind, k, joint.partner, corner_ends, corners
             )
         elif wall.flags & (END_BREAK | END_RUPTURE):
             x, y = wall.end_x, wall.end_y
-            found = write_potential(found, x, y, k, -1, count, settings, scratch, corners)
+            found = write_potential(
+                found, x, y, k, -1, count, settings, joints, corner_ends, corners
+            )
     return found
 
 
@@ -74,16 +80,16 @@ def join_ends(count: int, is_ring: bool, settings: Any, scratch: Any) -> None:
             a = scratch.pieces[scratch.wall_piece[k]]
             b = scratch.pieces[scratch.wall_piece[partner]]
             kind, x, y = full_corner(a, b, settings)
-            if kind >= 0 and not meets_near(x, y, count, settings, scratch):
+            if kind >= 0 and not meets_near(x, y, count, settings, joints):
                 joints[k].partner, joints[partner].start_meets = partner, 1
                 joints[k].kind, joints[k].x, joints[k].y = kind, x, y
 
 
 @njit(cache=True, error_model="numpy")
-def meets_near(x: float, y: float, count: int, settings: Any, scratch: Any) -> bool:
+def meets_near(x: float, y: float, count: int, settings: Any, joints: np.ndarray) -> bool:
     """Whether a full corner that was found already is at this place."""
     for k in range(count):
-        joint = scratch.joints[k]
+        joint = joints[k]
         if joint.partner >= 0 and is_same_place(joint.x - x, joint.y - y, settings):
             return True
     return False
@@ -133,16 +139,17 @@ def write_potential(
     starting: int,
     count: int,
     settings: Any,
-    scratch: Any,
+    joints: np.ndarray,
+    corner_ends: NDArray[np.int64],
     corners: np.ndarray,
 ) -> int:
     """Append a potential corner unless there is one at its place; returns how many there are."""
-    if meets_near(x, y, count, settings, scratch):
+    if meets_near(x, y, count, settings, joints):
         return found
     for k in range(found):
         if is_same_place(corners[k].x - x, corners[k].y - y, settings):
             return found
-    return write_corner(found, x, y, POTENTIAL, ending, starting, scratch, corners)
+    return write_corner(found, x, y, POTENTIAL, ending, starting, corner_ends, corners)
 
 
 @njit(cache=True, error_model="numpy")
@@ -153,12 +160,12 @@ def write_corner(
     kind: int,
     ending: int,
     starting: int,
-    scratch: Any,
+    corner_ends: NDArray[np.int64],
     corners: np.ndarray,
 ) -> int:
     """Append a corner if there is room; returns how many there are now."""
-    if found == min(len(corners), len(scratch.corner_ends)):
+    if found == min(len(corners), len(corner_ends)):
         return found
     corners[found].x, corners[found].y, corners[found].kind = x, y, kind
-    scratch.corner_ends[found, 0], scratch.corner_ends[found, 1] = ending, starting
+    corner_ends[found, 0], corner_ends[found, 1] = ending, starting
     return found + 1

@@ -5,22 +5,31 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 
 
 @njit(cache=True, error_model="numpy")
-def split(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float, scratch: Any) -> int:
+def split(
+    xs: FloatArray,
+    ys: FloatArray,
+    first: int,
+    last: int,
+    limit: float,
+    stack: NDArray[np.int64],
+    vertices: NDArray[np.int64],
+) -> int:
     """Iterative end-point fit (Barbret section 2.4.4), with a stack instead of recursion.
 
     Points first to last are cut at the point farthest from the chord until none is farther
     than `limit`.
 
     Returns:
-        How many indices were written to `scratch.vertices`: first, every cut, last.
+        How many indices were written to `vertices`: first, every cut, last.
     """
-    stack, vertices = scratch.stack, scratch.vertices
     vertices[0] = start = first
     count = 1
     stack[0] = last
@@ -44,12 +53,14 @@ def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float
     dx, dy = xs[last] - xs[first], ys[last] - ys[first]
     level = dx * ys[first] - dy * xs[first]
     best = limit * math.sqrt(dx * dx + dy * dy)
-    found = -1
-    for i in range(first + 1, last):
-        distance = abs(dx * ys[i] - dy * xs[i] - level)
-        if distance > best:
-            best = distance
-            found = i
+    found, i = -1, first + 1
+    while i < last:  # two at a time, as each comparison waits for the one before
+        a = abs(dx * ys[i] - dy * xs[i] - level)
+        second = min(i + 1, last)
+        b = abs(dx * ys[second] - dy * xs[second] - level)
+        if max(a, b) > best:
+            best, found = max(a, b), i if a >= b else second
+        i += 2
     return found
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from numba import njit
 
+from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE
 from semnav_env.features.kernels.lines import absorb, fit, offset
 
@@ -82,14 +83,14 @@ def merge_across_spikes(count: int, settings: Any, scratch: Any) -> int:
     The end-point fit cuts a wall at a single bad point, and the cut leaves a short steep piece
     that fits neither side. Returns how many pieces remain.
     """
-    pieces = scratch.pieces
+    xs, ys, pieces = scratch.xs, scratch.ys, scratch.pieces
     kept, k = 0, 1
     while k < count:
         current = pieces[kept]
-        if k + 1 < count and is_spike(current, pieces[k], pieces[k + 1], settings, scratch):
+        if k + 1 < count and is_spike(xs, ys, current, pieces[k], pieces[k + 1], settings):
             join(current, pieces[k])
             join(current, pieces[k + 1])
-            fit(scratch.xs, scratch.ys, current)
+            fit(xs, ys, current)
             k += 2
         else:
             kept += 1
@@ -99,14 +100,16 @@ def merge_across_spikes(count: int, settings: Any, scratch: Any) -> int:
 
 
 @njit(cache=True, error_model="numpy")
-def is_spike(before: Any, piece: Any, after: Any, settings: Any, scratch: Any) -> bool:
+def is_spike(
+    xs: FloatArray, ys: FloatArray, before: Any, piece: Any, after: Any, settings: Any
+) -> bool:
     """Whether a piece is too small for a wall, and noise on the one line of its neighbours."""
     if piece.points >= settings.wall_beams or merge_cost(before, after, settings) == math.inf:
         return False
     line = before if before.points >= after.points else after
     farthest = settings.split_distance + settings.sigma
     for i in range(piece.first, piece.last + 1):
-        if abs(offset(line, scratch.xs[i], scratch.ys[i])) > farthest:
+        if abs(offset(line, xs[i], ys[i])) > farthest:
             return False
     return True
 
