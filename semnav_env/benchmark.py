@@ -14,9 +14,9 @@ import numpy as np
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import compose
 from semnav_env.features.hallway import hallway
-from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.lidar.raster import cast
 from semnav_env.perception import Perception
+from semnav_env.senses import extract_features
 
 RESETS = 20
 """Resets timed in a run; one takes as long as many steps."""
@@ -116,7 +116,6 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], fl
     perception.sense(pose, pose, velocity, (0, 0, 0))
     arrays: tuple[Any, ...] = perception.lidar.arrays
     out = np.empty(env.lidar_spec.beams)
-    extraction = perception.extraction_arguments()
     scene = env.floor_plan.scene
 
     def repeat(call: Callable[[int], object]) -> Callable[[], float]:
@@ -125,7 +124,7 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], fl
     return [
         ("scan without noise", repeat(lambda i: cast(*(*lidar_pose, *arrays, out)))),
         ("scan with noise", repeat(lambda i: perception.lidar.ranges(pose, (0, 0, i), out))),
-        ("features", repeat(lambda i: extract_arrays(*extraction))),
+        ("features", repeat(lambda i: extract_features(perception.senses))),
         (
             "scan, features, memory, goal",
             repeat(lambda i: perception.sense(pose, pose, velocity, (0, 0, i))),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -156,7 +157,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self.perception.begin(self.task.verifier.command)
         self._noise_seed = int(self.np_random.integers(2**62))
         self._steps, self._started = 0, True
-        self._sense()
+        self._sense(self.world.pose, self.world.velocity)
         self._scribe.begin(start)
         return self._observation(), self._reset_info(start)
 
@@ -173,28 +174,22 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             raise RuntimeError("call reset() before step()")
         world = self.world
         world.step(self._actions.velocity(action))
-        pose, (forward, left, turning) = world.pose, world.velocity
+        pose, velocity = world.pose, world.velocity
         self.odometry.update(pose)
         self._steps += 1
-        self._scribe.note(self.world.pose)
-        self._sense()
-        speed = (forward * forward + left * left) ** 0.5
-        motion = Motion(pose, speed, turning, world.in_contact, 1.0 / CONTROL_HZ)
-        terms = self.task.step(motion)
+        self._scribe.note(pose)
+        self._sense(pose, velocity)
+        speed = math.hypot(velocity[0], velocity[1])
+        terms = self.task.step(Motion(pose, speed, velocity[2], world.in_contact, 1.0 / CONTROL_HZ))
         verifier = self.task.verifier
-        truncated = not verifier.over and self._steps >= self.max_steps
+        terminated = verifier.over
+        truncated = not terminated and self._steps >= self.max_steps
         if truncated:
             verifier.out_of_time()
         if self.render_mode == "human":
             self.render()
-        info = self._info(terms, verifier.over or truncated)
-        return (
-            self._observation(),
-            sum(terms.values()),
-            verifier.over and not truncated,
-            truncated,
-            info,
-        )
+        info = self._info(pose, terms, terminated or truncated)
+        return self._observation(), sum(terms.values()), terminated, truncated, info
 
     def render(self) -> NDArray[np.uint8] | None:
         """The picture, shape (height, width, 3), or a window in "human" mode."""
@@ -232,9 +227,9 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             lidar = Lidar(floor_plan, self.lidar_spec, self.robot.lidar_mount)
             self.perception = Perception(lidar, self.extractor)
 
-    def _sense(self) -> None:
-        key = (self._noise_seed, 0, self._steps)
-        self.perception.sense(self.world.pose, self.believed_pose, self.world.velocity, key)
+    def _sense(self, pose: Pose, velocity: Pose) -> None:
+        believed = pose if self._truth else self.odometry.pose
+        self.perception.sense(pose, believed, velocity, (self._noise_seed, 0, self._steps))
 
     def _observation(self) -> dict[str, NDArray[Any]]:
         return self._observer.pack(self.perception.row, self.task.verifier.tokens)
@@ -250,7 +245,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             **verifier.true_route(),
         }
 
-    def _info(self, terms: dict[str, float], over: bool) -> dict[str, Any]:
+    def _info(self, pose: Pose, terms: dict[str, float], over: bool) -> dict[str, Any]:
         verifier = self.task.verifier
         info: dict[str, Any] = {
             "verdicts": verifier.verdicts,
@@ -258,7 +253,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             "in_contact": self.world.in_contact,
             "path_length": verifier.path_length,
             "reward_terms": terms,
-            "pose": self.world.pose,
+            "pose": pose,
         }
         if over:
             info |= verifier.outcome()

@@ -16,7 +16,7 @@ from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.observations import ROW_SIZE, door_ends, write_state
-from semnav_env.senses import join_senses, observe
+from semnav_env.senses import Senses, join_senses, observe
 
 LOOK_EVERY, TURN_EVERY = 1.0, 0.5
 """A clause is grounded anew after so many metres, or so many radians, on the way."""
@@ -39,6 +39,7 @@ class Perception:
         row: the observation of this step, `ROW_SIZE` values and the scan.
         features: of this step's scan, lidar frame.
         ranges: of this step's scan, metres.
+        senses: all of these arrays, as the kernels take them.
         memory: what was seen so far, odometry frame.
         follower: how far the command has come, as the robot sees it.
     """
@@ -53,10 +54,10 @@ class Perception:
         self._beams = np.ascontiguousarray(lidar.spec.directions.T)
         self._record = settings.as_record()
         self._scratch = allocate_scratch(beams)
-        self._join()
+        self.senses = self._join()
 
-    def _join(self) -> None:
-        self._senses = join_senses(
+    def _join(self) -> Senses:
+        return join_senses(
             self.lidar.arrays,
             self._beams,
             self._record,
@@ -69,11 +70,11 @@ class Perception:
         )
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "_senses"}
+        return {name: value for name, value in self.__dict__.items() if name != "senses"}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        self._join()
+        self.senses = self._join()
 
     def begin(self, command: Command) -> None:
         """Start an episode: forget the last one."""
@@ -94,7 +95,7 @@ class Perception:
             velocity: forward, left (m/s) and turning (rad/s), robot frame.
             key: (seed, episode, step) of the noise.
         """
-        observe(self._senses, true_pose, odometry, key)
+        observe(self.senses, true_pose, odometry, key)
         self._think(odometry, math.hypot(velocity[0], velocity[1]), key[2])
         follower, goal = self.follower, self.follower.goal
         write_state(
@@ -119,12 +120,6 @@ class Perception:
         ):
             self.follower.look(self.scene(), odometry)
             self._note_look(odometry, step)
-
-    def extraction_arguments(self) -> tuple[Any, ...]:
-        """What `extract_arrays` is called with for this step's scan."""
-        spec = self.lidar.spec
-        limits = (spec.angle_increment, spec.range_min, spec.range_max)
-        return (self.ranges, self._beams, *limits, self._record, self._scratch, *self.features)
 
     def hits(self) -> FloatArray:
         """Where this step's beams ended, lidar frame, shape (n, 2); NaN without a return."""

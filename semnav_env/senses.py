@@ -96,21 +96,7 @@ def observe(
     seed, episode, step = key
     sense(x, y, heading, grid, starts, ends, directions, sensor, seed, episode, step, ranges)
     limits = sensor[0]
-    extract_arrays(
-        ranges,
-        senses.beams,
-        limits.angle_increment,
-        limits.range_min,
-        limits.range_max,
-        senses.record,
-        senses.scratch,
-        features.walls,
-        features.doors,
-        features.corners,
-        features.corridors,
-        features.arcs,
-        features.counts,
-    )
+    extract_features(senses)
     write_features(row, features, senses.mount)
     remember(
         features.walls,
@@ -128,6 +114,27 @@ def observe(
         measured = ranges[i]
         valid = limits.range_min <= measured < limits.range_max
         row[ROW_SIZE + i] = measured if valid else limits.range_max
+
+
+@njit(cache=True)
+def extract_features(senses: Senses) -> None:
+    """Extract the features of the scan that was taken last."""
+    features, limits = senses.features, senses.lidar[4][0]
+    extract_arrays(
+        senses.ranges,
+        senses.beams,
+        limits.angle_increment,
+        limits.range_min,
+        limits.range_max,
+        senses.record,
+        senses.scratch,
+        features.walls,
+        features.doors,
+        features.corners,
+        features.corridors,
+        features.arcs,
+        features.counts,
+    )
 
 
 @njit(cache=True)

@@ -80,19 +80,13 @@ class CommandTask:
         completed = verifier.update(motion)
         remaining = verifier.remaining
         progress = self._remaining - (0.0 if completed else remaining)
+        if not math.isfinite(progress):
+            progress = 0.0
         self._remaining = remaining
-        success = failure = False
-        if verifier.over and not was_over:
-            success, failure = verifier.success, not verifier.success
-        return self.weights.apply(
-            RewardTerms(
-                progress if math.isfinite(progress) else 0.0,
-                float(completed),
-                float(success),
-                float(failure),
-                float(motion.in_contact),
-            )
-        )
+        ended = verifier.over and not was_over
+        success = ended and verifier.success
+        terms = RewardTerms(progress, completed, success, ended != success, motion.in_contact)
+        return self.weights.apply(terms)
 
     def _complete(
         self, pose: Pose | None, command: Command | None, rng: np.random.Generator
