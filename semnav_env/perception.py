@@ -18,7 +18,7 @@ from semnav_env.lidar.lidar import Lidar
 from semnav_env.observations import ROW_SIZE, door_ends, write_state
 from semnav_env.senses import Senses, join_senses, observe
 
-LOOK_EVERY, TURN_EVERY = 1.0, 0.5
+LOOK_EVERY, TURN_EVERY = 1.5, 0.5
 """A clause is grounded anew after so many metres, or so many radians, on the way."""
 
 CHECK_DOORS, CHECK_WALLS = 5, 30
