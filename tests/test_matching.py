@@ -24,6 +24,7 @@ from semnav_env.evaluation.matching import (
 from semnav_env.features import Scan
 from semnav_env.features.frames import compose, relative
 from semnav_env.features.mapping import MatchError, MatchSettings, match_scans
+from semnav_env.features.mapping.matching import without_place
 from semnav_env.features.readers import open_log
 from semnav_env.lidar import Lidar
 from semnav_env.lidar.spec import TIM561
@@ -97,16 +98,36 @@ def test_procrustes_steps_find_the_pose_as_well():
     assert match.pose == pytest.approx(move, abs=0.03)
 
 
-@pytest.mark.parametrize("heading", [0.0, 0.7, -2.0])
-def test_in_a_corridor_without_features_the_way_along_it_is_undetermined(heading):
+@pytest.mark.parametrize("window", [20, 40, 80])
+@pytest.mark.parametrize("step", range(12))
+def test_in_a_corridor_without_features_the_way_along_it_is_undetermined(step, window):
+    heading = 0.5 * step - 3.0
     here, there = (0.0, 0.0, heading), (0.1, 0.05, heading + 0.1)
-    match = match_scans(corridor_scan(here, 0), corridor_scan(there, 1))
-    along = math.cos(heading), -math.sin(heading)
+    scans = corridor_scan(here, 2 * step), corridor_scan(there, 2 * step + 1)
+    match = match_scans(*scans, settings=MatchSettings(window=window, guess_position=0.3))
+    along = np.array((math.cos(heading), -math.sin(heading)))
     assert match.undetermined is not None
     assert abs(np.dot(match.undetermined, along)) > math.cos(math.radians(1.0))
-    assert along @ match.covariance[:2, :2] @ along > 0.1**2
-    across = -along[1], along[0]
+    # As wide as the first guess, and no wider: that along it is all that is known.
+    assert along @ match.covariance[:2, :2] @ along == pytest.approx(0.3**2, rel=0.01)
+    across = np.array((-along[1], along[0]))
     assert across @ match.covariance[:2, :2] @ across < 0.01**2
+
+
+@given(st.lists(st.floats(-1.0, 1.0), min_size=9, max_size=9), st.floats(-0.1, 1.0))
+def test_what_is_taken_off_an_information_is_one_motion_and_nothing_else(numbers, told):
+    root = np.array(numbers).reshape(3, 3)
+    c = 1.0 + root[2] @ root[2]
+    place, coupling = np.diag((5.0, told)), root[:2, 2]
+    full = np.zeros((3, 3))
+    full[:2, :2] = place + np.outer(coupling, coupling) / c
+    full[:2, 2] = full[2, :2] = coupling
+    full[2, 2] = c
+    rest = without_place(full, (0.0, 1.0))
+    free = np.array((0.0, 1.0, -coupling[1] / c))
+    assert np.abs(rest @ free).max() < 1e-9
+    for other in np.array(((1.0, 0.0, 0.3), (0.0, 0.0, 1.0), (-2.0, 0.0, 1.0))):
+        assert other @ rest @ other == pytest.approx(other @ full @ other, abs=1e-9)
 
 
 def test_there_the_first_guess_decides_along_the_corridor():
@@ -133,7 +154,7 @@ def test_the_covariance_covers_the_error(sigma):
 
 
 @pytest.mark.parametrize("name", ["GDC1", "AHG2"])
-def test_exact_pairs_in_a_vector_map_match_to_a_millimetre(name):
+def test_exact_pairs_in_a_vector_map_match_to_a_millimetre_and_know_how_well(name):
     if not AMRL.exists():
         pytest.skip(f"{AMRL} is missing")
     plan, ways = (
@@ -145,6 +166,7 @@ def test_exact_pairs_in_a_vector_map_match_to_a_millimetre(name):
     errors = list(errors_of(itertools.islice(pairs, 100)))
     assert np.median([error.position for error in errors]) < 0.0013
     assert np.median([error.angle for error in errors]) < math.radians(0.014)
+    assert np.mean([error.nees < 7.815 for error in errors]) > 0.9  # 95 % if it were exact
 
 
 def test_real_scans_match_as_well_as_their_poses_are_known():

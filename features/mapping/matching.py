@@ -163,14 +163,36 @@ def match_surfaces(
 def _covariance(information: FloatArray, weak: Point | None, settings: MatchSettings) -> FloatArray:
     """The inverse of what pairs and guess say together; along `weak` the pairs say nothing."""
     if weak is not None:
-        along = np.array((*weak, 0.0))
-        told = information @ along
-        information = information - np.outer(told, told) / max(float(told @ along), 1e-9)
+        information = without_place(information, weak)
     values, vectors = np.linalg.eigh(information)
     known = (vectors * np.maximum(values, 0.0)) @ vectors.T
     guess = (settings.guess_position, settings.guess_position, settings.guess_angle)
     covariance: FloatArray = np.linalg.inv(known + np.diag(1.0 / np.square(guess)))
     return covariance
+
+
+def without_place(information: FloatArray, direction: Point) -> FloatArray:
+    """The information without what it says of the place along a direction, whatever the heading.
+
+    With the blocks A of the place, b between place and heading, and c of the heading, the place
+    is known by S = A - b b^T / c, the heading being free. If S w = l w, then
+
+        I - l (w, 0) (w, 0)^T
+
+    says nothing of the motion (w, -b.w / c), which goes along w and turns as the pairs demand,
+    and as much as before of every other. Nothing is divided by l, which may be 0 or, as part of
+    the information is an estimate, below.
+
+    Args:
+        information: of x, y and heading, shape (3, 3).
+        direction: w, a unit vector along an axis of S.
+    """
+    w = np.array(direction)
+    coupling = float(information[:2, 2] @ w)
+    told = float(w @ information[:2, :2] @ w) - coupling**2 / max(information[2, 2], 1e-12)
+    rest = information.copy()
+    rest[:2, :2] -= told * np.outer(w, w)
+    return rest
 
 
 @lru_cache(maxsize=16)
