@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from semnav_env.evaluation.figures import save_figures
+from semnav_env.evaluation.map_doors import map_sheets, mapped
 from semnav_env.evaluation.openings import read_openings
 from semnav_env.evaluation.real_doors import FREIBURG, FREIBURG_LABELS, door_sheet, look_through
 from semnav_env.evaluation.real_logs import find_logs, log_row, log_sheet
@@ -101,6 +102,9 @@ class Arguments:
         looking = look_through(self.data / FREIBURG, default, self.every)
         glimpses = list(tracked(looking, lambda n: f"{n} scans of freiburg-079", lambda: None))
         yield door_sheet(glimpses, openings)
+        growing = mapped(self.data / FREIBURG, default)
+        *_, line_map = tracked(growing, lambda n: f"{n} scans into a map", lambda: None)
+        yield from map_sheets(line_map.doors, openings)
         rows: list[tuple[Cell, ...]] = []
         for row in tracked(
             (log_row(log, default) for log in logs),

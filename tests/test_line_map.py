@@ -16,7 +16,9 @@ from semnav_env.features.elements import Wall
 from semnav_env.features.frames import compose, to_parent
 from semnav_env.features.mapping import LineMap, MapSettings, ScanOdometry
 from semnav_env.features.mapping.doubles import without_doubles
-from semnav_env.features.mapping.lines import Line, Overlap, fuse, gap, line_of, overlap
+from semnav_env.features.mapping.evidence import CELL
+from semnav_env.features.mapping.lines import Line, fuse, gap, line_of
+from semnav_env.features.mapping.map_wall import MapWall
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, Surface, load_floor_plan
 
@@ -94,17 +96,34 @@ def test_a_wall_keeps_its_ends_wherever_its_frame_is(frame):
         assert abs(line.across(to_parent(frame, end))) < 1e-9
 
 
+@given(poses, st.booleans())
 @pytest.mark.parametrize(
-    ("new", "case"),
+    ("new", "joined"),
     [
-        ((2.0, 3.0), Overlap.INSIDE),
-        ((0.0, 3.0), Overlap.BEFORE),
-        ((2.0, 5.0), Overlap.BEYOND),
-        ((0.0, 5.0), Overlap.AROUND),
+        ((2.0, 3.0), (1.0, 4.0)),
+        ((0.0, 3.0), (0.0, 4.0)),
+        ((2.0, 5.0), (1.0, 5.0)),
+        ((0.0, 5.0), (0.0, 5.0)),
     ],
+    ids=["inside", "extends the start", "extends the end", "extends both"],
 )
-def test_the_four_cases_of_weerakoons_figure(new, case):
-    assert overlap((1.0, 4.0), new) is case
+def test_the_four_cases_of_weerakoons_figure_5(new, joined, frame, swapped):
+    def wall(first, last):
+        seen = Wall((first, 1.0), (last, 1.0), beams=50, residual=0.01)
+        ends = to_parent(frame, seen.start), to_parent(frame, seen.end)
+        return MapWall.of(line_of(seen, frame), *ends)
+
+    known, other = wall(1.0, 4.0), wall(*new)
+    if swapped:
+        known, other = other, known
+    known.absorb(other)
+    found = known.as_wall(known.extent)
+    for place, point in zip(joined, (found.start, found.end), strict=True):
+        assert point == pytest.approx(to_parent(frame, (place, 1.0)), abs=1e-6)
+    seen = known.cells.seen
+    both = min(new[1], 4.0) - max(new[0], 1.0)
+    assert np.count_nonzero(seen) == pytest.approx((joined[1] - joined[0]) / CELL, abs=3)
+    assert np.count_nonzero(seen == 2) == pytest.approx(both / CELL, abs=3)
 
 
 @given(metres, metres, st.floats(0.0, 5.0), st.floats(0.0, 5.0))

@@ -20,7 +20,10 @@ _ON = 0.06
 """A beam that ends this near to the line ends on it, metres."""
 
 _THROUGH = 0.2
-"""A beam that ends this far behind the line went through it, metres."""
+"""A beam that ends this far behind the line went through it, metres ..."""
+
+_PASSABLE = 0.3
+"""... and if one is to pass there, so far: a robot does not fit between less."""
 
 _FLATTEST = math.sin(math.radians(12.0))
 """Sine of the flattest incidence at which a beam counts."""
@@ -126,6 +129,7 @@ def _observe(
     if abs(across) < _NEAREST:
         return
     side = 1.0 if across > 0.0 else -1.0
+    deep = _PASSABLE if opening else _THROUGH
     for k in range(len(hits)):
         place = (base + k + 0.5) * CELL
         towards = math.atan2(-across, place - along) + line[2] - pose[2] - angles[0]
@@ -142,7 +146,7 @@ def _observe(
             passes[k] += opening and not reach < 0.0
             continue
         front = side * (across + reach * sine)
-        if front < -_THROUGH:
+        if front < -deep:
             passes[k] += 1
         elif front <= _ON and (opening or (side > 0.0 and front >= -_ON)):
             hits[k] += 1

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 
@@ -156,13 +155,17 @@ class LineMap:
         off = np.hypot(x + along * c - point[0], y + along * s - point[1])
         return [int(k) for k in np.flatnonzero(off < REACH)]
 
-    def _candidates(self, new: MapWall, index: LineIndex) -> Iterator[int]:
+    def _candidates(self, new: MapWall, index: LineIndex) -> list[int]:
+        """Numbers of the walls that may be one with a new one, by direction and stretch."""
         s = self._settings
         angle = s.angle_tolerance + s.confidence * math.sqrt(new.line.angle_variance + s.angle**2)
         offset = self._tolerance(2.0 * new.line.offset_variance) + 2.0 * s.wall_reach * angle
-        for k in index.near(new.line, angle, offset):
-            if self._walls[k] is not None:
-                yield k
+        names = np.array(index.near(new.line, angle, offset), dtype=np.intp)
+        x, y, heading, first, last = self._table[names].T
+        c, s_ = np.cos(heading), np.sin(heading)
+        places = [c * (px - x) + s_ * (py - y) for px, py in map(new.line.point, new.extent)]
+        apart = np.maximum(np.minimum(*places), first) - np.minimum(np.maximum(*places), last)
+        return [int(k) for k in names[apart <= s.gap]]
 
     def _is_one(self, k: int, new: MapWall) -> bool:
         """Whether known wall `k` and a new one are one: same direction, same line, no gap."""

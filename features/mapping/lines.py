@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from enum import Enum
 
 from semnav_env.features.elements import Wall
 from semnav_env.features.frames import Point, Pose, to_parent, wrap_angle
@@ -106,22 +105,6 @@ def fuse(a: Line, b: Line) -> Line:
         1.0 / (p + q),
         1.0 / known,
     )
-
-
-class Overlap(Enum):
-    """How a new wall lies along a known one: the cases of Weerakoon et al., figure 5."""
-
-    INSIDE = "adds nothing to its length"
-    BEFORE = "extends its start"
-    BEYOND = "extends its end"
-    AROUND = "extends both"
-
-
-def overlap(known: tuple[float, float], new: tuple[float, float]) -> Overlap:
-    """Which case it is, from the places (first, last) of both along one line, metres."""
-    if new[0] < known[0]:
-        return Overlap.AROUND if new[1] > known[1] else Overlap.BEFORE
-    return Overlap.BEYOND if new[1] > known[1] else Overlap.INSIDE
 
 
 def gap(a: tuple[float, float], b: tuple[float, float]) -> float:

@@ -30,36 +30,43 @@ class MapDoors:
         reach = self._settings.door_reach
         for door in doors:
             if math.hypot(*door.midpoint) < reach:
-                self._see(np.array((*to_parent(pose, door.start), *to_parent(pose, door.end))))
+                ends = np.array((*to_parent(pose, door.start), *to_parent(pose, door.end)))
+                self._see(ends, door.confidence)
         for known in self._doors:
             if math.dist((known.ends[:2] + known.ends[2:]) / 2, pose[:2]) < reach:
-                known.observe(scan, pose)
+                known.passage.observe(scan, pose)
 
     @property
     def believed(self) -> tuple[Door, ...]:
-        """The doors that count, in the order first seen; of two in one place the one seen more."""
+        """The doors that count, in the order first seen; of two in one place the more certain."""
         kept: list[MapDoor] = []
-        for door in sorted(filter(self._counts, self._doors), key=lambda door: -len(door.seen)):
-            if all(door.apart(other) > self._settings.door_jamb for other in kept):
+        for door in sorted(filter(self._counts, self._doors), key=lambda door: -door.belief):
+            if all(door.apart(other) > self._settings.door_apart for other in kept):
                 kept.append(door)
         return tuple(door.as_door() for door in self._doors if door in kept)
 
-    def _see(self, door: FloatArray) -> None:
-        turned = door[[2, 3, 0, 1]]
-        best, nearest, sighting = None, self._settings.door_jamb, door
-        for known in self._doors:
-            for way in (door, turned):
-                if (distance := known.distance(way)) < nearest:
-                    best, nearest, sighting = known, distance, way
-        if best is None:
-            self._doors.append(MapDoor([door]))
-        else:
-            best.see(sighting)
+    def _see(self, ends: FloatArray, confidence: float) -> None:
+        known = self._nearest(ends, self._doors)
+        if known is None:
+            self._doors.append(MapDoor([ends], confidence))
+            return
+        known.see(ends, confidence)
+        # Sightings that seemed to be of two doors may have come to agree.
+        other = self._nearest(known.ends, [door for door in self._doors if door is not known])
+        if other is not None:
+            known.absorb(other)
+            self._doors.remove(other)
+
+    def _nearest(self, ends: FloatArray, doors: Sequence[MapDoor]) -> MapDoor | None:
+        """The door with the nearest jambs, if they are near enough to be the same."""
+        apart = [door.distance(ends) for door in doors]
+        k = int(np.argmin(apart)) if apart else 0
+        return doors[k] if apart and apart[k] < self._settings.door_jamb else None
 
     def _counts(self, door: MapDoor) -> bool:
         s = self._settings
         return (
-            min(len(door.seen), door.looks) >= s.door_sightings
-            and len(door.seen) >= s.door_share * door.looks
-            and door.openness >= s.door_open
+            min(len(door.seen), door.passage.looks) >= s.door_sightings
+            and door.share >= s.door_share
+            and door.passage.openness >= s.door_open
         )

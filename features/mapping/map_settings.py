@@ -28,9 +28,11 @@ class MapSettings:
         wall_reach: walls are taken from scenes up to this distance from the scanner, metres.
         door_jamb: two sightings are one door if both jambs agree to this, metres.
         door_reach: doors are taken from scenes up to this distance, metres.
-        door_sightings: a door counts when it was seen so often ...
-        door_share: ... and in at least this share of the scans that looked through its opening,
-            of which there must be as many.
+        door_apart: of doors whose middles are nearer to each other only one counts, metres: no
+            two fit there side by side, nor can one pass between them.
+        door_sightings: a door counts when it was seen so often, and looked through so often ...
+        door_share: ... and when the confidences of its sightings, with 0 for every scan that
+            looked through its opening and did not find it, have this mean.
         door_open: share of its opening through which beams pass.
 
     Raises:
@@ -50,6 +52,7 @@ class MapSettings:
     wall_length: float = 0.2
     wall_reach: float = 8.0
     door_jamb: float = 0.35
+    door_apart: float = 0.6
     door_reach: float = 5.0
     door_sightings: int = 3
     door_share: float = 0.25

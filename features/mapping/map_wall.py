@@ -50,8 +50,11 @@ class MapWall:
     def absorb(self, other: MapWall) -> None:
         """Become the one wall that both are: the lines fused, the extents joined.
 
+        In all four cases of Weerakoon et al., figure 5: the other lies inside this one and adds
+        nothing to its length, extends its start, extends its end, or extends both.
+
         Args:
-            other: seen along the same line; any of the four cases of `Overlap`.
+            other: seen along the same line.
         """
         reach = self.stretch_of(other)
         reach = min(reach[0], self.extent[0]), max(reach[1], self.extent[1])
@@ -64,12 +67,12 @@ class MapWall:
         self.line = Line(x, y, line.heading, line.offset_variance, line.angle_variance)
         self.cells.base -= round(shift / CELL)
         self.extent = reach[0] - whole, reach[1] - whole
+        self.cells.cover(*self.extent)
         self.born = min(self.born, other.born)
         self.sightings += other.sightings
 
     def observe(self, scan: Scan, pose: Pose) -> None:
         """Let the beams of a scan say which pieces of the wall are there."""
-        self.cells.cover(*self.extent)
         self.cells.observe(self.line, scan, pose)
 
     def solid(self, fewest: int, share: float, widest_gap: float) -> list[Stretch]:

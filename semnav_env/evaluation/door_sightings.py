@@ -144,9 +144,14 @@ MATCH = 0.25
 
 def matches(detection: Door, start: Point, end: Point, tolerance: float = MATCH) -> bool:
     """Whether both ends of a detection lie at the jambs, either way round."""
+    return jambs_apart(detection, start, end) <= tolerance
+
+
+def jambs_apart(detection: Door, start: Point, end: Point) -> float:
+    """The larger distance between the ends of a detection and the jambs, metres."""
     same = max(math.dist(detection.start, start), math.dist(detection.end, end))
     turned = max(math.dist(detection.start, end), math.dist(detection.end, start))
-    return min(same, turned) <= tolerance
+    return min(same, turned)
 
 
 def judge(
