@@ -113,3 +113,10 @@ def test_kernels_agree_with_the_reference_in_a_real_hallway(one_sided: bool) -> 
         pose = (float(x), -0.2 + 0.24 * (float(x) + 2.5), rng.uniform(-math.pi, math.pi))
         scan = scan_of(segments, pose, sigma=0.02, rng=rng)
         assert_same(extract(scan, chosen), extract_reference(scan, chosen))
+
+
+def test_kernels_agree_with_the_reference_in_a_round_room() -> None:
+    ranges = 1.0 + np.random.default_rng(0).uniform(0.0, 1e-3, 50)
+    scan = Scan(ranges, 0.0, 0.125)
+    assert_same(extract(scan), extract_reference(scan))
+    assert len(extract(scan).arcs) == 1

@@ -43,7 +43,8 @@ class _Search:
 
     def __init__(self, sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings) -> None:
         self.sweep, self.pieces, self.settings = sweep, pieces, settings
-        self.beams: NDArray[np.intp] = np.flatnonzero(sweep.returned)
+        once = sweep.returned[: sweep.turn or None]
+        self.beams: NDArray[np.intp] = np.flatnonzero(once)
         self.points = sweep.points([int(beam) for beam in self.beams])
         number = {int(beam): i for i, beam in enumerate(self.beams)}
         self.spans = [(number[p.beams[0]], number[p.beams[-1]]) for p in pieces]
