@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Wedge
 
 from semnav_env.commands import parse
-from semnav_env.commands.clauses import Side
+from semnav_env.commands.references import Side
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Point, Pose, compose
 from semnav_env.features.hallway import Hallway, hallway

@@ -86,8 +86,8 @@ class Verifier:
         self.floor_plan = floor_plan
         self.command = command
         self.start = start
-        self.tokens = encode(command)
         self.planned_goals = plan_goals(floor_plan, command, start)
+        self.tokens = encode(command, floor_plan.room_names)
         self.follower = Follower(command, complete=True)
         self.follower.start(floor_plan.scene, start)
         self.failure: Verdict | None = None

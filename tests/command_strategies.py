@@ -3,32 +3,56 @@
 from hypothesis import strategies as st
 
 from semnav_env.commands import (
-    LAST,
     MAX_CLAUSES,
+    MAX_FROM_END,
     MAX_ORDINAL,
+    OTHER,
     Approach,
     Command,
+    Distance,
     DoorReference,
     Follow,
+    GoBack,
     GoToDoor,
+    GoToRoom,
+    Leave,
     Place,
     PlaceReference,
     Side,
     Stop,
     Turn,
     Turning,
+    Unit,
 )
 
-ordinals = st.integers(1, MAX_ORDINAL)
+ordinals = st.integers(-MAX_FROM_END, MAX_ORDINAL).filter(lambda ordinal: ordinal != OTHER)
 doors = st.builds(
-    DoorReference, st.one_of(ordinals, st.just(LAST)), st.one_of(st.none(), st.sampled_from(Side))
+    DoorReference, ordinals | st.just(OTHER), st.one_of(st.none(), st.sampled_from(Side))
 )
-junctions = st.builds(PlaceReference, st.sampled_from((Place.INTERSECTION, Place.CORNER)), ordinals)
+junctions = st.builds(
+    PlaceReference, st.sampled_from([place for place in Place if place is not Place.END]), ordinals
+)
 places = st.one_of(st.just(PlaceReference(Place.END)), junctions)
+distances = st.one_of(
+    st.integers(1, 100).map(lambda halves: Distance(halves / 2)),
+    st.integers(1, 100).map(lambda steps: Distance(steps, Unit.STEPS)),
+)
+turns_by = st.builds(
+    Turn,
+    st.sampled_from((Turning.LEFT, Turning.RIGHT)),
+    degrees=st.integers(1, 72).map(lambda fives: 5 * fives),
+)
+rooms = st.sampled_from(("kitchen", "printer room", "3.508", "room_west_1", "left", "12 b", "e-1"))
 clauses = st.one_of(
-    st.just(Stop()),
+    st.builds(Stop, st.integers(0, 100)),
+    st.just(Leave()),
+    st.just(GoBack()),
+    st.builds(GoToRoom, rooms),
+    turns_by,
     st.builds(Turn, st.sampled_from(Turning), st.one_of(st.none(), places)),
     st.builds(GoToDoor, doors, st.sampled_from(Approach)),
-    st.builds(Follow, st.one_of(st.none(), places, doors)),
+    st.builds(Follow, st.one_of(st.none(), places, doors, distances)),
+    st.builds(Follow, st.one_of(junctions, doors), past=st.just(True)),
 )
 commands = st.lists(clauses, min_size=1, max_size=MAX_CLAUSES).map(lambda c: Command(tuple(c)))
+without_rooms = commands.filter(lambda c: not any(isinstance(x, GoToRoom) for x in c.clauses))

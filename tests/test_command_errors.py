@@ -25,23 +25,23 @@ def test_the_caret_stands_under_the_word() -> None:
     assert text[caret.index("^") : caret.rindex("^") + 1] == "dor"
     assert error.position == len("go down the hallway and go through the second ")
     assert error.length == len("dor")
-    assert error.expected == ("door",)
+    assert "door" in error.expected
     assert error.suggestion == "door"
     assert 'did you mean "door"?' in error.summary
 
 
 def test_the_expected_words_are_listed_plainly() -> None:
-    assert "expected one of: left, right, around" in str(error_of("turn lfet"))
-    assert "expected: door" in str(error_of("go through the second window"))
+    assert "expected one of: to, through, by, left, right" in str(error_of("turn xyz"))
+    assert "expected: hallway" in str(error_of("go down the window"))
     expected = error_of("go to the").expected
-    assert expected == (*("last", "door", "intersection", "corner", "end"), expected[-1])
-    assert expected[-1] == "next, first, second ... twentieth"
+    assert {"door", "room", "intersection", "corner", "T-junction", "end"} <= set(expected)
+    assert "next, first, second ... twentieth" in expected
 
 
 def test_a_command_that_ends_too_early_says_what_is_missing() -> None:
     error = error_of("turn ")
     assert error.problem == "the command ends too early"
-    assert error.expected == ("left", "right", "around")
+    assert {"left", "right", "around"} <= set(error.expected)
     assert str(error).splitlines()[2].index("^") == len("  turn")
 
 
@@ -92,7 +92,7 @@ def test_a_word_closer_to_left_is_never_answered_with_right(word: str, other: st
 
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize(
-    "text", ["go {}", "take the second {}", "go to the {} door", "{}", "stop {}"]
+    "text", ["go to the second {}", "stop at {}", "go to the {} window", "stop {}", "go down {}"]
 )
 def test_the_other_side_is_never_mentioned_for_a_side_in_the_wrong_place(
     text: str, side: str
@@ -153,13 +153,13 @@ def test_what_is_no_text_is_refused(text: object) -> None:
 def test_a_megabyte_is_refused_by_its_length_alone(unit: str) -> None:
     text = unit * (1_000_000 // len(unit))
     error = error_of(text)
-    assert error.summary == f"the command has {len(text)} characters; at most 2000 are read"
+    assert error.summary == f"the command has {len(text)} characters; at most 20000 are read"
     assert error.text == ""
 
 
 def test_too_many_words_are_refused() -> None:
     assert str(error_of("go " * (MAX_WORDS + 1))).startswith(
-        "the command has 401 words; at most 400"
+        "the command has 2001 words; at most 2000"
     )
 
 

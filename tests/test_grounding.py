@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.commands import parse
-from semnav_env.commands.clauses import Clause, Side
+from semnav_env.commands import Clause, Side, parse
 from semnav_env.features.frames import Pose, compose, wrap_angle
 from semnav_env.features.hallway import hallway
 from semnav_env.features.scene import Door, Scene, Wall

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from lark import Lark, logger
 
 from semnav_env.commands import Command, CommandError, grammar, parse
-from semnav_env.commands.language import english
+from semnav_env.commands.language import english, languages
 from tests.command_strategies import commands
 
 # Each command beside its canonical wording.
@@ -148,26 +148,20 @@ REFUSED = [
     "turn left around",
     "turnleft",
     "go",
-    "go left",
-    "take the second left",
     "go down the hallway left",
     "go down the hallway and",
     "go down the hallway and and stop",
     "turn left stop",
     "and stop",
     "go to the second",
-    "go through the second to last door",
     "go through a door",
     "go through the second one on the right",
     "go through door 2",
     "go through the doors on the left",
-    "go through the left door",
-    "go through the intersection",
     "go through the twenty-first door",
     "go through the 2st door",
     "go through the 0th door",
     "turn left at the second door",
-    "turn left at the last intersection",
     "turn left at the second end",
     "turn left at",
     "go to the kitchen",
@@ -204,18 +198,14 @@ def test_a_command_cut_short_never_gains_meaning(row: tuple[str, str], data: st.
     assert whole.clauses[: len(finished)] == tuple(finished)
 
 
-def test_the_grammar_decides_by_one_word_without_conflicts(
-    caplog: pytest.LogCaptureFixture,
+@pytest.mark.parametrize("code", sorted(languages()))
+def test_a_grammar_decides_by_one_word_without_conflicts(
+    code: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     caplog.set_level(logging.DEBUG, logger=logger.name)
-    Lark(english().lark(), parser="lalr", lexer="contextual", debug=True)
+    language = languages()[code]
+    Lark(language.lark(), parser="lalr", lexer=grammar._NoLexer, debug=True)
     assert "conflict" not in caplog.text.lower()
-
-
-def test_the_words_of_the_language_are_all_ascii_and_lower_case() -> None:
-    language = english()
-    words = [word for terminal in language.terminals for word in language.vocabulary(terminal)]
-    assert all(word.isascii() and word == word.casefold() for word in words)
 
 
 def test_the_parser_is_built_once() -> None:

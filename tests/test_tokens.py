@@ -16,6 +16,7 @@ from semnav_env.commands import (
     DoorReference,
     Follow,
     GoToDoor,
+    GoToRoom,
     Place,
     PlaceReference,
     Side,
@@ -24,30 +25,31 @@ from semnav_env.commands import (
     Turning,
     decode,
     encode,
+    token_mask,
     token_space,
 )
-from semnav_env.commands.tokens import COUNTS
-from tests.command_strategies import commands
+from semnav_env.commands.tokens import COUNTS, Verb
+from tests.command_strategies import commands, without_rooms
 
 SHAPE = (MAX_CLAUSES, CLAUSE_FEATURES)
 
 
-@given(commands)
+@given(without_rooms)
 def test_decoding_undoes_encoding(command: Command) -> None:
     assert decode(encode(command)) == command
 
 
-@given(commands)
+@given(without_rooms)
 def test_tokens_lie_in_their_space(command: Command) -> None:
     assert token_space().contains(encode(command))
 
 
-@given(commands, commands)
+@given(without_rooms, without_rooms)
 def test_different_commands_have_different_tokens(one: Command, other: Command) -> None:
     assert np.array_equal(encode(one), encode(other)) == (one == other)
 
 
-@given(commands)
+@given(without_rooms)
 def test_rows_after_the_last_clause_are_zero(command: Command) -> None:
     verbs = encode(command)[:, 0]
     assert np.all(verbs[: len(command.clauses)] > 0)
@@ -68,7 +70,7 @@ def test_the_columns_are_as_written_down() -> None:
 
 
 @given(
-    arrays(np.int64, SHAPE, elements=st.integers(-1, 22))
+    arrays(np.int64, SHAPE, elements=st.integers(-1, 33))
     | st.tuples(
         *(arrays(np.int64, MAX_CLAUSES, elements=st.integers(0, n - 1)) for n in COUNTS)
     ).map(np.column_stack)
@@ -90,9 +92,11 @@ def test_any_integers_are_a_command_or_refused(tokens: Any) -> None:
         ([5, 1, 0, 0, 0], "no clause"),
         ([0, 0, 0, 0, 1], "no clause"),
         ([1, 0, 4, 2, 0], "one end ahead"),
-        ([1, 0, 2, 21, 0], "1 to 20"),
-        ([1, 0, 1, 0, 0], "1 to 20 or LAST"),
-        ([6, 0, 0, 0, 0], "go up to"),
+        ([1, 0, 2, 31, 0], "1 to 20"),
+        ([1, 0, 1, 0, 0], "no ordinal"),
+        ([10, 0, 0, 0, 0], "go up to"),
+        ([6, 0, 0, 0, 0], "no clause"),
+        ([7, 0, 11, 1, 0], "0 rooms"),
         ([-1, 0, 0, 0, 0], "go up to"),
     ],
 )
@@ -101,6 +105,30 @@ def test_a_row_that_is_no_clause_is_named(row: list[int], reason: str) -> None:
     tokens[1] = row
     with pytest.raises(ValueError, match=f"row 1 .*{reason}"):
         decode(tokens)
+
+
+ROOMS = ("kitchen", "3.508", "left")
+
+
+@given(commands)
+def test_rooms_are_numbered_by_their_place_among_the_names(command: Command) -> None:
+    names = [clause.name for clause in command.clauses if isinstance(clause, GoToRoom)]
+    rooms = sorted({*names, *ROOMS})
+    tokens = encode(command, rooms)
+    assert token_space().contains(tokens)
+    assert decode(tokens, rooms) == command
+    assert [rooms[n - 1] for v, _, _, n, _ in tokens.tolist() if v == Verb.GO_TO_ROOM] == names
+
+
+def test_a_room_that_is_not_there_has_no_number() -> None:
+    with pytest.raises(ValueError, match=r"no room 'attic' .*; there are: kitchen, 3.508, left"):
+        encode(Command((GoToRoom("attic"),)), ROOMS)
+
+
+@given(without_rooms)
+def test_the_mask_says_which_rows_are_clauses(command: Command) -> None:
+    mask = token_mask(encode(command))
+    assert mask.tolist() == [i < len(command.clauses) for i in range(MAX_CLAUSES)]
 
 
 def test_a_gap_between_clauses_is_refused() -> None:

@@ -1,48 +1,67 @@
 """Commands: from words to typed clauses, and back to words."""
 
 from semnav_env.commands.clauses import (
-    LAST,
-    MAX_ORDINAL,
     Approach,
     Clause,
-    DoorReference,
     Follow,
+    GoBack,
     GoToDoor,
-    Place,
-    PlaceReference,
-    Side,
+    GoToRoom,
+    Leave,
     Stop,
     Turn,
     Turning,
 )
 from semnav_env.commands.command import MAX_CLAUSES, Command
-from semnav_env.commands.errors import CommandError
-from semnav_env.commands.parser import parse
+from semnav_env.commands.errors import AmbiguousCommandError, CommandError
+from semnav_env.commands.parser import parse, readings
+from semnav_env.commands.references import (
+    LAST,
+    MAX_FROM_END,
+    MAX_ORDINAL,
+    OTHER,
+    Distance,
+    DoorReference,
+    Place,
+    PlaceReference,
+    Side,
+    Unit,
+)
 from semnav_env.commands.sampling import sample_clause, sample_command
-from semnav_env.commands.tokens import CLAUSE_FEATURES, decode, encode, token_space
+from semnav_env.commands.tokens import CLAUSE_FEATURES, decode, encode, token_mask, token_space
 
 __all__ = [
     "CLAUSE_FEATURES",
     "LAST",
     "MAX_CLAUSES",
+    "MAX_FROM_END",
     "MAX_ORDINAL",
+    "OTHER",
+    "AmbiguousCommandError",
     "Approach",
     "Clause",
     "Command",
     "CommandError",
+    "Distance",
     "DoorReference",
     "Follow",
+    "GoBack",
     "GoToDoor",
+    "GoToRoom",
+    "Leave",
     "Place",
     "PlaceReference",
     "Side",
     "Stop",
     "Turn",
     "Turning",
+    "Unit",
     "decode",
     "encode",
     "parse",
+    "readings",
     "sample_clause",
     "sample_command",
+    "token_mask",
     "token_space",
 ]

@@ -5,20 +5,21 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from enum import StrEnum
-from numbers import Integral
 from typing import TypeAlias
 
 from semnav_env.commands.language import Language, english
+from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference
 
+MAX_DEGREES, DEGREE_STEP = 360, 5
+"""Turns by degrees go up to a full one, in steps of five."""
 
-class Side(StrEnum):
-    """On which side of the direction of travel."""
+MAX_SECONDS = 100
+"""The longest wait, seconds."""
 
-    LEFT = "left"
-    RIGHT = "right"
-    AHEAD = "ahead"
+_NAME = re.compile(r"(?=.{1,40}$)[a-z0-9]+(?:[ ._-][a-z0-9]+)*", re.ASCII)
 
 
 class Turning(StrEnum):
@@ -29,116 +30,6 @@ class Turning(StrEnum):
     AROUND = "around"
 
 
-class Place(StrEnum):
-    """Where a corridor offers a turn: an intersection, a bend (corner), or the end of it."""
-
-    INTERSECTION = "intersection"
-    CORNER = "corner"
-    END = "end"
-
-
-LAST = -1
-"""The ordinal of "the last door"."""
-
-MAX_ORDINAL = 20
-"""The highest ordinal: doors and places are counted from 1 to here."""
-
-
-@dataclass(frozen=True, slots=True)
-class DoorReference:
-    """A door by its number and side: "the second door on the right".
-
-    Attributes:
-        ordinal: 1 for the first or next, n for the nth, `LAST` for the last.
-        side: on which side; None where the command leaves it open.
-    """
-
-    ordinal: int = 1
-    side: Side | None = None
-
-    def __post_init__(self) -> None:
-        if self.ordinal != LAST:
-            _check_ordinal("door", self.ordinal)
-
-    def __str__(self) -> str:
-        return self.say(english())
-
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        last = self.ordinal == LAST
-        ordinal = language.say("last") if last else language.ordinals[self.ordinal - 1][0]
-        phrase = "door" if self.side is None else f"door_{self.side}"
-        return language.say(phrase, ordinal=ordinal)
-
-
-@dataclass(frozen=True, slots=True)
-class PlaceReference:
-    """A place by its number: "the second intersection", "the corner", "the end of the hallway".
-
-    Attributes:
-        place: what kind of place.
-        ordinal: 1 for the first or next, n for the nth; always 1 for the end.
-    """
-
-    place: Place
-    ordinal: int = 1
-
-    def __post_init__(self) -> None:
-        _check_ordinal(self.place, self.ordinal)
-        if self.place == Place.END and self.ordinal != 1:
-            raise ValueError(f"a hallway has one end ahead: its ordinal is 1, not {self.ordinal!r}")
-
-    def __str__(self) -> str:
-        return self.say(english())
-
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        return language.say(self.place, ordinal=language.ordinals[self.ordinal - 1][0])
-
-
-@dataclass(frozen=True, slots=True)
-class Follow:
-    """Follow the hallway: "go down the hallway until the next intersection".
-
-    Attributes:
-        until: where to stop; None leaves it to the next clause, or to the end of the hallway.
-    """
-
-    until: PlaceReference | DoorReference | None = None
-
-    def __str__(self) -> str:
-        return self.say(english())
-
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        if self.until is None:
-            return language.say("follow")
-        return language.say("follow_until", referent=self.until.say(language))
-
-
-@dataclass(frozen=True, slots=True)
-class Turn:
-    """Change direction: "turn left at the second intersection".
-
-    Attributes:
-        turning: which way.
-        at: where; None is here.
-    """
-
-    turning: Turning
-    at: PlaceReference | None = None
-
-    def __str__(self) -> str:
-        return self.say(english())
-
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        turning = language.say(self.turning)
-        if self.at is None:
-            return language.say("turn", turning=turning)
-        return language.say("turn_at", turning=turning, place=self.at.say(language))
-
-
 class Approach(StrEnum):
     """How far a door clause goes: up to the door, or through it."""
 
@@ -146,8 +37,81 @@ class Approach(StrEnum):
     THROUGH = "through"
 
 
+class _Said:
+    """A clause that says itself."""
+
+    __slots__ = ()
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        raise NotImplementedError
+
+    def __str__(self) -> str:
+        return self.say(english())
+
+
 @dataclass(frozen=True, slots=True)
-class GoToDoor:
+class Follow(_Said):
+    """Follow the hallway: "go down the hallway until the next intersection".
+
+    Attributes:
+        until: how far; None leaves it to the next clause, or to the end of the hallway.
+        past: go on until it lies behind, so that it no longer counts.
+    """
+
+    until: PlaceReference | DoorReference | Distance | None = None
+    past: bool = False
+
+    def __post_init__(self) -> None:
+        at_end = isinstance(self.until, PlaceReference) and self.until.place is Place.END
+        if self.past and (self.until is None or at_end or isinstance(self.until, Distance)):
+            raise ValueError(f"one can go past a door or a junction, not {self.until}")
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        if self.until is None:
+            return language.say("follow")
+        distance = isinstance(self.until, Distance)
+        relation = "past" if self.past else "for" if distance else "until"
+        return language.say(f"follow_{relation}", referent=self.until)
+
+
+@dataclass(frozen=True, slots=True)
+class Turn(_Said):
+    """Change direction: "turn left at the second intersection".
+
+    Attributes:
+        turning: which way.
+        at: where; None is here.
+        degrees: by how much, on the spot; None is into what leads that way, or a quarter turn.
+    """
+
+    turning: Turning
+    at: PlaceReference | None = None
+    degrees: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.degrees is None:
+            return
+        if self.at is not None or self.turning is Turning.AROUND:
+            raise ValueError("a turn by degrees is to the left or right, on the spot")
+        if not 0 < self.degrees <= MAX_DEGREES or self.degrees % DEGREE_STEP:
+            limits = f"{DEGREE_STEP} to {MAX_DEGREES} degrees in steps of {DEGREE_STEP}"
+            raise ValueError(f"a turn is by {limits}, not {self.degrees!r}")
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        turning = language.say(self.turning)
+        if self.degrees is not None:
+            return language.say("turn_by", turning=turning, degrees=str(self.degrees))
+        if self.at is not None:
+            return language.say("turn_at", turning=turning, place=self.at)
+        around = self.turning is Turning.AROUND
+        return language.say("turn", "around" if around else "", turning=turning)
+
+
+@dataclass(frozen=True, slots=True)
+class GoToDoor(_Said):
     """Go to a door or through it: "go through the second door on the right".
 
     Attributes:
@@ -158,30 +122,68 @@ class GoToDoor:
     door: DoorReference
     approach: Approach = Approach.THROUGH
 
-    def __str__(self) -> str:
-        return self.say(english())
-
     def say(self, language: Language) -> str:
         """In the words of a language."""
-        return language.say(self.approach, door=self.door.say(language))
+        return language.say(self.approach, door=self.door)
 
 
 @dataclass(frozen=True, slots=True)
-class Stop:
-    """Stand still: "stop"."""
+class GoToRoom(_Said):
+    """Go into a room that the floor plan names: "go to the kitchen", "go to room 3.508".
 
-    def __str__(self) -> str:
-        return self.say(english())
+    Attributes:
+        name: small letters a to z and digits, parted by single spaces, dots, hyphens or
+            underscores; at most 40 characters.
+    """
+
+    name: str
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not _NAME.fullmatch(self.name):
+            raise ValueError(f"a room's name is of small letters and digits, not {self.name!r}")
 
     def say(self, language: Language) -> str:
         """In the words of a language."""
+        return language.say("room", name=self.name)
+
+
+@dataclass(frozen=True, slots=True)
+class Leave(_Said):
+    """Leave the room that one is in: "leave the room"."""
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        return language.say("leave")
+
+
+@dataclass(frozen=True, slots=True)
+class GoBack(_Said):
+    """Go back to where the command began: "go back to the start"."""
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        return language.say("back")
+
+
+@dataclass(frozen=True, slots=True)
+class Stop(_Said):
+    """Stand still: "stop", "wait for 5 seconds".
+
+    Attributes:
+        seconds: for how long, 1 to `MAX_SECONDS`; 0 leaves it open.
+    """
+
+    seconds: int = 0
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.seconds, int) or not 0 <= self.seconds <= MAX_SECONDS:
+            raise ValueError(f"a wait is of 1 to {MAX_SECONDS} seconds, not {self.seconds!r}")
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        if self.seconds:
+            return language.say("wait", seconds=str(self.seconds))
         return language.say("stop")
 
 
-Clause: TypeAlias = Follow | Turn | GoToDoor | Stop
-
-
-def _check_ordinal(what: str, ordinal: int) -> None:
-    if not isinstance(ordinal, Integral) or not 1 <= ordinal <= MAX_ORDINAL:
-        last = " or LAST" if what == "door" else ""
-        raise ValueError(f"the ordinal of a {what} is 1 to {MAX_ORDINAL}{last}, not {ordinal!r}")
+Clause: TypeAlias = Follow | Turn | GoToDoor | GoToRoom | Leave | GoBack | Stop

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import get_args
 
-from semnav_env.commands.clauses import Clause
-from semnav_env.commands.language import Language, english
+from semnav_env.commands.clauses import Clause, Follow, GoToDoor, Turn
+from semnav_env.commands.language import Language, language_of
+from semnav_env.commands.references import DoorReference, PlaceReference
 
 MAX_CLAUSES = 8
 """The most clauses a command can have."""
@@ -15,7 +18,7 @@ MAX_CLAUSES = 8
 class Command:
     """Clauses to carry out in turn: "go down the hallway, turn left and go through the door".
 
-    `str(command)` is canonical English and `parse(str(command)) == command`.
+    `str(command)` is canonical English, `parse(str(command)) == command`, and so in every language.
 
     Attributes:
         clauses: what to do one after the other, 1 to `MAX_CLAUSES`.
@@ -33,16 +36,60 @@ class Command:
                 f"a command holds a tuple of clauses, not {kind}; text goes to parse()"
             )
         for clause in self.clauses:
-            if not isinstance(clause, Clause):
-                raise ValueError(f"a clause is Follow, Turn, GoToDoor or Stop, not {clause!r}")
+            if not isinstance(clause, get_args(Clause)):
+                kinds = ", ".join(kind.__name__ for kind in get_args(Clause))
+                raise ValueError(f"a clause is one of {kinds}, not {clause!r}")
         if not 1 <= len(self.clauses) <= MAX_CLAUSES:
             raise ValueError(f"a command has 1 to {MAX_CLAUSES} clauses, not {len(self.clauses)}")
 
     def __str__(self) -> str:
-        return self.say(english())
+        return self.say()
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        *first, last = (clause.say(language) for clause in self.clauses)
-        joined = language.say("comma").join(first)
-        return f"{joined}{language.say('and')}{last}" if first else last
+    def say(self, language: str | Language = "en") -> str:
+        """In the words of a language.
+
+        Args:
+            language: "en", "de" or a loaded one.
+
+        Raises:
+            ValueError: there is no such language.
+        """
+        spoken = language_of(language)
+        said = self.clauses[0].say(spoken)
+        last = len(self.clauses) - 2
+        for index, (before, clause) in enumerate(pairwise(self.clauses)):
+            joint = spoken.say("comma" if index < last else "and")
+            anew = spoken.say("from_there") if may_count_on(before, clause) else ""
+            said += joint + anew + clause.say(spoken)
+        return said
+
+
+def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
+    """The door or place that a clause speaks of."""
+    match clause:
+        case Follow(DoorReference() | PlaceReference() as until):
+            return until
+        case Turn(_, at):
+            return at
+        case GoToDoor(door):
+            return door
+        case _:
+            return None
+
+
+def may_count_on(before: Clause, clause: Clause) -> bool:
+    """Whether a listener may go on counting: "past the first door, then through the second".
+
+    That is where a clause follows the hallway to or past the nth of a kind, and the next one names
+    a later one of the same kind: from where the first counted, or anew from there?
+    """
+    first, second = reference_of(before), reference_of(clause)
+    if not isinstance(before, Follow) or first is None or type(first) is not type(second):
+        return False
+    assert second is not None
+    same = _kind(first) == _kind(second)
+    return same and 0 < first.ordinal < second.ordinal
+
+
+def _kind(reference: DoorReference | PlaceReference) -> object:
+    return reference.side if isinstance(reference, DoorReference) else reference.place

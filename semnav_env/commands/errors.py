@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import unicodedata
+from typing import Any
 
 SHOWN_BEFORE, SHOWN_AFTER = 48, 24
 """How much of a long text an error shows on either side of the fault, characters."""
+
+MOST_SHOWN = 12
+"""How many of the words that could have stood somewhere an error lists."""
 
 
 class CommandError(ValueError):
@@ -47,19 +51,36 @@ class CommandError(ValueError):
         """All of it in one line."""
         where = "" if self.position is None else f" (character {self.position + 1})"
         parts = [self.problem + where]
-        if self.expected:
-            one_of = "expected: " if len(self.expected) == 1 else "expected one of: "
-            parts.append(one_of + ", ".join(self.expected))
-        if self.suggestion:
-            parts.append(f'did you mean "{self.suggestion}"?')
         if self.hint:
             parts.append(self.hint)
+        if self.expected:
+            one_of = "expected: " if len(self.expected) == 1 else "expected one of: "
+            more = ", ..." if len(self.expected) > MOST_SHOWN else ""
+            parts.append(one_of + ", ".join(self.expected[:MOST_SHOWN]) + more)
+        if self.suggestion:
+            parts.append(f'did you mean "{self.suggestion}"?')
         return "; ".join(parts)
 
     def __str__(self) -> str:
         if self.position is None:
             return self.summary
         return f"{self.summary}\n{pointed(self.text, self.position, self.length)}"
+
+
+class AmbiguousCommandError(CommandError):
+    """A text can mean several commands.
+
+    Attributes:
+        readings: the commands, the likelier first.
+        differences: what each reading says where they differ, in the words of the text's language.
+    """
+
+    def __init__(self, text: str, readings: tuple[Any, ...], differences: tuple[str, ...]) -> None:
+        ways = " or ".join(f'"{difference}"' for difference in differences)
+        super().__init__(f"this can mean {ways}", text, hint="say which")
+        self.args = (text, readings, differences)
+        self.readings = readings
+        self.differences = differences
 
 
 def pointed(text: str, position: int, length: int) -> str:

@@ -1,121 +1,117 @@
-"""The parser of a language: Lark's LALR(1) with the contextual lexer, and what its rules build."""
+"""The parser of a language: Lark's LALR(1) table, fed with the longest phrases that fit."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cache
+from collections.abc import Iterable
+from functools import lru_cache
+from typing import Any
 
-from lark import Lark, Token, Transformer, v_args
-from lark.tree import Meta
+from lark import Lark, Token
+from lark.exceptions import UnexpectedToken, VisitError
+from lark.lexer import Lexer
+from lark.parsers.lalr_interactive_parser import InteractiveParser
 
-from semnav_env.commands.clauses import (
-    LAST,
-    Approach,
-    Clause,
-    DoorReference,
-    Follow,
-    GoToDoor,
-    Place,
-    PlaceReference,
-    Side,
-    Stop,
-    Turn,
-    Turning,
-)
 from semnav_env.commands.language import Language
+from semnav_env.commands.meanings import Found, meanings_of
+from semnav_env.commands.words import FILLER, Lexicon, pieces
+
+PUNCTUATION, QUESTION, NAME = "_PUNCTUATION", "_QUESTION", "NAME"
 
 
-@dataclass(frozen=True, slots=True)
-class FoundClause:
-    """A clause and the stretch of text that says it."""
+class MeaninglessError(ValueError):
+    """Words that fit the grammar and yet mean nothing: "turn 7 degrees".
 
-    clause: Clause
-    start: int
-    stop: int
+    Attributes:
+        start: where they begin in the text.
+        stop: where they end.
+    """
 
-
-class _Clauses(Transformer[Token, list[FoundClause]]):
-    """Builds the value of each rule of the grammar, from the innermost outwards."""
-
-    def __init__(self, language: Language) -> None:
-        super().__init__()
-        self._language = language
-
-    def start(self, clauses: list[FoundClause]) -> list[FoundClause]:
-        return clauses
-
-    @v_args(meta=True)
-    def clause(self, meta: Meta, clauses: list[Clause]) -> FoundClause:
-        return FoundClause(clauses[0], meta.start_pos, meta.end_pos)
-
-    def follow(self, until: list[PlaceReference | DoorReference | None]) -> Follow:
-        return Follow(until[0])
-
-    @v_args(inline=True)
-    def turn(self, turning: Turning, at: PlaceReference | None) -> Turn:
-        return Turn(turning, at)
-
-    @v_args(inline=True)
-    def turn_here(self, turning: Turning) -> Turn:
-        return Turn(turning)
-
-    @v_args(inline=True)
-    def turn_at(self, at: PlaceReference, turning: Turning) -> Turn:
-        return Turn(turning, at)
-
-    @v_args(inline=True)
-    def go_to(self, door: DoorReference) -> GoToDoor:
-        return GoToDoor(door, Approach.TO)
-
-    @v_args(inline=True)
-    def go_through(self, door: DoorReference) -> GoToDoor:
-        return GoToDoor(door, Approach.THROUGH)
-
-    def stop(self, _: list[Token]) -> Stop:
-        return Stop()
-
-    @v_args(inline=True)
-    def junction(self, ordinal: int | None, kind: Token) -> PlaceReference:
-        return PlaceReference(Place[kind.type], ordinal or 1)
-
-    def end(self, _: list[Token]) -> PlaceReference:
-        return PlaceReference(Place.END)
-
-    @v_args(inline=True)
-    def door(self, ordinal: int | None, side: Side | None) -> DoorReference:
-        return DoorReference(ordinal or 1, side)
-
-    @v_args(inline=True)
-    def nth(self, word: Token) -> int:
-        return self._language.number(word)
-
-    def last(self, _: list[Token]) -> int:
-        return LAST
-
-    @v_args(inline=True)
-    def turning(self, word: Token) -> Turning:
-        return Turning[word.type]
-
-    @v_args(inline=True)
-    def side(self, word: Token) -> Side:
-        return Side[word.type]
+    def __init__(self, problem: str, start: int, stop: int) -> None:
+        super().__init__(problem)
+        self.start = start
+        self.stop = stop
 
 
-def find_clauses(language: Language, text: str) -> list[FoundClause]:
+class _NoLexer(Lexer):
+    """Words are found by `Lexicon`, which knows what the parser can take next."""
+
+    def __init__(self, _: Any) -> None:
+        pass
+
+    def lex(self, *_: Any) -> Iterable[Token]:  # type: ignore[override]
+        return ()
+
+
+def find_clauses(language: Language, text: str, rooms: tuple[str, ...] = ()) -> list[Found]:
     """The clauses of a normalised text, in order.
 
+    Args:
+        language: whose grammar and words.
+        text: normalised.
+        rooms: names of rooms that may be spoken of without quotation marks.
+
     Raises:
-        lark.UnexpectedInput: the text is not a command.
+        lark.UnexpectedToken: the text is not a command.
+        MeaninglessError: it is, but with a number or an order that nothing has.
     """
-    return _Clauses(language).transform(_parser(language).parse(text))
+    spoken = {_spoken(name): name for name in rooms}
+    tree = _tree(language, text, tuple(spoken))
+    try:
+        return meanings_of(tree, language, spoken)
+    except VisitError as error:
+        if not isinstance(error.orig_exc, ValueError):
+            raise
+        meta: Any = getattr(error.obj, "meta", None)
+        start, stop = getattr(meta, "start_pos", 0), getattr(meta, "end_pos", len(text))
+        raise MeaninglessError(str(error.orig_exc), start, stop) from None
 
 
-@cache
+def _tree(language: Language, text: str, rooms: tuple[str, ...]) -> Any:
+    parser: InteractiveParser = _parser(language).parse_interactive()
+    lexicon = _lexicon(language, rooms)
+    words = pieces(text)
+    first, last = 0, None
+    while first < len(words):
+        state = parser.parser_state
+        accepted = state.parse_conf.parse_table.states[state.position]
+        word = lexicon.find(words, first, accepted)
+        start, stop = words[first].start, words[word.stop - 1].stop
+        first = word.stop
+        if word.terminal != FILLER:
+            last = Token(word.terminal, word.text, start_pos=start, end_pos=stop)
+            _feed(parser, last)
+    end = Token("$END", "", start_pos=len(text), end_pos=len(text))
+    return _feed(parser, end)
+
+
+def _feed(parser: InteractiveParser, token: Token) -> Any:
+    try:
+        return parser.feed_token(token)
+    except UnexpectedToken as unexpected:
+        unexpected.interactive_parser = parser
+        raise
+
+
+def _spoken(name: str) -> str:
+    """How a room's name is spoken: "room_west_1" as "west 1"."""
+    return " ".join(name.replace("_", " ").split()).removeprefix("room ")
+
+
+@lru_cache(maxsize=32)
+def _lexicon(language: Language, rooms: tuple[str, ...]) -> Lexicon:
+    phrases = [
+        (t, language.folded(p.casefold())) for t, ps in language.terminals.items() for p in ps
+    ]
+    signs = [(PUNCTUATION, sign) for sign in language.punctuation] + [(QUESTION, "?")]
+    return Lexicon([*phrases, *signs, *((NAME, name) for name in rooms)])
+
+
+@lru_cache(maxsize=32)
 def _parser(language: Language) -> Lark:
     return Lark(
         language.lark(),
         parser="lalr",
-        lexer="contextual",
+        lexer=_NoLexer,
         propagate_positions=True,
-        maybe_placeholders=True,
+        maybe_placeholders=False,
     )

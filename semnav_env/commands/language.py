@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import json
-import re
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from typing import Any
+
+from semnav_env.commands.words import fold, pieces
+
+SIGNS = ("_PUNCTUATION", "_QUESTION", "NAME")
+"""Terminals that no list of words holds."""
 
 NUMBER = "0-9"
 """Stands for every word that begins with a digit, in the hints."""
@@ -18,43 +23,63 @@ class Language:
 
     Attributes:
         name: stem of the two files.
-        grammar: Lark grammar without the definitions of the word terminals.
+        code: what `parse` calls it, as "en".
+        grammar: Lark grammar without the declarations of its word terminals.
         terminals: the words (or fixed phrases) of each terminal, the usual one first.
         ordinals: the words of 1, 2, ... in turn, the usual one first.
+        from_end: the words of last, second to last, ... in turn, the usual one first.
+        numbers: the words of numbers.
+        counts: the number of each word of `ordinals` and, negative, of `from_end`.
+        decimal: parts a number from its fraction.
         punctuation: characters that part clauses and end a command.
-        letters: letters beyond ASCII that its words use.
-        same_as: characters read as another.
+        same_as: characters read as others.
         names: what to call a terminal in an error, where its first word does not do.
         hints: advice for words that are often tried and not understood.
-        phrases: how commands are said, as format strings.
+        phrases: how commands are said, as format strings; "door:to" is a form of "door".
     """
 
     name: str
+    code: str
     grammar: str
     terminals: dict[str, tuple[str, ...]]
     ordinals: tuple[tuple[str, ...], ...]
+    from_end: tuple[tuple[str, ...], ...]
+    numbers: dict[str, float]
+    counts: dict[str, int]
+    decimal: str
     punctuation: str
-    letters: str
     same_as: dict[str, str]
     names: dict[str, str]
     hints: dict[str, str]
     phrases: dict[str, str]
 
     def lark(self) -> str:
-        """The whole grammar in Lark's notation; a word ends where its letters end."""
-        lines = [self.grammar, f"_PUNCTUATION: /[{re.escape(self.punctuation)}]/"]
-        for terminal, words in self.terminals.items():
-            longest_first = sorted(words, key=len, reverse=True)
-            lines.append(rf"{terminal}: /(?:{'|'.join(longest_first)})(?![\w'])/")
-        return "\n".join(lines) + "\n"
+        """The whole grammar in Lark's notation."""
+        return f"{self.grammar}\n%declare {' '.join((*self.terminals, *SIGNS))}\n"
 
-    def number(self, ordinal: str) -> int:
-        """The number of an ordinal word, for example 2 for "2nd"."""
-        return next(n for n, words in enumerate(self.ordinals, 1) if ordinal in words)
+    def folded(self, words: str) -> str:
+        """Words with the spelling that the grammar reads."""
+        return fold(words, self.same_as)
+
+    def number(self, words: str) -> float:
+        """What a number word or a number in digits means, for example 2.5 for "2.5"."""
+        known = self.numbers.get(words)
+        return float(words.replace(self.decimal, ".")) if known is None else known
+
+    def number_text(self, amount: float) -> str:
+        """A number in digits."""
+        return f"{amount:g}".replace(".", self.decimal)
+
+    def ordinal(self, number: int) -> str:
+        """The usual word of an ordinal: positive, `OTHER` (0), or counted from the end."""
+        if number == 0:
+            return self.terminals["OTHER"][0]
+        return self.ordinals[number - 1][0] if number > 0 else self.from_end[-number - 1][0]
 
     def vocabulary(self, terminal: str) -> tuple[str, ...]:
-        """The single words that a terminal is made of."""
-        return tuple(word for phrase in self.terminals.get(terminal, ()) for word in phrase.split())
+        """The single words that a terminal is made of, as they are written."""
+        phrases = self.terminals.get(terminal, ())
+        return tuple(word for phrase in phrases for word in phrase.replace("-", " ").split())
 
     def call(self, terminal: str) -> str:
         """What to call a terminal in an error."""
@@ -62,34 +87,87 @@ class Language:
 
     def hint(self, word: str) -> str | None:
         """Advice for a word that was not understood, if there is any."""
-        return self.hints.get(NUMBER if word[:1].isdigit() else word.split("-")[0])
+        return self.hints.get(NUMBER if word[:1].isdigit() else word)
 
-    def say(self, phrase: str, **parts: str) -> str:
-        """Fill the parts into a phrase."""
-        return self.phrases[phrase].format(**parts)
+    def say(self, phrase: str, form: str = "", **parts: Any) -> str:
+        """Fill the parts into a phrase, or into a form of it if it has that.
+
+        Parts that are references are said in the form that the phrase asks for: "{door:to}".
+        """
+        template = self.phrases.get(f"{phrase}:{form}") or self.phrases[phrase]
+        return template.format(**{key: _Part(part, self) for key, part in parts.items()})
+
+
+class _Part:
+    """A part of a phrase; its format specification names the form in which it is said."""
+
+    def __init__(self, value: Any, language: Language) -> None:
+        self._value = value
+        self._language = language
+
+    def __format__(self, form: str) -> str:
+        said = self._value if isinstance(self._value, str) else None
+        return self._value.say(self._language, form) if said is None else said
 
 
 def load(name: str) -> Language:
     """The language in `name.json` and `name.lark`."""
     folder = files("semnav_env.commands")
     table = json.loads((folder / f"{name}.json").read_text("utf-8"))
-    ordinals = tuple(tuple(words) for words in table["ordinals"])
+    same_as = table["same_as"]
+    ordinals, from_end = (tuple(map(tuple, table[key])) for key in ("ordinals", "from_end"))
     terminals = {key: tuple(words) for key, words in table["terminals"].items()}
+    terminals["NTH"] = tuple(word for words in ordinals for word in words)
+    terminals["FROM_END"] = tuple(word for words in from_end for word in words)
+    terminals["NUMBER"] = tuple(table["numbers"])
+    numbers = {_plain(words, same_as): value for words, value in table["numbers"].items()}
+    counts = {_plain(w, same_as): n for n, words in enumerate(ordinals, 1) for w in words}
+    counts |= {_plain(w, same_as): -n for n, words in enumerate(from_end, 1) for w in words}
     return Language(
         name=name,
+        code=table["code"],
         grammar=(folder / f"{name}.lark").read_text("utf-8"),
-        terminals=terminals | {"NTH": tuple(word for words in ordinals for word in words)},
+        terminals=terminals,
         ordinals=ordinals,
+        from_end=from_end,
+        numbers=numbers,
+        counts=counts,
+        decimal=table["decimal"],
         punctuation=table["punctuation"],
-        letters=table["letters"],
-        same_as=table["same_as"],
+        same_as=same_as,
         names=table["names"],
-        hints={word: hint["say"] for hint in table["hints"] for word in hint["words"]},
+        hints={fold(w, same_as): hint["say"] for hint in table["hints"] for w in hint["words"]},
         phrases=table["phrases"],
     )
+
+
+def _plain(words: str, same_as: dict[str, str]) -> str:
+    return " ".join(piece.text for piece in pieces(fold(words.casefold(), same_as)))
 
 
 @cache
 def english() -> Language:
     """English, read once."""
-    return load("english")
+    return languages()["en"]
+
+
+@cache
+def languages() -> dict[str, Language]:
+    """All languages by their code; each is a pair of files beside this one."""
+    folder = files("semnav_env.commands")
+    stems = sorted(file.name[:-5] for file in folder.iterdir() if file.name.endswith(".lark"))
+    loaded = [load(stem) for stem in stems]
+    return {language.code: language for language in loaded}
+
+
+def language_of(language: str | Language) -> Language:
+    """The language of a code, such as "en".
+
+    Raises:
+        ValueError: there is no such language; lists those there are.
+    """
+    if isinstance(language, Language):
+        return language
+    if language not in languages():
+        raise ValueError(f"no language {language!r}; there are: {', '.join(sorted(languages()))}")
+    return languages()[language]

@@ -7,11 +7,13 @@ import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from semnav_env.commands.clauses import GoToDoor
 from semnav_env.commands.errors import CommandError, named
 from semnav_env.commands.language import Language
+from semnav_env.commands.references import DoorReference, Side
 
-MAX_CHARACTERS = 2000
-MAX_WORDS = 400
+MAX_CHARACTERS = 20_000
+MAX_WORDS = 2_000
 
 INVISIBLE = frozenset("\u00ad\u200b\u200c\u200d\u200e\u200f\u061c\u2060\ufeff")
 """Soft hyphen, zero-width spaces and joiners, direction marks: they change no word and are
@@ -19,6 +21,9 @@ dropped."""
 
 REORDERING = frozenset("\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
 """They can show the words in another order than they are read in, and are refused."""
+
+SIGNS = frozenset("°")
+"""Signs beyond ASCII that commands use."""
 
 _CLUSTER = re.compile(r".[\u0300-\u036f]*", re.DOTALL)
 
@@ -60,7 +65,7 @@ def normalise(original: str, language: Language) -> NormalisedText:
         origin.append(index)
     text = "".join(characters).rstrip()
     if not text:
-        example = language.say("through", door=language.say("door_right", ordinal="second"))
+        example = GoToDoor(DoorReference(2, Side.RIGHT)).say(language)
         raise CommandError("the command is empty", hint=f'for example: "{example}"')
     if (words := text.count(" ") + 1) > MAX_WORDS:
         raise CommandError(f"the command has {words} words; at most {MAX_WORDS} are read")
@@ -92,9 +97,9 @@ def _folded(original: str, language: Language) -> Iterator[tuple[int, str]]:
             continue
         _refuse_unseen(original, index)
         for character in _nfkc_casefold(cluster.group()):
-            known = language.same_as.get(character, character)
+            known = language.folded(character)
             _refuse_foreign(original, index, known, language)
-            yield index, known
+            yield from ((index, each) for each in known)
 
 
 def _nfkc_casefold(text: str) -> str:
@@ -114,8 +119,9 @@ def _refuse_unseen(original: str, index: int) -> None:
 
 
 def _refuse_foreign(original: str, index: int, character: str, language: Language) -> None:
-    if not character.isascii() and character not in language.letters:
+    if not character.isascii() and character not in SIGNS:
         shown = character if original[index].isascii() else original[index]
         problem = f"{named(shown)} is not used in {language.name.capitalize()} commands"
-        hint = f"letters a to z{language.letters}, digits and {' '.join(language.punctuation)} are"
+        letters = "".join(letter for letter in language.same_as if letter.isalpha())
+        hint = f"letters a to z{letters}, digits and {' '.join(language.punctuation)} are"
         raise CommandError(problem, original, index, hint=hint)

@@ -2,83 +2,134 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from semnav_env.commands.clauses import GoToRoom
 from semnav_env.commands.command import MAX_CLAUSES, Command
-from semnav_env.commands.errors import CommandError
-from semnav_env.commands.language import Language, english
+from semnav_env.commands.errors import AmbiguousCommandError, CommandError
+from semnav_env.commands.language import Language, language_of
 from semnav_env.commands.normalise import NormalisedText, normalise
 from semnav_env.commands.suggest import nearest
 
 if TYPE_CHECKING:
-    from lark import UnexpectedInput
+    from lark import UnexpectedToken
 
-_WORD = re.compile(r"[\w'-]+|.")
+    from semnav_env.commands.meanings import Found
 
 
-def parse(text: str) -> Command:
-    """Understand a command in English.
+def parse(text: str, language: str | Language = "en", rooms: Sequence[str] = ()) -> Command:
+    """Understand a command.
 
     Args:
         text: for example "go down the hallway, turn left and go in the first door on the right";
             docs/language.md lists what is understood.
+        language: "en", "de" or a loaded one.
+        rooms: the names of rooms that there are; none if that is not known. Only these are
+            understood then, and they need no quotation marks.
 
     Returns:
-        The command; `parse(str(command)) == command`.
+        The command; `parse(command.say(language), language) == command`.
 
     Raises:
         CommandError: any of it is not understood; nothing is guessed or left out.
+        AmbiguousCommandError: it can mean several things; `error.readings` are all of them.
+        ValueError: there is no such language.
     """
-    return parse_in(english(), text)
+    spoken = language_of(language)
+    found = readings(text, spoken, rooms)
+    if len(found) > 1:
+        raise AmbiguousCommandError(_beginning(text), found, differences(found, spoken))
+    return found[0]
 
 
-def parse_in(language: Language, text: str) -> Command:
-    """Understand a command in a language; as `parse`."""
-    from lark import UnexpectedInput  # here, because Lark is slow to import
+def readings(
+    text: str, language: str | Language = "en", rooms: Sequence[str] = ()
+) -> tuple[Command, ...]:
+    """Everything that a text can mean; as `parse`, but more than one reading is no error."""
+    from lark import UnexpectedToken  # here, because Lark is slow to import
 
-    from semnav_env.commands.grammar import find_clauses
+    from semnav_env.commands.grammar import MeaninglessError, find_clauses
+    from semnav_env.commands.readings import NoDoorSpokenOfError, commands_of
 
+    language = language_of(language)
     normalised = normalise(text, language)
     try:
-        found = find_clauses(language, normalised.text)
-    except UnexpectedInput as unexpected:
+        found = find_clauses(language, normalised.text, tuple(rooms))
+        _check_length(found, normalised)
+        commands = commands_of(found)
+    except UnexpectedToken as unexpected:
         raise _explained(unexpected, normalised, language) from None
-    if len(found) > MAX_CLAUSES:
-        problem = f"the command has {len(found)} clauses; at most {MAX_CLAUSES} are carried out"
-        too_many = found[MAX_CLAUSES]
-        raise CommandError(problem, text, *normalised.span(too_many.start, too_many.stop))
-    return Command(tuple(each.clause for each in found))
+    except MeaninglessError as error:
+        raise _pointed(str(error), normalised, error.start, error.stop) from None
+    except NoDoorSpokenOfError as error:
+        at = found[error.index]
+        raise _pointed(str(error), normalised, at.start, at.stop) from None
+    _check_rooms(commands[0], text, rooms)
+    return commands
+
+
+def differences(commands: Sequence[Command], language: Language) -> tuple[str, ...]:
+    """What each of these commands says where they differ."""
+    texts = [[clause.say(language) for clause in command.clauses] for command in commands]
+    shortest = min(map(len, texts))
+    same = next((i for i in range(shortest) if len({t[i] for t in texts}) > 1), shortest - 1)
+    tails = [command.clauses[same:] for command in commands]
+    alike = 0
+    while min(map(len, tails)) > alike + 1 and len({tail[-1 - alike] for tail in tails}) == 1:
+        alike += 1
+    return tuple(
+        _distinct(command, same, len(command.clauses) - alike).say(language) for command in commands
+    )
+
+
+def _distinct(command: Command, start: int, stop: int) -> Command:
+    """The clauses from `start` to `stop`, with the one before where counting hangs on it."""
+    return Command(command.clauses[max(0, start - 1) if start == stop - 1 else start : stop])
+
+
+def _check_length(found: Sequence[Found], normalised: NormalisedText) -> None:
+    """Refuse commands that have too many clauses even in the shortest reading."""
+    shortest = [min(map(len, each.readings)) for each in found]
+    if sum(shortest) > MAX_CLAUSES:
+        counted = [sum(shortest[: index + 1]) for index in range(len(found))]
+        first = next(index for index, count in enumerate(counted) if count > MAX_CLAUSES)
+        problem = f"the command has {sum(shortest)} clauses; at most {MAX_CLAUSES} are carried out"
+        raise _pointed(problem, normalised, found[first].start, found[first].stop)
+
+
+def _check_rooms(command: Command, text: str, rooms: Sequence[str]) -> None:
+    for clause in command.clauses:
+        if isinstance(clause, GoToRoom) and rooms and clause.name not in rooms:
+            problem = f'there is no room "{clause.name}"'
+            raise CommandError(f"{problem}; there are: {', '.join(rooms)}", _beginning(text))
+
+
+def _pointed(problem: str, normalised: NormalisedText, start: int, stop: int) -> CommandError:
+    return CommandError(problem, normalised.original, *normalised.span(start, stop))
+
+
+def _beginning(text: str) -> str:
+    return text[:200]
 
 
 def _explained(
-    unexpected: UnexpectedInput, normalised: NormalisedText, language: Language
+    unexpected: UnexpectedToken, normalised: NormalisedText, language: Language
 ) -> CommandError:
     expected = _expected(unexpected, language)
     names = tuple(language.call(terminal) for terminal in expected)
-    start, stop = _fault(unexpected, normalised.text)
+    start, stop = unexpected.token.start_pos or 0, unexpected.token.end_pos or 0
     place = normalised.span(start, stop)
     if start == stop:
         return CommandError("the command ends too early", normalised.original, *place, names)
     word = normalised.text[start:stop]
     problem = f'"{word}" is not understood here'
-    suggestion = _suggestion(word, expected, language)
-    hint = None if suggestion else language.hint(word)
+    hint = language.hint(word)
+    suggestion = None if hint else _suggestion(word, expected, language)
     return CommandError(problem, normalised.original, *place, names, suggestion, hint)
 
 
-def _fault(unexpected: UnexpectedInput, text: str) -> tuple[int, int]:
-    """Start and end of the word that was not understood; both the end of the text if none."""
-    from lark import UnexpectedToken
-
-    if isinstance(unexpected, UnexpectedToken) and unexpected.token.type == "$END":
-        return len(text), len(text)
-    start = unexpected.pos_in_stream or 0
-    word = _WORD.match(text, start)
-    return start, word.end() if word else start
-
-
-def _expected(unexpected: UnexpectedInput, language: Language) -> list[str]:
+def _expected(unexpected: UnexpectedToken, language: Language) -> list[str]:
     """The terminals that could have followed, in the order of the language's table."""
     accepted: set[str] = unexpected.interactive_parser.accepts()  # type: ignore[no-untyped-call]
     if "$END" not in accepted:
@@ -89,8 +140,14 @@ def _expected(unexpected: UnexpectedInput, language: Language) -> list[str]:
 
 def _suggestion(word: str, expected: list[str], language: Language) -> str | None:
     """The nearest word that could have stood here, or else the nearest known word."""
-    known = {each for terminal in language.terminals for each in language.vocabulary(terminal)}
-    if word in known or not word.isalpha():
+    written = {
+        language.folded(each.casefold()): each
+        for terminal in language.terminals
+        for each in language.vocabulary(terminal)
+    }
+    if word in written or not word.isalpha():
         return None
-    fitting = [each for terminal in expected for each in language.vocabulary(terminal)]
-    return nearest(word, fitting) or nearest(word, sorted(known))
+    words = (each for terminal in expected for each in language.vocabulary(terminal))
+    fitting = [language.folded(each.casefold()) for each in words]
+    found = nearest(word, fitting) or nearest(word, sorted(written))
+    return None if found is None else written[found]

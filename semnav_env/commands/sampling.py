@@ -8,21 +8,34 @@ from typing import TypeVar
 import numpy as np
 
 from semnav_env.commands.clauses import (
-    LAST,
-    MAX_ORDINAL,
+    DEGREE_STEP,
+    MAX_DEGREES,
+    MAX_SECONDS,
     Approach,
     Clause,
-    DoorReference,
     Follow,
+    GoBack,
     GoToDoor,
-    Place,
-    PlaceReference,
-    Side,
+    Leave,
     Stop,
     Turn,
     Turning,
 )
 from semnav_env.commands.command import MAX_CLAUSES, Command
+from semnav_env.commands.references import (
+    LAST,
+    MAX_AMOUNT,
+    MAX_FROM_END,
+    MAX_ORDINAL,
+    OTHER,
+    QUANTUM,
+    Distance,
+    DoorReference,
+    Place,
+    PlaceReference,
+    Side,
+    Unit,
+)
 
 T = TypeVar("T")
 
@@ -42,27 +55,57 @@ def sample_command(
 
 
 def sample_clause(rng: np.random.Generator, max_ordinal: int = MAX_ORDINAL) -> Clause:
-    """A random clause: each kind is equally likely, and each of its readings has a chance."""
-    kind = _choose(rng, (Follow, Turn, GoToDoor, Stop))
+    """A random clause: each kind is equally likely, and each of its readings has a chance.
+
+    Rooms are left out, for their names belong to a building.
+    """
+    kind = _choose(rng, (Follow, Turn, GoToDoor, Leave, GoBack, Stop))
     if kind is Follow:
-        return Follow(_choose(rng, (None, _place(rng, max_ordinal), _door(rng, max_ordinal))))
+        return _follow(rng, max_ordinal)
     if kind is Turn:
-        at = _choose(rng, (None, _place(rng, max_ordinal)))
-        return Turn(_choose(rng, tuple(Turning)), at)
+        return _turn(rng, max_ordinal)
     if kind is GoToDoor:
         return GoToDoor(_door(rng, max_ordinal), _choose(rng, tuple(Approach)))
-    return Stop()
+    if kind is Stop:
+        return Stop(_choose(rng, (0, int(rng.integers(1, MAX_SECONDS + 1)))))
+    return Leave() if kind is Leave else GoBack()
+
+
+def _follow(rng: np.random.Generator, max_ordinal: int) -> Follow:
+    door, place = _door(rng, max_ordinal), _place(rng, max_ordinal)
+    past = _choose(rng, (door, place if place.place is not Place.END else door))
+    ways = (Follow(), Follow(place), Follow(door), Follow(_distance(rng)), Follow(past, past=True))
+    return _choose(rng, ways)
+
+
+def _turn(rng: np.random.Generator, max_ordinal: int) -> Turn:
+    turning = _choose(rng, tuple(Turning))
+    degrees = DEGREE_STEP * int(rng.integers(1, MAX_DEGREES // DEGREE_STEP + 1))
+    ways = [Turn(turning), Turn(turning, _place(rng, max_ordinal))]
+    if turning is not Turning.AROUND:
+        ways.append(Turn(turning, degrees=degrees))
+    return _choose(rng, ways)
+
+
+def _distance(rng: np.random.Generator) -> Distance:
+    unit = _choose(rng, tuple(Unit))
+    most = round(MAX_AMOUNT[unit] / QUANTUM[unit])
+    return Distance(QUANTUM[unit] * int(rng.integers(1, most + 1)), unit)
 
 
 def _door(rng: np.random.Generator, max_ordinal: int) -> DoorReference:
-    ordinal = _choose(rng, (LAST, *range(1, max_ordinal + 1)))
-    return DoorReference(ordinal, _choose(rng, (None, *Side)))
+    counted = (*range(1, max_ordinal + 1), *_from_end(max_ordinal))
+    return DoorReference(_choose(rng, (OTHER, *counted)), _choose(rng, (None, *Side)))
 
 
 def _place(rng: np.random.Generator, max_ordinal: int) -> PlaceReference:
     place = _choose(rng, tuple(Place))
-    ordinal = 1 if place == Place.END else _choose(rng, range(1, max_ordinal + 1))
-    return PlaceReference(place, ordinal)
+    counted = (*range(1, max_ordinal + 1), *_from_end(max_ordinal))
+    return PlaceReference(place, 1 if place == Place.END else _choose(rng, counted))
+
+
+def _from_end(max_ordinal: int) -> range:
+    return range(LAST, -min(max_ordinal, MAX_FROM_END) - 1, -1)
 
 
 def _choose(rng: np.random.Generator, choices: Sequence[T]) -> T:

@@ -5,15 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from semnav_env.commands.clauses import LAST, Approach, DoorReference, GoToDoor, Side
-from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
-from semnav_env.features.hallway import Hallway
+from semnav_env.commands.clauses import Approach, GoToDoor
+from semnav_env.commands.references import OTHER, DoorReference, Side
+from semnav_env.features.frames import Point, Pose, compose, to_local, wrap_angle
+from semnav_env.features.hallway import Hallway, doorway_at
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import GroundingError, Situation
 
 STAND_OFF = 0.9
 """How far before a door, and behind it, the robot's centre comes to stand, metres."""
+
+OUT_OF_DOORWAY = 1.0
+"""How far a robot that stands in a doorway drives out of it before it turns, metres."""
 
 ON_THE_SIDE = 0.25
 """So near to the side of a hallway a door lies on it, metres."""
@@ -60,16 +64,39 @@ def ground_door(clause: GoToDoor, situation: Situation) -> Goal:
     return replace(goal, because=str(clause.door), hallway=situation.hallway)
 
 
+def ground_leave(situation: Situation) -> Goal:
+    """The goal of "leave the room": back through the doorway that the robot has just come by.
+
+    Raises:
+        GroundingError: the clause begins neither in a doorway nor right before one, facing it.
+    """
+    inward = situation.begin
+    door = doorway_at(situation.scene, inward)
+    if door is None:  # it has turned around behind it
+        inward = compose(situation.begin, (OUT_OF_DOORWAY, 0.0, math.pi))
+        door = doorway_at(situation.scene, inward)
+    if door is None:
+        raise GroundingError("leave the room: by which door? say which, or enter the room first")
+    outward = wrap_angle(inward[2] + math.pi)
+    line = CountedDoor(door, 0.0, Side.BEHIND, outward)
+    because = "leave the room"
+    return Goal(GoalKind.PASS, line.pose(STAND_OFF), door, because=because, onward=line.pose(0.0))
+
+
 def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | Goal:
     """The door that a reference names, or the goal of looking for it.
 
     Raises:
         GroundingError: the hallway ended before, or the side is open and doors on both fit.
     """
+    if reference.side in (Side.BEHIND, Side.OPPOSITE):
+        raise GroundingError(
+            f"{reference}: only doors to the left, to the right and ahead are found"
+        )
     doors = doors_along(situation.scene, situation.hallway, reference.side)
-    index = len(doors) - 1 if reference.ordinal == LAST else reference.ordinal - 1
-    if reference.ordinal == LAST and not situation.seen_to_end:
+    if reference.ordinal <= OTHER and not situation.seen_to_end:
         return situation.seek(reference)
+    index = _index(reference, len(doors))
     if not 0 <= index < len(doors):
         if situation.seen_to_end:
             raise situation.missing(str(reference), len(doors))
@@ -79,6 +106,19 @@ def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | G
     elif _may_hide_a_door(situation, reference.side, doors[index].along):
         return situation.seek(f"doors before {reference}", doors[index].along)
     return doors[index]
+
+
+def _index(reference: DoorReference, count: int) -> int:
+    """Which of `count` doors in the order of travel is meant; negative or too high if none.
+
+    Raises:
+        GroundingError: "the other door", of several.
+    """
+    if reference.ordinal == OTHER:
+        if count > 1:
+            raise GroundingError(f"{reference}: there are {count}; say which")
+        return 0
+    return reference.ordinal - 1 if reference.ordinal > 0 else count + reference.ordinal
 
 
 def doors_along(scene: Scene, hallway: Hallway, side: Side | None = None) -> list[CountedDoor]:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from semnav_env.commands import Command
-from semnav_env.commands.clauses import Follow, Stop
+from semnav_env.commands.clauses import Follow, GoToDoor, Turn, Turning
 from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.goal import Goal, GoalKind
@@ -117,13 +117,21 @@ class Follower:
     def _is_only_a_direction(self, index: int) -> bool:
         """Whether a clause is "go down the hallway" and the next one says how far."""
         clauses = self.command.clauses
-        return clauses[index] == Follow() and not isinstance(
-            clauses[index + 1] if index + 1 < len(clauses) else Stop(), Stop
-        )
+        if clauses[index] != Follow() or index + 1 == len(clauses):
+            return False
+        following = clauses[index + 1]
+        on_the_spot = isinstance(following, Turn) and following.degrees is not None
+        return isinstance(following, Follow | Turn | GoToDoor) and not on_the_spot
 
     @property
     def _after_hallway(self) -> bool:
-        return self.active > 0 and self._is_only_a_direction(self.active - 1)
+        """Whether a bare turn means the next place that offers it, not here."""
+        if self.active == 0:
+            return False
+        before, clause = self.command.clauses[self.active - 1 : self.active + 1]
+        aside = isinstance(clause, Turn) and clause.turning is not Turning.AROUND
+        passed = isinstance(before, Follow) and before.past and aside
+        return passed or self._is_only_a_direction(self.active - 1)
 
     def _completed(self, pose: Pose, speed: float) -> bool:
         if self.goal.kind is GoalKind.PASS:

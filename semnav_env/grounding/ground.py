@@ -2,13 +2,29 @@
 
 from __future__ import annotations
 
-from semnav_env.commands.clauses import Clause, Follow, GoToDoor, Stop, Turn
+from semnav_env.commands.clauses import (
+    Clause,
+    Follow,
+    GoBack,
+    GoToDoor,
+    GoToRoom,
+    Leave,
+    Stop,
+    Turn,
+)
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
-from semnav_env.grounding.doors import ground_door
+from semnav_env.grounding.doors import ground_door, ground_leave
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.junctions import ground_follow, ground_turn
-from semnav_env.grounding.situation import Situation
+from semnav_env.grounding.situation import GroundingError, Situation
+
+NOT_YET: dict[type[Clause], str] = {
+    Stop: 'how long is not minded yet; say "stop"',
+    GoToRoom: 'names cannot be seen; name a door, for example "the second door on the left"',
+    GoBack: 'the way back is not found yet; say "turn around" and what to do then',
+}
+"""What is understood but not carried out, and what would be."""
 
 
 def ground(
@@ -45,5 +61,10 @@ def ground(
             return ground_turn(clause, situation)
         case Follow():
             return ground_follow(clause, situation)
-        case Stop():
+        case Leave():
+            return ground_leave(situation)
+        case Stop(0):
             return Goal(GoalKind.STOP, situation.pose, because="stop here")
+        case Stop() | GoToRoom() | GoBack():
+            raise GroundingError(f"{clause}: {NOT_YET[type(clause)]}")
+    raise TypeError(f"{clause!r} is no clause")

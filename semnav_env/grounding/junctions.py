@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
-from semnav_env.commands.clauses import DoorReference, Follow, Place, PlaceReference, Turn, Turning
+from semnav_env.commands.clauses import Follow, Turn, Turning
+from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference
 from semnav_env.features.frames import Pose, compose, to_parent
 from semnav_env.features.hallway import Hallway, Junction, doorway_at, hallway
-from semnav_env.grounding.doors import find_door
+from semnav_env.grounding.doors import OUT_OF_DOORWAY, find_door
 from semnav_env.grounding.goal import Goal, GoalKind
-from semnav_env.grounding.situation import END_MARGIN, Situation
+from semnav_env.grounding.situation import END_MARGIN, GroundingError, Situation
 
 ARM_DEPTH = 1.0
 """How far inside the arm of a junction a turn ends, metres."""
@@ -20,8 +21,9 @@ STILL_AHEAD = 0.5
 JUST_BEFORE = 0.3
 """How far before the middle of a door "until the door" ends, so that it still counts, metres."""
 
-OUT_OF_DOORWAY = 1.0
-"""How far a robot that stands in a doorway drives out of it before it turns, metres."""
+JUST_BEHIND = 0.3
+"""How far behind a junction, or the middle of a door, "past" it ends, so that it no longer counts,
+metres."""
 
 PAST_DOORWAY = 0.5
 """How far beside that doorway counting begins, so that it does not count itself, metres."""
@@ -31,6 +33,8 @@ QUARTERS = {Turning.LEFT: 1, Turning.RIGHT: -1, Turning.AROUND: 2}
 
 def ground_turn(clause: Turn, situation: Situation) -> Goal:
     """The goal of "turn left at the intersection"."""
+    if clause.degrees is not None:
+        return _turn_by(clause.turning, clause.degrees, situation)
     if clause.at is None and not situation.after_hallway:
         return _turn_here(clause.turning, situation)
     if clause.turning is Turning.AROUND:
@@ -54,11 +58,14 @@ def ground_turn(clause: Turn, situation: Situation) -> Goal:
 def ground_follow(clause: Follow, situation: Situation) -> Goal:
     """The goal of "follow the hallway until the next intersection"."""
     until, end = clause.until, situation.hallway.end - END_MARGIN
+    if isinstance(until, Distance):
+        return _go_on(situation, _distance_along(until, situation), str(until))
     if isinstance(until, DoorReference):
         door = find_door(until, situation)
         if isinstance(door, Goal):
             return door
-        return _go_on(situation, min(door.along - JUST_BEFORE, end), str(until))
+        beside = JUST_BEHIND if clause.past else -JUST_BEFORE
+        return _go_on(situation, min(door.along + beside, end), _past(clause))
     if until is None or until.place is Place.END:
         if math.isinf(end):
             return situation.seek("the end of the hallway")
@@ -66,7 +73,28 @@ def ground_follow(clause: Follow, situation: Situation) -> Goal:
     junction = _find_junction(until, None, situation)
     if isinstance(junction, Goal):
         return junction
-    return _go_on(situation, junction.centre, str(until))
+    if clause.past and not junction.ahead and situation.complete:
+        raise GroundingError(f"the hallway does not go on behind {until}")
+    along = min(junction.far + JUST_BEHIND, end) if clause.past else junction.centre
+    return _go_on(situation, along, _past(clause))
+
+
+def _past(clause: Follow) -> str:
+    return f"behind {clause.until}" if clause.past else str(clause.until)
+
+
+def _distance_along(distance: Distance, situation: Situation) -> float:
+    """How far to go; not beyond the end of the hallway.
+
+    Raises:
+        GroundingError: the hallway is known, and shorter.
+    """
+    most = situation.hallway.end - END_MARGIN / 2
+    if distance.metres > most and situation.complete:
+        raise GroundingError(
+            f"{distance} ahead: the hallway ends after {situation.hallway.end:.1f} m"
+        )
+    return min(distance.metres, most)
 
 
 def _go_on(situation: Situation, along: float, where: str) -> Goal:
@@ -92,6 +120,20 @@ def _turn_here(turning: Turning, situation: Situation) -> Goal:
         heading_tolerance=0.5,
         because=f"turn {turning} here",
         onward=compose(pose, (past, 0.0, 0.0)),
+    )
+
+
+def _turn_by(turning: Turning, degrees: int, situation: Situation) -> Goal:
+    """Turn by an angle where the clause began."""
+    if degrees > 180:
+        raise GroundingError(f"turn by {degrees} degrees: turns of up to 180 degrees are made")
+    angle = math.radians(degrees)
+    return Goal(
+        GoalKind.REACH,
+        compose(situation.begin, (0.0, 0.0, math.copysign(angle, QUARTERS[turning]))),
+        distance_tolerance=1.5,
+        heading_tolerance=min(0.5, max(0.2, angle / 2)),
+        because=f"turn {turning} by {degrees} degrees",
     )
 
 
@@ -126,8 +168,9 @@ def _find_junction(
     junctions = _junctions(place, turning, situation.hallway)
     if not junctions and situation.seen_to_end and not situation.complete:
         junctions = _junctions(None, turning, situation.hallway)
-    if len(junctions) >= ordinal:
-        return junctions[ordinal - 1]
+    counted = ordinal > 0 or situation.seen_to_end
+    if counted and len(junctions) >= abs(ordinal):
+        return junctions[ordinal - 1 if ordinal > 0 else ordinal]
     name = _name(reference) + ("" if turning is None else f" that leads {turning}")
     if situation.seen_to_end:
         raise situation.missing(name, len(junctions))
@@ -154,7 +197,9 @@ def _is_a(junction: Junction, place: Place | None) -> bool:
             return not junction.is_corner
         case Place.END:
             return not junction.ahead
-        case None:
+        case Place.T_JUNCTION:
+            return not junction.ahead and len(junction.openings) == 2
+        case Place.TURNING | None:
             return True
 
 

@@ -142,6 +142,11 @@ class FloorPlan:
         doors = tuple(door.as_door() for door in self.doors if door.open)
         return Scene(PlainWalls(self.segments), doors)
 
+    @property
+    def room_names(self) -> tuple[str, ...]:
+        """The names of the rooms, in the order of the plan."""
+        return tuple(room.name for room in self.rooms)
+
     def door(self, name: str) -> PlanDoor:
         """The door of that name.
 

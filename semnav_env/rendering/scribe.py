@@ -7,7 +7,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.commands.clauses import DoorReference, Follow, GoToDoor
+from semnav_env.commands.command import reference_of
+from semnav_env.commands.references import DoorReference
 from semnav_env.features.extract import to_scene
 from semnav_env.features.frames import Point, Pose, compose, points_to_parent, relative
 from semnav_env.features.scene import Scene
@@ -113,11 +114,7 @@ def door_numbers(scene: Scene, follower: Follower) -> dict[int, int]:
         return {}
     clauses = follower.command.clauses
     clause = clauses[min(follower.active, len(clauses) - 1)]
-    reference: object = None
-    if isinstance(clause, GoToDoor):
-        reference = clause.door
-    elif isinstance(clause, Follow):
-        reference = clause.until
+    reference = reference_of(clause)
     side = reference.side if isinstance(reference, DoorReference) else None
     counted = doors_along(scene, hallway, side)
     order = {id(item.door): number for number, item in enumerate(counted, start=1)}
