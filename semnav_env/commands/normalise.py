@@ -87,6 +87,9 @@ def _folded(original: str, language: Language) -> Iterator[tuple[int, str]]:
     A letter is folded together with the accents that follow it, so that both ways of writing an
     accented letter are one.
     """
+    if original.isascii() and original.isprintable():
+        yield from enumerate(original.lower())
+        return
     for cluster in _CLUSTER.finditer(original):
         index = cluster.start()
         first = cluster.group()[0]
