@@ -21,6 +21,8 @@ COMMANDS = {
     "evaluate features": ("evaluate_features", "measure the feature extractor against truth"),
     "evaluate lines": ("evaluate_lines", "measure lines on real scans, walls on simulated ones"),
     "evaluate segmentation": ("evaluate_segmentation", "measure how walls are cut into pieces"),
+    "evaluate buildings": ("evaluate_buildings", "measure doors in scans of real floors"),
+    "evaluate places": ("evaluate_places", "measure corridors told from other places"),
     "evaluate matching": ("evaluate_matching", "measure how exactly scans are matched"),
     "train": ("train", "teach an agent, and keep what it learned"),
     "bench": ("bench", "time a step of the environment and its parts"),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from shapely import MultiLineString, STRtree
+from shapely import STRtree
 
 from semnav_env.features.frames import FloatArray, Point, Pose, points_to_local, to_parent
 from semnav_env.maps.doorways import NARROWEST_ROBOT
@@ -18,6 +18,9 @@ ALONG = 0.6
 
 ACROSS = 0.25
 """What is this near to the marked line stands in the doorway, metres."""
+
+JAMB = 0.1
+"""How rough the face of a jamb is, metres."""
 
 
 @dataclass(frozen=True)
@@ -39,9 +42,9 @@ def fit_door(label: DoorLabel, solids: STRtree) -> Fit | None:
     """The way through a labelled doorway, or the label itself as a closed door.
 
     Everything solid within `ACROSS` of the marked line, prolonged by `ALONG` at both ends, casts
-    its shadow square onto it. The stretch without shadow that the label shares most with parts the
-    jambs, and the shortest line from one side to the other is the opening; if the stretch is
-    narrower than any robot, the door is closed.
+    its shadow square onto it. The stretch without shadow that the label shares most with lies
+    between the jambs, which are the solid points nearest to the line within `JAMB` of its ends; if
+    it is narrower than any robot, the door is closed.
 
     Args:
         label: the label.
@@ -61,9 +64,7 @@ def fit_door(label: DoorLabel, solids: STRtree) -> Fit | None:
         return Fit(label.start, label.end, False)
     if first <= -ALONG or last >= width + ALONG:
         return None
-    before, after = pieces[:, :, 0].max(axis=1) <= first, pieces[:, :, 0].min(axis=1) >= last
-    line = shapely.shortest_line(*map(_lines, (pieces[before], pieces[after])))
-    start, end = line.coords
+    start, end = _jamb(pieces, first - JAMB, first), _jamb(pieces, last, last + JAMB)
     return Fit(to_parent(frame, start), to_parent(frame, end), True)
 
 
@@ -95,5 +96,9 @@ def _joined(intervals: FloatArray) -> FloatArray:
     return np.stack((rows[begins, 0], reach[np.append(begins[1:] - 1, len(rows) - 1)]), axis=1)
 
 
-def _lines(pieces: FloatArray) -> MultiLineString:
-    return shapely.multilinestrings(shapely.linestrings(pieces))
+def _jamb(pieces: FloatArray, first: float, last: float) -> Point:
+    """The solid point nearest to the marked line between two places along it."""
+    solid = shapely.multilinestrings(shapely.linestrings(pieces))
+    there = solid.intersection(shapely.box(first, -ACROSS, last, ACROSS))
+    _, (x, y) = shapely.shortest_line(shapely.LineString(((first, 0.0), (last, 0.0))), there).coords
+    return x, y

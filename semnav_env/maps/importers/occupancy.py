@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, Pose, points_to_parent
+from semnav_env.features.frames import FloatArray, Point, Pose, points_to_parent, to_local
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.importers.documents import finite, read_yaml
 from semnav_env.maps.importers.imported import Imported, ImportReport, boundary_of
@@ -79,12 +80,12 @@ class OccupancyMap:
     spec: OccupancySpec
     grey: FloatArray
 
-    @property
+    @cached_property
     def solid(self) -> NDArray[np.bool_]:
         """Which pixels are occupied."""
         return solid_pixels(self.grey, self.spec.occupied_thresh, self.spec.negate)
 
-    @property
+    @cached_property
     def free(self) -> NDArray[np.bool_]:
         """Which pixels are known to be free."""
         return free_pixels(self.grey, self.spec.free_thresh, self.spec.negate)
@@ -92,6 +93,14 @@ class OccupancyMap:
     def to_world(self, pixels: FloatArray) -> FloatArray:
         """Metres of points (column, row), shape (n, 2); (0, 0) is the upper left corner."""
         return self.spec.to_world(pixels, len(self.grey))
+
+    def is_free(self, point: Point) -> bool:
+        """Whether a point in metres lies in a pixel that is known to be free."""
+        x, y = to_local(self.spec.origin, point)
+        rows, columns = self.grey.shape
+        column, row = x // self.spec.resolution, rows - 1 - y // self.spec.resolution
+        inside = 0 <= column < columns and 0 <= row < rows
+        return inside and bool(self.free[int(row), int(column)])
 
 
 def read_occupancy(path: str | Path, resolution: float | None = None) -> OccupancyMap:
