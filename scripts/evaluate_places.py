@@ -11,7 +11,7 @@ from semnav_env.evaluation.place_scans import (
     CORRIDOR,
     called_corridor,
     place_sheets,
-    read_place_scans,
+    read_place_labels,
 )
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.passage import PassageLimits
@@ -38,9 +38,9 @@ class Arguments:
     def run(self) -> int:
         """Measure and print."""
         path = self.data / CLUTTER_SLICES if self.data.is_dir() else self.data
-        scans = read_place_scans(path)
-        called = called_corridor(scans, self.settings, self.limits)
-        sheets = list(place_sheets(scans, called, self.corridor))
+        labels = read_place_labels(path)
+        called = called_corridor(path, self.settings, self.limits)
+        sheets = list(place_sheets(labels, called, self.corridor))
         if self.json:
             print(json.dumps({sheet.title: sheet.records() for sheet in sheets}))
         else:

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.evaluation.place_scans import place_sheets, read_place_scans
-from semnav_env.features import Scene, Wall, extract
+from semnav_env.evaluation.place_scans import called_corridor, place_sheets, read_place_labels
+from semnav_env.features import ExtractorSettings, Scene, Wall, extract
 from semnav_env.features.passage import PassageLimits, is_corridor, passages
 from semnav_env.scripts import main as cli
 from tests.raycaster import polyline, scan_of
@@ -82,13 +82,13 @@ def test_the_sheets_count_what_was_called_a_corridor(tmp_path, capsys):
         "angle_increment": half[1] - half[0],
     }
     np.savez(tmp_path / "scans.npz", **arrays)
-    scans = read_place_scans(tmp_path / "scans.npz")
-    whole, by_place, by_position = place_sheets(scans, [True, False, True], "hall")
+    labels = read_place_labels(tmp_path / "scans.npz")
+    whole, by_place, by_position = place_sheets(labels, [True, False, True], "hall")
     assert whole.rows == [("hall", 3, 2, 2, 0.5, 0.5, 0.5)]
     assert by_place.rows == [("hall", 2, 1), ("room", 1, 1)]
     assert by_position.rows == [("a", 1, 1), ("b", 1, 0)]
     with pytest.raises(ValueError, match=r"no scan was taken in 'attic'; there are: hall, room"):
-        list(place_sheets(scans, [True] * 3, "attic"))
+        list(place_sheets(labels, [True] * 3, "attic"))
     words = ["evaluate", "places", "--data", str(tmp_path / "scans.npz"), "--corridor", "hall"]
     assert cli.main(words) == 0
     assert "| hall | 3 | 2 | 2 | 1.000 | 1.000 | 1.000 |" in capsys.readouterr().out
@@ -99,14 +99,14 @@ def test_what_are_no_scans_of_places_is_refused(tmp_path):
     np.savez(tmp_path / "b.npz", ranges=np.ones(3))
     for name in ("a.npz", "b.npz"):
         with pytest.raises(ValueError, match=rf"{name}: not scans of places"):
-            read_place_scans(tmp_path / name)
+            read_place_labels(tmp_path / name)
 
 
 def test_few_other_places_are_called_a_corridor_in_real_scans():
     path = DATA / "clutter_slices.npz"
     if not path.exists():
         pytest.skip("the scans of labelled places are not here")
-    scans = read_place_scans(path)
-    called = [is_corridor(extract(scan)) for scan in scans.scans()]
-    (row,) = next(place_sheets(scans, called, "Corridor_main")).rows
+    labels = read_place_labels(path)
+    called = called_corridor(path, ExtractorSettings())
+    (row,) = next(place_sheets(labels, called, "Corridor_main")).rows
     assert row[4] > 0.8

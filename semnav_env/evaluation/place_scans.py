@@ -10,42 +10,29 @@ from zipfile import BadZipFile
 import numpy as np
 
 from semnav_env.evaluation.sheets import Cell, Sheet
-from semnav_env.features import ExtractorSettings, Scan, extract
-from semnav_env.features.frames import FloatArray
+from semnav_env.features import ExtractorSettings, extract
 from semnav_env.features.passage import PassageLimits, is_corridor
+from semnav_env.features.readers import open_log
 
 CLUTTER_SLICES = Path("clutter_slices") / "clutter_slices.npz"
 CORRIDOR = "Corridor_main"
-RANGE_MAX = 30.0
-"""Of the lidar that took the scans, metres."""
 
 
-@dataclass(frozen=True, eq=False)
-class PlaceScans:
-    """Labelled scans.
+@dataclass(frozen=True)
+class PlaceLabels:
+    """Where the scans of a log were taken.
 
     Attributes:
-        ranges: shape (n, beams), metres; NaN for no return.
-        places: where each was taken, n names.
-        positions: in that place, n names.
-        angle_min: direction of the first beam, radians.
-        angle_increment: between beams, radians.
+        places: the place of each.
+        positions: the position of each in its place.
     """
 
-    ranges: FloatArray
     places: tuple[str, ...]
     positions: tuple[str, ...]
-    angle_min: float
-    angle_increment: float
-
-    def scans(self) -> Iterator[Scan]:
-        """The scans in order."""
-        for ranges in self.ranges:
-            yield Scan(ranges, self.angle_min, self.angle_increment, range_max=RANGE_MAX)
 
 
-def read_place_scans(path: Path) -> PlaceScans:
-    """The scans of an npz file with ranges, place, position, angle_min and angle_increment.
+def read_place_labels(path: Path) -> PlaceLabels:
+    """The labels in an npz log of scans: its arrays place and position.
 
     Raises:
         ValueError: not such a file.
@@ -53,41 +40,36 @@ def read_place_scans(path: Path) -> PlaceScans:
     """
     try:
         with np.load(path, allow_pickle=False) as file:
-            return PlaceScans(
-                np.asarray(file["ranges"], dtype=np.float64),
-                tuple(file["place"].tolist()),
-                tuple(file["position"].tolist()),
-                float(file["angle_min"]),
-                float(file["angle_increment"]),
-            )
+            return PlaceLabels(tuple(file["place"].tolist()), tuple(file["position"].tolist()))
     except (KeyError, ValueError, BadZipFile, AttributeError) as error:
         raise ValueError(
-            f"{path}: not scans of places ({error}); give an npz file with ranges, place, "
-            "position, angle_min and angle_increment"
+            f"{path}: not scans of places ({error}); give an npz file with ranges, angle_min, "
+            "angle_increment, place and position"
         ) from None
 
 
 def called_corridor(
-    scans: PlaceScans, settings: ExtractorSettings, limits: PassageLimits
+    path: Path, settings: ExtractorSettings, limits: PassageLimits | None = None
 ) -> list[bool]:
-    """For each scan whether its scene shows a corridor."""
-    return [is_corridor(extract(scan, settings), limits) for scan in scans.scans()]
+    """For each scan of a log whether its scene shows a corridor."""
+    with open_log(path) as log:
+        return [is_corridor(extract(record.scan, settings), limits) for record in log]
 
 
-def place_sheets(scans: PlaceScans, called: list[bool], corridor: str) -> Iterator[Sheet]:
+def place_sheets(labels: PlaceLabels, called: list[bool], corridor: str) -> Iterator[Sheet]:
     """How many scans of each place, and of each position in the corridor, are called one.
 
     Args:
-        scans: the scans.
-        called: for each whether it is called a corridor.
+        labels: of the scans.
+        called: for each scan whether it is called a corridor.
         corridor: the place that is one.
 
     Raises:
         ValueError: no scan was taken there.
     """
-    truth = np.array([place == corridor for place in scans.places])
+    truth = np.array([place == corridor for place in labels.places])
     if not truth.any():
-        names = ", ".join(sorted(set(scans.places)))
+        names = ", ".join(sorted(set(labels.places)))
         raise ValueError(f"no scan was taken in {corridor!r}; there are: {names}")
     given = np.array(called)
     right = int((truth & given).sum())
@@ -96,8 +78,8 @@ def place_sheets(scans: PlaceScans, called: list[bool], corridor: str) -> Iterat
     row = (corridor, len(truth), int(truth.sum()), int(given.sum()), precision, recall, f1)
     columns = ("corridor", "scans", "of it", "called one", "precision", "recall", "F1")
     yield Sheet("Corridors told from other places", columns, [row])
-    yield _shares("place", np.array(scans.places), given)
-    yield _shares("position in it", np.array(scans.positions)[truth], given[truth])
+    yield _shares("place", np.array(labels.places), given)
+    yield _shares("position in it", np.array(labels.positions)[truth], given[truth])
 
 
 def _shares(what: str, names: np.ndarray, given: np.ndarray) -> Sheet:
