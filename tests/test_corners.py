@@ -127,3 +127,15 @@ def test_both_ends_of_every_wall_are_looked_at() -> None:
         ):
             near = min(math.dist(end, place) for place in places)
             assert near < 0.1 or not is_loose
+
+
+@pytest.mark.parametrize("off", [0.15, 0.25])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_box_off_the_wall_makes_no_corner_with_the_wall_behind(off: float, side: float) -> None:
+    """The wall is seen on, through the gap, past where the side of the box would meet it."""
+    wall = polyline((-4.0, 1.0), (4.0, 1.0))
+    box = polygon((0.8, 0.4), (1.6, 0.4), (1.6, 1.0 - off), (0.8, 1.0 - off))
+    segments = np.concatenate((wall, box)) * (1.0, side)
+    corners = full(extract(scan_of(segments, HERE, 1622)))
+    assert [corner.kind for corner in corners] == [CornerKind.INNER]
+    assert corners[0].point == pytest.approx((0.8, side * 0.4), abs=0.01)

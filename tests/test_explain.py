@@ -102,6 +102,12 @@ def test_walls_too_far_apart_for_a_corner_say_how_far() -> None:
     assert float(reasons[0].split()[3]) == pytest.approx(math.hypot(0.7, 0.7), abs=0.02)
 
 
+def test_a_wall_that_goes_on_behind_the_other_says_so() -> None:
+    walls = np.concatenate((polyline((0.8, 0.4), (0.8, 0.8)), polyline((3.0, 1.0), (-3.0, 1.0))))
+    reasons = [rejection.reason for rejection in of_kind(explained(walls), "corner")]
+    assert any("goes on behind the other" in reason for reason in reasons)
+
+
 def test_a_probe_that_meets_nothing_says_so() -> None:
     reasons = {r.reason for r in of_kind(explained(polyline((2.0, -1.0), (2.0, 1.0))), "corridor")}
     assert reasons == {"no wall within corridor_probe, 2.5 m"}

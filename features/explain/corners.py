@@ -8,7 +8,14 @@ from typing import Any
 
 from semnav_env.features.elements import Rejection
 from semnav_env.features.explain.trace import Trace, ends
-from semnav_env.features.kernels.corners import APART, ASTRAY, FLAT, NEXT_WALLS, full_corner
+from semnav_env.features.kernels.corners import (
+    APART,
+    ASTRAY,
+    FLAT,
+    NEXT_WALLS,
+    PASSED,
+    full_corner,
+)
 
 
 def rejected_corners(trace: Trace) -> Iterator[Rejection]:
@@ -42,6 +49,8 @@ def _reason(trace: Trace, k: int, partner: int, is_next: bool) -> str:
         return f"the walls turn by {turn:.1f} degrees; corner_angle is {limit:g}"
     if fault == ASTRAY:
         return f"the lines meet beyond corner_gap, {settings.corner_gap:g} m, from the ends"
+    if fault == PASSED:
+        return f"one goes on behind the other, which ends over {settings.corner_fuse:g} m before it"
     return "an end, or the place, belongs to another corner"
 
 

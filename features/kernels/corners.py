@@ -13,9 +13,9 @@ from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BRE
 
 OUTER, INNER, POTENTIAL = 0, 1, 2
 
-APART, FLAT, ASTRAY = -1, -2, -3
-"""Why two walls make no corner: their ends are too far from each other, they turn too little, or
-their lines meet too far from the ends."""
+APART, FLAT, ASTRAY, PASSED = -1, -2, -3, -4
+"""Why two walls make no corner: their ends are too far from each other, they turn too little, their
+lines meet too far from the ends, or one goes on behind the other's end."""
 
 NEXT_WALLS = 3
 """So many walls after a wall are tried as the other side of its corner: an occluder or a stub may
@@ -109,10 +109,11 @@ def full_corner(a: Any, b: Any, settings: Any) -> tuple[int, float, float]:
     end of the first and the start of the second; the ends must be near each other and the turn
     large enough (Weerakoon et al., section II D). Both walls have the scanner on their left, so a
     left turn is a corner that points away from it (outer) and a right turn one that points at it
-    (inner): what Barbret (3.1) decides by distances.
+    (inner): what Barbret (3.1) decides by distances. A wall that is seen to go on past the place,
+    while the other ends before it, is behind the other; the beams between pass to it.
 
     Returns:
-        The kind, or `APART`, `FLAT` or `ASTRAY` if there is none, and the place.
+        The kind, or `APART`, `FLAT`, `ASTRAY` or `PASSED` if there is none, and the place.
     """
     gap_x, gap_y = b.start_x - a.end_x, b.start_y - a.end_y
     reach = settings.corner_gap
@@ -126,6 +127,9 @@ def full_corner(a: Any, b: Any, settings: Any) -> tuple[int, float, float]:
     past_b = (gap_x * a.along_y - gap_y * a.along_x) / sine
     if abs(past_a) > reach or abs(past_b) > reach:
         return ASTRAY, 0.0, 0.0
+    beyond, short = settings.confidence * settings.sigma, settings.corner_fuse
+    if (past_a < -beyond and past_b < -short) or (past_b > beyond and past_a > short):
+        return PASSED, 0.0, 0.0
     kind = OUTER if sine > 0.0 else INNER
     return kind, a.end_x + past_a * a.along_x, a.end_y + past_a * a.along_y
 

@@ -102,5 +102,12 @@ def _full_corner(a: Piece, b: Piece, settings: ExtractorSettings) -> FoundCorner
     past_a, past_b = np.linalg.solve(np.stack((a.along, -b.along), axis=1), gap)
     if turn < settings.corner_angle or max(abs(past_a), abs(past_b)) > settings.corner_gap:
         return None
+    if _goes_on_behind(-past_a, -past_b, settings) or _goes_on_behind(past_b, past_a, settings):
+        return None
     x, y = (a.end + past_a * a.along).tolist()
     return FoundCorner((x, y), CornerKind.OUTER if sine > 0 else CornerKind.INNER, a, b)
+
+
+def _goes_on_behind(beyond: float, short: float, settings: ExtractorSettings) -> bool:
+    """Whether a wall is seen beyond the corner, and the other one ends short of it, metres."""
+    return beyond > settings.confidence * settings.sigma and short > settings.corner_fuse
