@@ -40,10 +40,12 @@ class ExtractorSettings:
         breakpoint_ratio: largest |r1 - r2| / (r1 + r2) of neighbouring ranges, for "lee".
         dropout_beams: so many missing returns in a row do not end a wall.
         segmentation: how a connected group is cut into straight pieces: "end_point_fit" (thesis
-            2.4.4) or "dynamic", the most likely partition (`kernels.dynamic`), which takes a
-            hundred times as long.
+            2.4.4); "dynamic", the most likely partition (`kernels.dynamic`), which takes a
+            hundred times as long; or "curvature", where the curvature function with adaptive
+            arms peaks (`kernels.curvature`).
         split_distance: a point farther from the chord is where "end_point_fit" cuts, metres
-            (thesis: 0.06; here four standard deviations).
+            (thesis: 0.06; here four standard deviations). In "curvature" by how much the contour
+            along an arm may be longer than its chord.
         wall_beams: fewest beams of a wall (thesis: 3).
         wall_length: shortest wall, metres.
         merge_gap: widest gap that two collinear walls are joined across, metres; nothing that

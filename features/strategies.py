@@ -25,6 +25,7 @@ class Segmentation(IntEnum):
 
     END_POINT_FIT = 0
     DYNAMIC = 1
+    CURVATURE = 2
 
 
 def strategy_names(strategies: type[IntEnum]) -> tuple[str, ...]:

@@ -7,11 +7,13 @@ from typing import Any
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.curvature import cut_where_it_turns
 from semnav_env.features.kernels.dynamic import PIECE_PRICE, partition
 from semnav_env.features.kernels.lines import split
 from semnav_env.features.strategies import Segmentation
 
 _DYNAMIC = int(Segmentation.DYNAMIC)
+_CURVATURE = int(Segmentation.CURVATURE)
 
 
 @njit(cache=True, error_model="numpy", inline="always")  # handing over scratch takes 0.1 us
@@ -23,4 +25,6 @@ def cut(xs: FloatArray, ys: FloatArray, first: int, last: int, settings: Any, sc
     """
     if settings.segmentation == _DYNAMIC:
         return int(partition(xs, ys, first, last, settings.sigma**2, PIECE_PRICE, scratch))
+    if settings.segmentation == _CURVATURE:
+        return int(cut_where_it_turns(xs, ys, first, last, settings, scratch))
     return int(split(xs, ys, first, last, settings.split_distance, scratch.stack, scratch.vertices))

@@ -30,10 +30,23 @@ def split(
     Returns:
         How many indices were written to `vertices`: first, every cut, last.
     """
+    stack[0] = last
+    return int(split_further(xs, ys, first, 1, limit, stack, vertices))
+
+
+@njit(cache=True, error_model="numpy")
+def split_further(
+    xs: FloatArray,
+    ys: FloatArray,
+    first: int,
+    height: int,
+    limit: float,
+    stack: NDArray[np.int64],
+    vertices: NDArray[np.int64],
+) -> int:
+    """Split what has been cut already: at the `height` points on the stack, the last one lowest."""
     vertices[0] = start = first
     count = 1
-    stack[0] = last
-    height = 1
     while height > 0:
         end = stack[height - 1]
         cut = farthest(xs, ys, start, end, limit)

@@ -65,7 +65,8 @@ class Scratch(NamedTuple):
         beams: their beam indices, shape (2 n,).
         group_first: first point of each connected group, shape (n + 1,).
         stack: split points still to be visited, shape (n,).
-        table: sums and costs of one group's points, for `kernels.dynamic`, shape (n + 1, 8).
+        table: sums and costs of one group's points, for `kernels.dynamic`, or
+            what `kernels.curvature` knows of them, shape (n + 1, 8).
         vertices: the break points of one group, shape (n + 1,).
         pieces: straight pieces, dtype `PIECE`, shape (2 n,).
         start_jambs: where an opening may start, dtype `JAMB`.

@@ -11,6 +11,7 @@ import numpy as np
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.dynamic import PIECE_PRICE
 from semnav_env.features.kernels.robust import LOSS
+from semnav_env.features.reference.curvature import curvature_peaks
 from semnav_env.features.reference.partition import best_cuts
 from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.settings import ExtractorSettings
@@ -119,7 +120,11 @@ def _cut(points: FloatArray, settings: ExtractorSettings) -> list[int]:
     """Where a group is cut, by the strategy that is set."""
     if settings.segmentation == "dynamic":
         return best_cuts(points, settings.sigma**2, PIECE_PRICE)
-    return _cuts(points, 0, len(points) - 1, settings.split_distance)
+    peaks = curvature_peaks(points, settings) if settings.segmentation == "curvature" else []
+    cuts = list(peaks)
+    for a, b in itertools.pairwise([0, *peaks, len(points) - 1]):
+        cuts += _cuts(points, a, b, settings.split_distance)
+    return sorted(cuts)
 
 
 def _cuts(points: FloatArray, first: int, last: int, limit: float) -> list[int]:
