@@ -29,6 +29,11 @@ class ExtractorSettings:
         rupture_range: a longer range counts as no return, metres (thesis (2.1): 6; the
             TiM561 reaches 10, and doors and junctions beyond 6 m are worth having).
         sigma: standard deviation of a range, metres (TiM561 data sheet: 0.02).
+        veil_angle: a beam that ended between two surfaces has no return if lines to both its
+            neighbours are met at less than this, radians; 0 keeps all. 5 to 10 degrees remove the
+            mixed pixels at edges and no wall (`kernels.filters`).
+        median_beams: a range is the median over so many beams on either side, where that moves
+            no edge; 0 takes it as it is.
         breakpoint_rule: how far apart neighbouring points may be: "constant", "borges_aldon",
             "certad", "dietmayer", "santos", "lee" or "weerakoon"; the equations are in
             `kernels.breakpoints`. "certad" is the rule of the thesis (2.3), "borges_aldon", made
@@ -107,6 +112,8 @@ class ExtractorSettings:
 
     rupture_range: float = 10.0
     sigma: float = 0.02
+    veil_angle: float = 0.0
+    median_beams: int = 0
     breakpoint_rule: str = "certad"
     breakpoint_angle: float = math.radians(4.0)
     breakpoint_distance: float = 0.2
@@ -209,6 +216,8 @@ _LENGTH = (0.0, 1000.0)
 _RIGHT_ANGLE = math.pi / 2
 _LIMITS = {
     "rupture_range": (0.1, 1000.0),
+    "veil_angle": (0.0, _RIGHT_ANGLE / 2),
+    "median_beams": (0, 4),
     "breakpoint_angle": (math.radians(0.1), _RIGHT_ANGLE),
     "breakpoint_ratio": (0.0, 0.9),
     "dropout_beams": (0, 10),

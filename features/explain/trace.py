@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.filters import filter_ranges
 from semnav_env.features.kernels.layout import PIECES, WALLS
 from semnav_env.features.kernels.ring import beams_of_turn
 from semnav_env.features.kernels.scratch import Features, Scratch
@@ -54,11 +55,13 @@ class Trace:
         """The trace of a scan that was just extracted with these arrays."""
         beams, increment = len(directions), scan.angle_increment
         turn = beams_of_turn(beams, increment, settings.dropout_beams)
-        ranges = scan.ranges[:beams].copy()
+        limit = min(scan.range_max, settings.rupture_range)
         if turn > 0:
             ranges = scratch.ring_ranges[: 2 * turn]
             directions = scratch.ring_directions[: 2 * turn]
-        limit = min(scan.range_max, settings.rupture_range)
+        else:
+            given, record = scan.ranges[:beams].copy(), settings.as_record()[0]
+            ranges = filter_ranges(given, increment, scan.range_min, limit, 0, record, scratch)
         found = (turn, settings, scratch, features)
         return cls(ranges, directions, increment, scan.range_min, limit, *found)
 

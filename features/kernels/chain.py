@@ -13,6 +13,7 @@ from semnav_env.features.kernels.arcs import find_arcs
 from semnav_env.features.kernels.corners import find_corners
 from semnav_env.features.kernels.corridors import find_corridors
 from semnav_env.features.kernels.doors import find_doors
+from semnav_env.features.kernels.filters import filter_ranges
 from semnav_env.features.kernels.layout import ARCS, CORNERS, CORRIDORS, DOORS, PIECES, WALLS
 from semnav_env.features.kernels.merging import merge_pieces
 from semnav_env.features.kernels.ring import (
@@ -67,6 +68,7 @@ def extract_arrays(
     limit = min(range_max, settings.rupture_range)
     features = Features(walls, doors, corners, corridors, arcs, counts)
     turn = beams_of_turn(len(ranges), increment, settings.dropout_beams)
+    ranges = filter_ranges(ranges, increment, range_min, limit, turn, settings, scratch)
     beams = turn if turn > 0 else len(ranges)
     sweep, rays = ranges[:beams], directions[:beams]
     groups, pieces = find_pieces(sweep, rays, increment, range_min, limit, 0, settings, scratch)

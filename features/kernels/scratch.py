@@ -53,10 +53,17 @@ MISSING = 10
 """A full circle may lack so many beams: the most that `dropout_beams` allows."""
 
 
+MEDIAN_BEAMS = 4
+"""A median is over so many beams on either side at most: fewer than a wall has."""
+
+
 class Scratch(NamedTuple):
     """Working memory for scans of up to n beams; contents do not matter between calls.
 
     Attributes:
+        clear: ranges without veils, shape (n,).
+        smooth: medians of ranges, shape (n,).
+        window: ranges of one median in order, shape (9,).
         ring_ranges: a full circle unrolled twice over, shape (2 n,), n beams and `MISSING` more.
         ring_directions: cosine and sine of its beams, shape (2 n, 2).
         xs: x of the valid points in beam order, metres, shape (2 n,): in a full circle those of
@@ -81,6 +88,9 @@ class Scratch(NamedTuple):
         corner_ends: the walls that end and start at each corner or -1, two columns.
     """
 
+    clear: FloatArray
+    smooth: FloatArray
+    window: FloatArray
     ring_ranges: FloatArray
     ring_directions: FloatArray
     xs: FloatArray
@@ -127,6 +137,9 @@ def allocate_scratch(beams: int) -> Scratch:
     """Working memory for scans of up to that many beams."""
     beams += MISSING
     return Scratch(
+        clear=np.zeros(beams),
+        smooth=np.zeros(beams),
+        window=np.zeros(2 * MEDIAN_BEAMS + 1),
         ring_ranges=np.zeros(2 * beams),
         ring_directions=np.zeros((2 * beams, 2)),
         xs=np.zeros(2 * beams),

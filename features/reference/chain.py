@@ -10,6 +10,7 @@ from semnav_env.features.reference.arcs import find_arcs
 from semnav_env.features.reference.corners import find_corners
 from semnav_env.features.reference.corridors import find_corridors
 from semnav_env.features.reference.doors import find_doors
+from semnav_env.features.reference.filters import filtered
 from semnav_env.features.reference.merging import merge_pieces
 from semnav_env.features.reference.ring import (
     beams_of_turn,
@@ -58,6 +59,7 @@ def extract_reference(scan: Scan, settings: ExtractorSettings | None = None) -> 
 def _unrolled(sweep: Sweep, settings: ExtractorSettings) -> tuple[Sweep, list[Piece]]:
     """The sweep and its pieces; of a full circle, unrolled where no wall is cut."""
     turn = beams_of_turn(sweep, settings)
+    sweep = filtered(sweep, turn, settings)
     once = replace(sweep, **{n: getattr(sweep, n)[: turn or None] for n in _PER_BEAM})
     pieces = _pieces(once, settings)
     if turn == 0:
