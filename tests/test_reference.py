@@ -83,6 +83,14 @@ def test_robust_kernels_agree_with_the_reference(opening: Opening, seed: int, si
     assert_same(extract(scan, chosen), extract_reference(scan, chosen))
 
 
+def test_kernels_agree_with_the_reference_within_a_round_wall() -> None:
+    ranges = 0.5 * (1.0 + np.random.default_rng(0).uniform(0.0, 1e-3, 42))
+    scan = Scan(ranges, 0.0, 2.0 * math.pi / 21)  # twice around
+    scene = extract(scan)
+    assert_same(scene, extract_reference(scan))
+    assert [arc.beams for arc in scene.arcs] == [21]
+
+
 @settings(max_examples=100, deadline=None)
 @given(awkward_scans(), seeds)
 def test_kernels_agree_with_the_reference_on_awkward_scans(scan: Scan, seed: int) -> None:

@@ -68,7 +68,8 @@ def extract_arrays(
     limit = min(range_max, settings.rupture_range)
     features = Features(walls, doors, corners, corridors, arcs, counts)
     turn = beams_of_turn(len(ranges), increment, settings.dropout_beams)
-    ranges = filter_ranges(ranges, increment, range_min, limit, turn, settings, scratch)
+    if settings.veil_angle > 0.0 or settings.median_beams > 0:
+        ranges = filter_ranges(ranges, increment, range_min, limit, turn, settings, scratch)
     beams = turn if turn > 0 else len(ranges)
     sweep, rays = ranges[:beams], directions[:beams]
     groups, pieces = find_pieces(sweep, rays, increment, range_min, limit, 0, settings, scratch)

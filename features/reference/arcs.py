@@ -49,7 +49,7 @@ class _Search:
         number = {int(beam): i for i, beam in enumerate(self.beams)}
         self.spans = [(number[p.beams[0]], number[p.beams[-1]]) for p in pieces]
         groups = sweep.connected_groups(settings)
-        self.group_starts = [number[group[0]] for group in groups] + [len(self.beams)]
+        self.group_starts = [*(number[group[0]] for group in groups), sum(map(len, groups))]
         self.in_arcs: set[int] = set()
 
     def end_of_run(self, first: int) -> tuple[int, float]:
