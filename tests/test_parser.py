@@ -12,6 +12,8 @@ from lark import Lark, logger
 
 from semnav_env.commands import Command, CommandError, grammar, parse
 from semnav_env.commands.language import english, languages
+from semnav_env.commands.normalise import SIGNS
+from semnav_env.commands.words import pieces
 from tests.command_strategies import commands
 
 # Each command beside its canonical wording.
@@ -206,6 +208,37 @@ def test_a_grammar_decides_by_one_word_without_conflicts(
     language = languages()[code]
     Lark(language.lark(), parser="lalr", lexer=grammar._NoLexer, debug=True)
     assert "conflict" not in caplog.text.lower()
+
+
+@pytest.mark.parametrize("code", sorted(languages()))
+def test_no_phrase_can_be_two_things_in_one_place(code: str) -> None:
+    language = languages()[code]
+    terminals: dict[str, set[str]] = {}
+    for terminal, phrases in language.terminals.items():
+        for phrase in phrases:
+            words = " ".join(piece.text for piece in pieces(language.folded(phrase.casefold())))
+            terminals.setdefault(words, set()).add(terminal)
+    shared = {words: kinds for words, kinds in terminals.items() if len(kinds) > 1}
+    table = grammar._parser(language).parse_interactive().parser_state.parse_conf.parse_table
+    both = {
+        (words, *sorted(kinds & set(accepted)))
+        for accepted in table.states.values()
+        for words, kinds in shared.items()
+        if len(kinds & set(accepted)) > 1
+    }
+    assert both == set()
+
+
+@pytest.mark.parametrize("code", sorted(languages()))
+def test_every_word_can_be_typed_on_a_plain_keyboard(code: str) -> None:
+    language = languages()[code]
+    words = [word for terminal in language.terminals for word in language.vocabulary(terminal)]
+    assert all(language.folded(word.casefold()).isascii() for word in words if word not in SIGNS)
+
+
+@pytest.mark.parametrize("code", sorted(languages()))
+def test_every_language_knows_all_phrases(code: str) -> None:
+    assert {key for key in english().phrases} <= set(languages()[code].phrases)
 
 
 def test_the_parser_is_built_once() -> None:

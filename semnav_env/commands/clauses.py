@@ -102,12 +102,12 @@ class Turn(_Said):
     def say(self, language: Language) -> str:
         """In the words of a language."""
         turning = language.say(self.turning)
+        form = "around" if self.turning is Turning.AROUND else ""
         if self.degrees is not None:
             return language.say("turn_by", turning=turning, degrees=str(self.degrees))
         if self.at is not None:
-            return language.say("turn_at", turning=turning, place=self.at)
-        around = self.turning is Turning.AROUND
-        return language.say("turn", "around" if around else "", turning=turning)
+            return language.say("turn_at", form, turning=turning, place=self.at)
+        return language.say("turn", form, turning=turning)
 
 
 @dataclass(frozen=True, slots=True)

@@ -99,6 +99,9 @@ class _Meanings(Transformer[Token, list[Found]]):
     def turn(self, parts: Parts) -> Readings:
         return _sure(Turn(*_members(parts, Turning)))
 
+    def turn_around(self, _: Parts) -> Readings:
+        return _sure(Turn(Turning.AROUND))
+
     def turn_by(self, parts: Parts) -> Readings:
         degrees = _whole(_one(parts, float))
         ways = _members(parts, Turning)
@@ -118,6 +121,22 @@ class _Meanings(Transformer[Token, list[Found]]):
         reference, readings = _reference(parts), _one(parts, tuple)
         return tuple(there for steps in readings for there in _at(reference, steps))
 
+    def at_turn(self, parts: Parts) -> Readings:
+        return _at(_reference(parts), (Turn(*_members(parts, Turning)),))
+
+    def at_around(self, parts: Parts) -> Readings:
+        return _at(_reference(parts), (Turn(Turning.AROUND),))
+
+    def at_straight(self, parts: Parts) -> Readings:
+        return _at(_reference(parts), (Follow(),))
+
+    def at_stop(self, parts: Parts) -> Readings:
+        return _at(_reference(parts), (Stop(),))
+
+    def at_side(self, parts: Parts) -> Readings:
+        door, turn = _door_and_turn(parts)
+        return _at(door, (turn,))
+
     def at_turn_off(self, parts: Parts) -> Readings:
         (turn,) = _one(parts, tuple)[0]
         if [turn.turning] != _members(parts, Turning):
@@ -127,6 +146,14 @@ class _Meanings(Transformer[Token, list[Found]]):
     def after(self, parts: Parts) -> Readings:
         past = Follow(_reference(parts), past=True)
         return tuple((past, *steps) for steps in _one(parts, tuple))
+
+    def after_side(self, parts: Parts) -> Readings:
+        door, turn = _door_and_turn(parts)
+        return ((Follow(door, past=True), turn),)
+
+    def after_door(self, parts: Parts) -> Readings:
+        place, door = _one(parts, PlaceReference), _one(parts, DoorReference)
+        return ((Follow(place, past=True), GoToDoor(door)),)
 
     def go_to(self, parts: Parts) -> Readings:
         return _sure(GoToDoor(_one(parts, DoorReference), Approach.TO))
@@ -252,6 +279,18 @@ def _at(reference: DoorReference | PlaceReference, steps: Steps) -> Readings:
             aside = side in (None, Side(way.value))
             return (there, (through, *steps[1:])) if aside else (there,)
     return ((Follow(reference), *steps),)
+
+
+def _door_and_turn(parts: Parts) -> tuple[DoorReference, Turn]:
+    """A door without its side, and the turn to that side.
+
+    Raises:
+        ValueError: it has none.
+    """
+    door = _one(parts, DoorReference)
+    if door.side not in (Side.LEFT, Side.RIGHT):
+        raise ValueError("to the left or to the right? say which")
+    return replace(door, side=None), Turn(Turning(door.side.value))
 
 
 def _sure(clause: Clause) -> Readings:
