@@ -134,32 +134,32 @@ class Features(NamedTuple):
 
 
 def allocate_scratch(beams: int) -> Scratch:
-    """Working memory for scans of up to that many beams."""
+    """Working memory for scans of up to that many beams; not filled, which would take longer."""
     beams += MISSING
     return Scratch(
-        clear=np.zeros(beams),
-        smooth=np.zeros(beams),
-        window=np.zeros(2 * MEDIAN_BEAMS + 1),
-        ring_ranges=np.zeros(2 * beams),
-        ring_directions=np.zeros((2 * beams, 2)),
-        xs=np.zeros(2 * beams),
-        ys=np.zeros(2 * beams),
-        beams=np.zeros(2 * beams, np.int64),
-        group_first=np.zeros(beams + 1, np.int64),
-        stack=np.zeros(beams, np.int64),
-        table=np.zeros((beams + 1, 8)),
-        vertices=np.zeros(beams + 1, np.int64),
-        pieces=np.zeros(2 * beams, PIECE),
-        start_jambs=np.zeros(JAMBS, JAMB),
-        end_jambs=np.zeros(JAMBS, JAMB),
-        candidates=np.zeros(DOOR_CANDIDATES, CANDIDATE),
-        evidence=np.zeros((DOOR_CANDIDATES, len(EVIDENCE))),
+        clear=np.empty(beams),
+        smooth=np.empty(beams),
+        window=np.empty(2 * MEDIAN_BEAMS + 1),
+        ring_ranges=np.empty(2 * beams),
+        ring_directions=np.empty((2 * beams, 2)),
+        xs=np.empty(2 * beams),
+        ys=np.empty(2 * beams),
+        beams=np.empty(2 * beams, np.int64),
+        group_first=np.empty(beams + 1, np.int64),
+        stack=np.empty(beams, np.int64),
+        table=np.empty((beams + 1, 8)),
+        vertices=np.empty(beams + 1, np.int64),
+        pieces=np.empty(2 * beams, PIECE),
+        start_jambs=np.empty(JAMBS, JAMB),
+        end_jambs=np.empty(JAMBS, JAMB),
+        candidates=np.empty(DOOR_CANDIDATES, CANDIDATE),
+        evidence=np.empty((DOOR_CANDIDATES, len(EVIDENCE))),
         scorer=default_scorer(),
-        levels=np.zeros(default_scorer().shape[1]),
-        wall_piece=np.zeros(CAPACITY["walls"], np.int64),
-        near_pieces=np.zeros(CAPACITY["walls"], np.int64),
-        joints=np.zeros(CAPACITY["walls"], JOINT),
-        corner_ends=np.zeros((CAPACITY["corners"], 2), np.int64),
+        levels=np.empty(default_scorer().shape[1]),
+        wall_piece=np.empty(CAPACITY["walls"], np.int64),
+        near_pieces=np.empty(CAPACITY["walls"], np.int64),
+        joints=np.empty(CAPACITY["walls"], JOINT),
+        corner_ends=np.empty((CAPACITY["corners"], 2), np.int64),
     )
 
 
