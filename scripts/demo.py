@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from tyro.conf import Positional
 
 from semnav_env.agents.registry import make_agent
+from semnav_env.commands import parse
 from semnav_env.env import CONTROL_HZ, SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.scripts.progress import tracked
@@ -30,6 +31,7 @@ class Arguments:
     Attributes:
         command: what to say to it.
         map: a floor plan: a bundled name or a path.
+        language: of the command: en or de.
         robot: wheelchair or spot.
         agent: scripted, oracle, or the path of a trained agent.
         pose: where it starts, x,y,heading in metres and radians; drawn from the seed if not given.
@@ -42,6 +44,7 @@ class Arguments:
 
     command: Positional[str]
     map: str = "heidelberg_hallway"
+    language: str = "en"
     robot: str = "wheelchair"
     agent: str = "scripted"
     pose: str | None = None
@@ -59,7 +62,8 @@ class Arguments:
         filmed = self.save is not None or self.picture is not None
         mode = "human" if self.show else "rgb_array" if filmed else None
         env = SemNavEnv(self.robot, self.map, observation=agent.observation, render_mode=mode)
-        options: dict[str, Any] = {"command": self.command}
+        command = parse(self.command, self.language, env.floor_plan.room_names)
+        options: dict[str, Any] = {"command": command}
         if self.pose is not None:
             options["pose"] = parse_pose(self.pose)
         observation, start = env.reset(seed=self.seed, options=options)

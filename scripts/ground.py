@@ -7,7 +7,14 @@ from dataclasses import dataclass
 
 from tyro.conf import Positional
 
-from semnav_env.commands import Command, CommandError, parse
+from semnav_env.commands import (
+    AmbiguousCommandError,
+    Approach,
+    Command,
+    CommandError,
+    GoToDoor,
+    parse,
+)
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
@@ -24,6 +31,7 @@ class Arguments:
         map: a floor plan: a bundled name or a path.
         pose: where the robot stands, x,y,heading in metres and radians.
         robot: wheelchair or spot.
+        language: of the command: en or de.
         json: print as JSON.
     """
 
@@ -31,6 +39,7 @@ class Arguments:
     pose: str
     map: str = "heidelberg_hallway"
     robot: str = "wheelchair"
+    language: str = "en"
     json: bool = False
 
     def run(self) -> int:
@@ -39,7 +48,8 @@ class Arguments:
         error = placement_error(floor_plan, robot_spec(self.robot), pose)
         if error is not None:
             raise ValueError(f"pose {self.pose}: {error}")
-        goals = plan_goals(floor_plan, understood(self.command), pose)
+        command = understood(self.command, self.language, floor_plan.room_names)
+        goals = plan_goals(floor_plan, command, pose)
         rows = [
             {
                 "kind": goal.kind.name.lower(),
@@ -58,17 +68,33 @@ class Arguments:
         return 0
 
 
-def understood(text: str) -> Command:
+def understood(text: str, language: str = "en", rooms: tuple[str, ...] = ()) -> Command:
     """The command, or for a mere place the command to go there.
 
     Raises:
         CommandError: it is neither.
     """
     try:
-        return parse(text)
+        return parse(text, language, rooms)
+    except AmbiguousCommandError as error:
+        to: list[Command] = [each for each in error.readings if _is_place(each)]
+        if len(to) != 1:
+            raise
+        return to[0]
     except CommandError as error:
+        if language != "en":
+            raise
         try:
-            return parse(f"go to {text}")
+            return parse(f"go to {text}", language, rooms)
         except CommandError as place_error:
             further = (place_error.position or 0) - len("go to ") > (error.position or 0)
             raise place_error if further else error from None
+
+
+def _is_place(command: Command) -> bool:
+    """Whether a command is no more than to go to a door."""
+    match command.clauses:
+        case (GoToDoor(_, Approach.TO),):
+            return True
+        case _:
+            return False

@@ -14,7 +14,15 @@ from semnav_env.commands.clauses import (
 )
 from semnav_env.commands.command import MAX_CLAUSES, Command
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
+from semnav_env.commands.interpreters import (
+    GrammarInterpreter,
+    Interpretation,
+    Interpreter,
+    ModelInterpreter,
+    TemplateInterpreter,
+)
 from semnav_env.commands.parser import parse, readings
+from semnav_env.commands.program import from_program, to_program
 from semnav_env.commands.references import (
     LAST,
     MAX_FROM_END,
@@ -48,20 +56,27 @@ __all__ = [
     "GoBack",
     "GoToDoor",
     "GoToRoom",
+    "GrammarInterpreter",
+    "Interpretation",
+    "Interpreter",
     "Leave",
+    "ModelInterpreter",
     "Place",
     "PlaceReference",
     "Side",
     "Stop",
+    "TemplateInterpreter",
     "Turn",
     "Turning",
     "Unit",
     "decode",
     "encode",
+    "from_program",
     "parse",
     "readings",
     "sample_clause",
     "sample_command",
+    "to_program",
     "token_mask",
     "token_space",
 ]

@@ -65,7 +65,7 @@ def readings(
     except NoDoorSpokenOfError as error:
         at = found[error.index]
         raise _pointed(str(error), normalised, at.start, at.stop) from None
-    _check_rooms(commands[0], text, rooms)
+    check_rooms(commands[0], text, rooms)
     return commands
 
 
@@ -98,7 +98,12 @@ def _check_length(found: Sequence[Found], normalised: NormalisedText) -> None:
         raise _pointed(problem, normalised, found[first].start, found[first].stop)
 
 
-def _check_rooms(command: Command, text: str, rooms: Sequence[str]) -> None:
+def check_rooms(command: Command, text: str, rooms: Sequence[str]) -> None:
+    """Refuse a command that names a room which is not among `rooms`, if any are given.
+
+    Raises:
+        CommandError: it does; says which there are.
+    """
     for clause in command.clauses:
         if isinstance(clause, GoToRoom) and rooms and clause.name not in rooms:
             problem = f'there is no room "{clause.name}"'

@@ -63,7 +63,8 @@ class CommandTask:
         Raises:
             ValueError: the pose is not free, or the command is not understood or not feasible.
         """
-        command, pose = _command(options.get("command")), _pose(options.get("pose"))
+        command = _command(options.get("command"), self.floor_plan.room_names)
+        pose = _pose(options.get("pose"))
         if pose is not None:
             error = placement_error(self.floor_plan, self.robot, pose)
             if error is not None:
@@ -125,11 +126,11 @@ class CommandTask:
         raise AssertionError("count() never ends")
 
 
-def _command(given: object) -> Command | None:
+def _command(given: object, rooms: tuple[str, ...]) -> Command | None:
     if given is None or isinstance(given, Command):
         return given
     if isinstance(given, str):
-        return parse(given)
+        return parse(given, rooms=rooms)
     raise ValueError(f"a command is text or a Command, not {type(given).__name__}")
 
 

@@ -1,0 +1,111 @@
+"""Commands as plain lists and dictionaries, as JSON has them: for language models and for files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from enum import Enum
+from typing import Any, get_args
+
+from semnav_env.commands.clauses import Approach, Clause, Turning
+from semnav_env.commands.command import Command
+from semnav_env.commands.references import (
+    DoorReference,
+    Place,
+    PlaceReference,
+    Reference,
+    Side,
+    Unit,
+)
+
+CLAUSES: dict[str, Any] = {kind.__name__: kind for kind in get_args(Clause)}
+REFERENCES: dict[str, Any] = {kind.__name__: kind for kind in get_args(Reference)}
+
+
+def to_program(command: Command) -> list[dict[str, Any]]:
+    """The clauses as dictionaries of plain values; `from_program` undoes it.
+
+    For example [{"kind": "GoToDoor", "door": {"kind": "DoorReference", "ordinal": 2,
+    "side": "right"}, "approach": "through"}].
+    """
+    return [_plain(clause) for clause in command.clauses]
+
+
+def from_program(program: object) -> Command:
+    """The command of plain lists and dictionaries, wherever they come from.
+
+    Fields that have a default may be left out.
+
+    Raises:
+        ValueError: it is no program; says which clause and what would be right.
+    """
+    if not isinstance(program, list | tuple):
+        raise ValueError(f"a program is a list of clauses, not {type(program).__name__}")
+    return Command(tuple(_value(each, CLAUSES, f"clause {n}") for n, each in enumerate(program)))
+
+
+def _plain(value: Any) -> dict[str, Any]:
+    plain: dict[str, Any] = {"kind": type(value).__name__}
+    for field in fields(value):
+        part = getattr(value, field.name)
+        referring = isinstance(part, tuple(REFERENCES.values()))
+        plain[field.name] = _plain(part) if referring else getattr(part, "value", part)
+    return plain
+
+
+def _value(plain: object, kinds: Mapping[str, Any], where: str) -> Any:
+    """The clause or reference of a dictionary."""
+    if not isinstance(plain, Mapping):
+        raise ValueError(f"{where} is a dictionary with a kind, not {plain!r}")
+    given = dict(plain)
+    kind = kinds.get(str(given.pop("kind", None)))
+    if kind is None:
+        raise ValueError(f"the kind of {where} is one of {', '.join(kinds)}: {plain!r}")
+    known = {field.name for field in fields(kind)}
+    if not set(given) <= known:
+        strange = ", ".join(map(repr, sorted(set(map(str, given)) - known)))
+        raise ValueError(f"{where}, a {kind.__name__}, has no {strange}")
+    try:
+        return kind(**{name: _read(name, part, where) for name, part in given.items()})
+    except TypeError as error:
+        raise ValueError(f"{where}, a {kind.__name__}: {error}") from None
+
+
+def _read(name: str, part: object, where: str) -> Any:
+    """The value of a field."""
+    inside = f"{name} of {where}"
+    if part is None and name in ("until", "at", "side", "degrees"):
+        return None
+    if name in ("until", "at", "door"):
+        return _value(part, _REFERRED[name], inside)
+    if name in _ENUMS:
+        members = [member.value for member in _ENUMS[name]]
+        if part not in members:
+            raise ValueError(f"{inside} is one of {', '.join(map(repr, members))}, not {part!r}")
+        return _ENUMS[name](part)
+    check = _PLAIN[name]
+    if not check(part):
+        raise ValueError(f"{inside} cannot be {part!r}")
+    return part
+
+
+_ENUMS: dict[str, type[Enum]] = {
+    "turning": Turning,
+    "approach": Approach,
+    "side": Side,
+    "place": Place,
+    "unit": Unit,
+}
+_REFERRED: dict[str, dict[str, Any]] = {
+    "until": REFERENCES,
+    "at": {"PlaceReference": PlaceReference},
+    "door": {"DoorReference": DoorReference},
+}
+_PLAIN: dict[str, Callable[[object], bool]] = {
+    "past": lambda part: isinstance(part, bool),
+    "name": lambda part: isinstance(part, str),
+    "amount": lambda part: isinstance(part, int | float) and not isinstance(part, bool),
+    "ordinal": lambda part: isinstance(part, int) and not isinstance(part, bool),
+    "degrees": lambda part: isinstance(part, int) and not isinstance(part, bool),
+    "seconds": lambda part: isinstance(part, int) and not isinstance(part, bool),
+}
