@@ -15,6 +15,8 @@ from semnav_env.evaluation.buildings import (
     building_sheet,
     find_buildings,
     look_around,
+    map_row,
+    map_sheet,
 )
 from semnav_env.evaluation.sheets import Cell
 from semnav_env.features import ExtractorSettings
@@ -51,16 +53,22 @@ class Arguments:
         if self.poses < 1 or self.seed < 0:
             raise ValueError("--poses must be at least 1, and --seed at least 0")
         rows: list[tuple[Cell, ...]] = []
+        mapped: list[tuple[Cell, ...]] = []
         for name, read in find_buildings(self.data).items():
             building = read()
             looks = self._look(name, building)
             widths = f"{self.settings.door_width_min} to {self.settings.door_width_max} m"
             rows.append(building_row(f"{name}, {widths}", looks, self.settings))
             rows.append(building_row(f"{name}, all", looks, None))
+            if building.plan.regions:
+                mapped.append(map_row(name, building))
             if self.out is not None:
                 self._draw(self.out / name.replace("/", "_"), building, looks)
-        sheet = building_sheet(rows)
-        print(json.dumps(sheet.records()) if self.json else sheet.markdown())
+        sheets = [building_sheet(rows), *([map_sheet(mapped)] if mapped else [])]
+        if self.json:
+            print(json.dumps({sheet.title: sheet.records() for sheet in sheets}))
+        else:
+            print("\n\n".join(sheet.markdown() for sheet in sheets))
         return 0
 
     def _look(self, name: str, building: Building) -> list[Look]:

@@ -122,7 +122,8 @@ def test_the_command_measures_every_floor_and_draws_failures(data, capsys):
     words = ["evaluate", "buildings", "--data", str(data), "--poses", "15", "--json"]
     blind = ["--settings.door-confidence-min", "1.0"]
     assert cli.main([*words, *blind, "--out", str(data / "pages")]) == 0
-    records = json.loads(capsys.readouterr().out)
+    records, mapped = json.loads(capsys.readouterr().out).values()
+    assert [(m["labelled open doors"], m["found"]) for m in mapped] == [(1, 1)]
     assert [record["scans"] for record in records] == [15] * 4
     assert all(record["recall"] == 0.0 for record in records)
     assert (data / "pages" / "gdc_floors_small_missed.png").stat().st_size > 0

@@ -281,6 +281,24 @@ def test_the_command_imports_a_map_and_reports(tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["taken"]["open doors"] == 1
 
 
+def test_a_doorway_between_two_places_needs_no_label(tmp_path):
+    path = write_map(tmp_path, two_rooms())
+    (tmp_path / "locations.yaml").write_text(PLACES)
+    plan, report = import_map(path)
+    (door,) = plan.doors
+    assert (door.name, door.open) == ("east - west", True)
+    assert sorted(y for _, y in (door.start, door.end)) == pytest.approx([1.3, 2.2], abs=0.06)
+    assert report.taken["of them without a label"] == 1
+
+
+def test_a_gap_that_nothing_passes_is_no_doorway(tmp_path):
+    grey = two_rooms()
+    grey[12:21, 38:40] = SOLID
+    path = write_map(tmp_path, grey)
+    (tmp_path / "locations.yaml").write_text(PLACES)
+    assert import_map(path).plan.doors == ()
+
+
 @pytest.mark.parametrize(("floor", "doors", "places"), [("2", 11, 14), ("3ne", 24, 39)])
 def test_a_real_floor_keeps_all_its_labels(floor, doors, places):
     path = DATA / "gdc_floors" / floor / f"{floor}.yaml"
@@ -288,5 +306,6 @@ def test_a_real_floor_keeps_all_its_labels(floor, doors, places):
         pytest.skip("the labelled floors are not here")
     plan, report = import_map(path)
     assert load_floor_plan(plan) is plan
-    assert (len(plan.doors), len(plan.regions)) == (doors, places)
+    further = report.taken["of them without a label"]
+    assert (len(plan.doors) - further, len(plan.regions)) == (doors, places)
     assert report.left_out == ()

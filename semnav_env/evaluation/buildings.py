@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -23,15 +24,14 @@ from semnav_env.lidar import Lidar, LidarSpec
 from semnav_env.lidar.spec import TIM561
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.importers import load_building, load_vector_map, read_occupancy
+from semnav_env.maps.importers.gaps import APART, find_doorways, places_beside
+from semnav_env.maps.importers.labels import DOORS, read_door_labels
 
 CLEARANCE = 0.35
 """The lidar is at least this far from everything solid, metres."""
 
 TRIES = 100_000
 """So many random places are tried for a pose."""
-
-STEP = 0.6
-"""An opening leads from one place to another if these lie so far before and behind it, metres."""
 
 GATE = Gate()
 
@@ -79,18 +79,8 @@ class Building:
 
     def leads_elsewhere(self, opening: Door) -> bool:
         """Whether different places of the plan lie before and behind an opening, world frame."""
-        (x1, y1), (x2, y2) = opening.start, opening.end
-        along = STEP / max(opening.width, STEP / 10.0)
-        step = -along * (y2 - y1), along * (x2 - x1)
-        x, y = opening.midpoint
-        before, behind = (self._place((x + s * step[0], y + s * step[1])) for s in (1.0, -1.0))
+        before, behind = places_beside(opening.start, opening.end, self.plan.regions)
         return before is not None and behind is not None and before != behind
-
-    def _place(self, point: Point) -> str | None:
-        for region in self.plan.regions:
-            if shapely.contains_xy(region.polygon, *point):
-                return region.name
-        return None
 
 
 def find_buildings(folder: Path) -> dict[str, Callable[[], Building]]:
@@ -119,7 +109,8 @@ def find_buildings(folder: Path) -> dict[str, Callable[[], Building]]:
 def labelled(path: Path) -> Building:
     """A floor of an occupancy map whose open doors are those that people labelled."""
     plan = load_building(path).plan
-    doors = tuple([door.as_door() for door in plan.doors if door.open])
+    names = {label.name for label in read_door_labels(path.with_name(DOORS))}
+    doors = tuple([door.as_door() for door in plan.doors if door.open and door.name in names])
     area = shapely.union_all([region.polygon for region in plan.regions])
     return Building(plan, doors, area, read_occupancy(path).is_free)
 
@@ -216,3 +207,23 @@ def building_sheet(rows: Sequence[tuple[Cell, ...]]) -> Sheet:
         *("precision", "precision, unlabelled wrong"),
     )
     return Sheet("Doors in real floors, simulated scans", columns, rows)
+
+
+def map_row(name: str, building: Building) -> tuple[Cell, ...]:
+    """How many of the labelled open doors the importer finds without their labels.
+
+    It looks for gaps between places (`find_doorways`).
+    """
+    begin = time.perf_counter()
+    found = find_doorways(building.plan.regions, building.plan.solids, building.is_free)
+    seconds = time.perf_counter() - begin
+    hits = sum(any(matches(f.as_door(), d.start, d.end) for f in found) for d in building.doors)
+    middles = [door.midpoint for door in building.doors]
+    further = sum(all(math.dist(f.midpoint, middle) > APART for middle in middles) for f in found)
+    return name, len(building.doors), hits, hits / len(building.doors), further, seconds
+
+
+def map_sheet(rows: Sequence[tuple[Cell, ...]]) -> Sheet:
+    """The rows of `map_row` as a table."""
+    columns = ("floor", "labelled open doors", "found", "recall", "other doorways", "seconds")
+    return Sheet("Doorways found in the map without the labels of doors", columns, rows)

@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import shapely
 from shapely import Polygon
 
-from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
-from semnav_env.maps.importers.fitting import fit_door
+from semnav_env.maps.floor_plan import FloorPlan, Region
+from semnav_env.maps.importers.building_doors import with_doors
 from semnav_env.maps.importers.imported import MARGIN, Imported
 from semnav_env.maps.importers.labels import (
     DOORS,
     PLACES,
-    DoorLabel,
     PlaceLabel,
     read_door_labels,
     read_place_labels,
 )
 from semnav_env.maps.importers.occupancy import OccupancyMap, Tracing, read_occupancy, trace
-from semnav_env.maps.rules import FloorPlanError, check_door, check_doorway, check_region
+from semnav_env.maps.rules import FloorPlanError, check_region
 
 LONG = 4.0
 """A place so many times as long as it is wide is taken for a corridor."""
@@ -32,8 +31,9 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
     """The floor plan of an occupancy map, with what `doors.yaml` and `locations.yaml` name.
 
     Either file may be missing beside the map. A labelled door gets the jambs that the map shows
-    (`fit_door`), and is open if the map shows a way through; a closed one gets a leaf. A place is
-    a room, or a corridor if it is at least `LONG` times as long as wide.
+    (`fit_door`), and is open if the map shows a way through; a closed one gets a leaf. Further
+    doorways between two places (`find_doorways`) are named after these. A place is a room, or a
+    corridor if it is at least `LONG` times as long as wide.
 
     Args:
         path: the map's YAML file.
@@ -47,10 +47,13 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
     plan, report = trace(pixels, tracing)
     doors, places = where.with_name(DOORS), where.with_name(PLACES)
     plan, lost_places = _with_places(plan, read_place_labels(places), pixels)
-    plan, lost_doors = _with_doors(plan, read_door_labels(doors))
+    labels = read_door_labels(doors)
+    plan, lost_doors = with_doors(plan, labels, pixels.is_free)
+    unnamed = len({door.name for door in plan.doors} - {label.name for label in labels})
     taken = {
         "open doors": sum(door.open for door in plan.doors),
         "closed doors": sum(not door.open for door in plan.doors),
+        "of them without a label": unnamed,
         "rooms": len(plan.rooms),
         "corridors": len(plan.corridors),
     }
@@ -77,7 +80,8 @@ def _with_places(
         region = Region(label.name, max(parts, key=shapely.area, default=Polygon()))
         try:
             check_region(region)
-            _check_new(label.name, regions, "region")
+            if label.name in regions:
+                raise FloorPlanError(f"region {label.name!r}: there is another one of that name")
         except FloorPlanError as error:
             lost.append(str(error))
         else:
@@ -97,41 +101,3 @@ def is_long(polygon: Polygon) -> bool:
     half = float(polygon.length) / 4.0
     spread = math.sqrt(max(0.0, half**2 - float(polygon.area)))
     return half + spread >= LONG * (half - spread)
-
-
-def _with_doors(plan: FloorPlan, labels: Sequence[DoorLabel]) -> tuple[FloorPlan, tuple[str, ...]]:
-    """The plan with those of the labelled doors that keep to the rules; and why others do not."""
-    doors: dict[str, PlanDoor] = {}
-    lost = []
-    for label in labels:
-        fit = fit_door(label, plan.solids)
-        try:
-            if fit is None:
-                raise FloorPlanError(f"door {label.name!r}: no wall beside one of its jambs")
-            door = _turned(PlanDoor(label.name, fit.start, fit.end, fit.open), plan)
-            check_door(door)
-            _check_new(label.name, doors, "door")
-            if door.open:
-                check_doorway(door, plan)
-        except FloorPlanError as error:
-            lost.append(str(error))
-        else:
-            doors[label.name] = door
-    closed = [door for door in doors.values() if not door.open]
-    leaves = [Surface((door.start, door.end), Material.LEAF) for door in closed]
-    surfaces = (*plan.surfaces, *leaves)
-    return replace(plan, surfaces=surfaces, doors=tuple(doors.values())), tuple(lost)
-
-
-def _check_new(name: str, known: Container[str], what: str) -> None:
-    if name in known:
-        raise FloorPlanError(f"{what} {name!r}: there is another one of that name")
-
-
-def _turned(door: PlanDoor, plan: FloorPlan) -> PlanDoor:
-    """The door with the corridor, if it leads to one, to the left of the way between its jambs."""
-    (x1, y1), (x2, y2) = door.start, door.end
-    right = door.midpoint[0] + (y2 - y1) / door.width, door.midpoint[1] - (x2 - x1) / door.width
-    if any(shapely.contains_xy(hall.polygon, *right) for hall in plan.corridors):
-        return replace(door, start=door.end, end=door.start)
-    return door

@@ -41,10 +41,8 @@ class Fit:
 def fit_door(label: DoorLabel, solids: STRtree) -> Fit | None:
     """The way through a labelled doorway, or the label itself as a closed door.
 
-    Everything solid within `ACROSS` of the marked line, prolonged by `ALONG` at both ends, casts
-    its shadow square onto it. The stretch without shadow that the label shares most with lies
-    between the jambs, which are the solid points nearest to the line within `JAMB` of its ends; if
-    it is narrower than any robot, the door is closed.
+    Of the gaps along the marked line (`Band`) that which the label shares most with is the opening;
+    if it is narrower than any robot, the door is closed.
 
     Args:
         label: the label.
@@ -53,25 +51,61 @@ def fit_door(label: DoorLabel, solids: STRtree) -> Fit | None:
     Returns:
         None if the opening has no jamb on one side.
     """
-    width = math.dist(label.start, label.end)
-    frame = _frame(label)
-    pieces = _pieces(frame, width, solids)
-    shadows = _joined(pieces[:, :, 0])
-    gaps = np.stack((shadows[:-1, 1], shadows[1:, 0]), axis=1)
-    shared = np.minimum(gaps[:, 1], width) - np.maximum(gaps[:, 0], 0.0)
-    first, last = gaps[np.argmax(shared)] if shared.max(initial=0.0) > 0.0 else (0.0, 0.0)
-    if last - first < NARROWEST_ROBOT:
+    band = Band.along(label.start, label.end, solids)
+    shared = np.minimum(band.gaps[:, 1], band.length) - np.maximum(band.gaps[:, 0], 0.0)
+    if shared.max(initial=0.0) <= 0.0:
         return Fit(label.start, label.end, False)
-    if first <= -ALONG or last >= width + ALONG:
-        return None
-    start, end = _jamb(pieces, first - JAMB, first), _jamb(pieces, last, last + JAMB)
-    return Fit(to_parent(frame, start), to_parent(frame, end), True)
+    gap = band.gaps[np.argmax(shared)]
+    if gap[1] - gap[0] < NARROWEST_ROBOT:
+        return Fit(label.start, label.end, False)
+    return Fit(*band.jambs(gap), True) if band.is_closed(gap) else None
 
 
-def _frame(label: DoorLabel) -> Pose:
-    """The pose at the label's start that looks along it."""
-    (x1, y1), (x2, y2) = label.start, label.end
-    return x1, y1, math.atan2(y2 - y1, x2 - x1)
+@dataclass(frozen=True, eq=False)
+class Band:
+    """Everything solid within `ACROSS` of a line, which is prolonged by `ALONG` at both ends.
+
+    It casts its shadow square onto the line; the stretches without shadow are gaps.
+
+    Attributes:
+        frame: pose at the line's start that looks along it.
+        length: of the line, metres.
+        pieces: the solid segments in that frame, shape (n, 2, 2).
+        gaps: where along the line each begins and ends, shape (m, 2), the first from minus
+            infinity on, the last to infinity.
+    """
+
+    frame: Pose
+    length: float
+    pieces: FloatArray
+    gaps: FloatArray
+
+    @classmethod
+    def along(cls, start: Point, end: Point, solids: STRtree) -> Band:
+        """The band along a line.
+
+        Args:
+            start: (x, y) in metres.
+            end: likewise.
+            solids: the walls, segments.
+        """
+        (x1, y1), (x2, y2) = start, end
+        frame, length = (x1, y1, math.atan2(y2 - y1, x2 - x1)), math.dist(start, end)
+        pieces = _pieces(frame, length, solids)
+        shadows = _joined(pieces[:, :, 0])
+        gaps = np.stack((shadows[:-1, 1], shadows[1:, 0]), axis=1)
+        return cls(frame, length, pieces, gaps)
+
+    def is_closed(self, gap: FloatArray) -> bool:
+        """Whether a gap ends at something solid on both sides."""
+        return bool(gap[0] > -ALONG and gap[1] < self.length + ALONG)
+
+    def jambs(self, gap: FloatArray) -> tuple[Point, Point]:
+        """On both sides of a gap the solid point nearest to the line within `JAMB`."""
+        first, last = gap.tolist()
+        start = _jamb(self.pieces, first - JAMB, first)
+        end = _jamb(self.pieces, last, last + JAMB)
+        return to_parent(self.frame, start), to_parent(self.frame, end)
 
 
 def _pieces(frame: Pose, width: float, solids: STRtree) -> FloatArray:

@@ -1,0 +1,94 @@
+"""The doors of an imported building: labelled ones, and others between two places."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+
+import shapely
+
+from semnav_env.features.frames import Point
+from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
+from semnav_env.maps.importers.fitting import fit_door
+from semnav_env.maps.importers.gaps import APART, find_doorways
+from semnav_env.maps.importers.labels import DoorLabel
+from semnav_env.maps.rules import FloorPlanError, check_door, check_doorway
+
+
+def with_doors(
+    plan: FloorPlan, labels: Sequence[DoorLabel], is_free: Callable[[Point], bool]
+) -> tuple[FloorPlan, tuple[str, ...]]:
+    """The plan with its doors, and why others were left out.
+
+    Labelled doors come first; then the doorways between two places that are no labelled doors.
+
+    Args:
+        plan: walls and places.
+        labels: of doors, open or not.
+        is_free: whether a point is known to be free.
+    """
+    doors: dict[str, PlanDoor] = {}
+    lost: list[str] = []
+    for label in labels:
+        try:
+            door = _labelled(label, plan)
+            if label.name in doors:
+                raise FloorPlanError(f"door {label.name!r}: there is another one of that name")
+        except FloorPlanError as error:
+            lost.append(str(error))
+        else:
+            doors[label.name] = door
+    for door in _further(plan, labels, doors, is_free):
+        doors[door.name] = door
+    closed = [door for door in doors.values() if not door.open]
+    leaves = [Surface((door.start, door.end), Material.LEAF) for door in closed]
+    surfaces = (*plan.surfaces, *leaves)
+    return replace(plan, surfaces=surfaces, doors=tuple(doors.values())), tuple(lost)
+
+
+def _labelled(label: DoorLabel, plan: FloorPlan) -> PlanDoor:
+    fit = fit_door(label, plan.solids)
+    if fit is None:
+        raise FloorPlanError(f"door {label.name!r}: no wall beside one of its jambs")
+    door = _turned(PlanDoor(label.name, fit.start, fit.end, fit.open), plan)
+    check_door(door)
+    if door.open:
+        check_doorway(door, plan)
+    return door
+
+
+def _further(
+    plan: FloorPlan,
+    labels: Sequence[DoorLabel],
+    doors: dict[str, PlanDoor],
+    is_free: Callable[[Point], bool],
+) -> Iterator[PlanDoor]:
+    """Doorways beside the labelled ones that keep to the rules, with names of their own."""
+    taken = [(door.start, door.end) for door in doors.values()]
+    middles = [_middle(*ends) for ends in (*taken, *((each.start, each.end) for each in labels))]
+    for doorway in find_doorways(plan.regions, plan.solids, is_free):
+        if any(math.dist(doorway.midpoint, middle) <= APART for middle in middles):
+            continue
+        name, number = doorway.name, 2
+        while name in doors:
+            name, number = f"{doorway.name} ({number})", number + 1
+        door = _turned(replace(doorway, name=name), plan)
+        try:
+            check_doorway(door, plan)
+        except FloorPlanError:
+            continue
+        yield door
+
+
+def _middle(start: Point, end: Point) -> Point:
+    return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+
+
+def _turned(door: PlanDoor, plan: FloorPlan) -> PlanDoor:
+    """The door with the corridor, if it leads to one, to the left of the way between its jambs."""
+    (x1, y1), (x2, y2) = door.start, door.end
+    right = door.midpoint[0] + (y2 - y1) / door.width, door.midpoint[1] - (x2 - x1) / door.width
+    if any(shapely.contains_xy(hall.polygon, *right) for hall in plan.corridors):
+        return replace(door, start=door.end, end=door.start)
+    return door

@@ -1,0 +1,100 @@
+"""Doorways that no label names: gaps in the walls between two labelled places."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+
+import shapely
+from shapely import LineString, STRtree
+
+from semnav_env.features.frames import Point
+from semnav_env.maps.doorways import NARROWEST_ROBOT
+from semnav_env.maps.floor_plan import PlanDoor, Region
+from semnav_env.maps.importers.fitting import Band
+
+WIDTHS = (0.6, 2.2)
+"""Narrowest and widest doorway, metres."""
+
+STEP = 0.6
+"""A doorway leads to another place if that lies so far before or behind it, metres."""
+
+APART = 0.6
+"""Doorways whose middles are nearer to each other are one, metres."""
+
+SHORTEST = 0.3
+"""Borders are simplified by half of this, and shorter pieces are left out, metres."""
+
+
+def find_doorways(
+    places: Sequence[Region], solids: STRtree, is_free: Callable[[Point], bool]
+) -> tuple[PlanDoor, ...]:
+    """The gaps of door width in the walls along the borders of places that lead to another place.
+
+    Borders are drawn by hand and lie some decimetres beside the walls; a `Band` along each straight
+    piece of them finds the gaps nevertheless. A robot must be able to go straight through, from
+    `STEP` before to `STEP` behind. Of several within `APART` the narrowest is kept.
+
+    Args:
+        places: rooms and corridors.
+        solids: the walls, segments.
+        is_free: whether a point is known to be free.
+
+    Returns:
+        Open doors, named by the places they join.
+    """
+    doors: list[PlanDoor] = []
+    for door in sorted(_doorways(places, solids), key=lambda door: door.width):
+        way = _way(door)
+        if len(solids.query(way.buffer(NARROWEST_ROBOT / 2, cap_style="flat"), "intersects")):
+            continue
+        if not all(is_free((x, y)) for x, y in way.segmentize(0.05).coords):
+            continue
+        if all(math.dist(door.midpoint, other.midpoint) > APART for other in doors):
+            doors.append(door)
+    return tuple(doors)
+
+
+def places_beside(
+    start: Point, end: Point, places: Sequence[Region]
+) -> tuple[str | None, str | None]:
+    """The places to the left and to the right of an opening, `STEP` from its middle."""
+    width = max(math.dist(start, end), 1e-9)
+    side = STEP * (start[1] - end[1]) / width, STEP * (end[0] - start[0]) / width
+    x, y = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    left, right = (_place_at((x + s * side[0], y + s * side[1]), places) for s in (1.0, -1.0))
+    return left, right
+
+
+def _doorways(places: Sequence[Region], solids: STRtree) -> Iterator[PlanDoor]:
+    for place in places:
+        ring = shapely.simplify(place.polygon.exterior, SHORTEST / 2)
+        corners = [(float(x), float(y)) for x, y in ring.coords]
+        for start, end in pairwise(corners):
+            if math.dist(start, end) < SHORTEST:
+                continue
+            band = Band.along(start, end, solids)
+            for gap in band.gaps[1:-1]:
+                if gap[1] <= 0.0 or gap[0] >= band.length or not band.is_closed(gap):
+                    continue
+                jambs = band.jambs(gap)
+                sides = places_beside(*jambs, places)
+                wide = WIDTHS[0] <= math.dist(*jambs) <= WIDTHS[1]
+                if wide and None not in sides and sides[0] != sides[1]:
+                    yield PlanDoor(" - ".join(sorted(map(str, sides))), *jambs)
+
+
+def _way(door: PlanDoor) -> LineString:
+    """Straight through a door, from `STEP` before to `STEP` behind it."""
+    (x1, y1), (x2, y2) = door.start, door.end
+    x, y = door.midpoint
+    dx, dy = STEP * (y1 - y2) / door.width, STEP * (x2 - x1) / door.width
+    return LineString(((x + dx, y + dy), (x - dx, y - dy)))
+
+
+def _place_at(point: Point, places: Sequence[Region]) -> str | None:
+    for place in places:
+        if shapely.contains_xy(place.polygon, *point):
+            return place.name
+    return None
