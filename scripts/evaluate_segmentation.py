@@ -23,14 +23,14 @@ MEASURES = {
     "surfaces": "Connected surfaces, by the breakpoint rule alone",
 }
 THESIS_ANGLE = 10.0
-"""Lambda of the papers, degrees."""
+"""Lambda of the thesis (Barbret (2.3)), degrees."""
 
 
 @dataclass(frozen=True)
 class Arguments:
     """The segmentation rate (Weerakoon et al. (11)) in simulated scans, per strategy and noise.
 
-    Every breakpoint rule is measured with the lambda of the papers, too.
+    Every breakpoint rule is measured with the lambda of the thesis, too.
 
     Attributes:
         plans: floor plans, bundled names or paths; all bundled ones if none is given.
@@ -94,7 +94,7 @@ class Arguments:
 
 
 def strategies() -> dict[str, ExtractorSettings]:
-    """Every strategy in the place of the default's, and the rules with the papers' lambda."""
+    """Every strategy in the place of the default's, and the rules with the lambda of the thesis."""
     steep = ExtractorSettings(breakpoint_angle=math.radians(THESIS_ANGLE))
     return all_strategies() | {
         f"breakpoint_rule={name}, {THESIS_ANGLE:g} degrees": replace(steep, breakpoint_rule=name)

@@ -215,6 +215,26 @@ def test_extraction_of_a_truth_scan_returns_the_walls_of_the_truth(view):
     assert (back.covered >= 0.9 * back.lengths - 0.05).all()
 
 
+@given(views())
+@settings(max_examples=60, deadline=None)
+def test_extraction_of_a_truth_scan_returns_the_full_corners_of_the_truth(view):
+    """Those of walls of 0.5 m and twenty beams met at 12 degrees or more, to 1 % of the range."""
+    twin, pose = view
+    truth, found = twin.scene(pose), extract(twin.scan(pose))
+    for corner in truth.corners:
+        walls = [w for w in truth.walls if near(corner.point, w.start) or near(corner.point, w.end)]
+        clear = all(w.length >= 0.5 and w.beams >= 20 and incidence(w) >= 0.21 for w in walls)
+        if corner.kind is CornerKind.POTENTIAL or not clear:
+            continue
+        nearest = min(found.corners, key=lambda other: math.dist(other.point, corner.point))
+        assert math.dist(nearest.point, corner.point) < 0.01 * math.hypot(*corner.point)
+        assert nearest.kind is corner.kind
+
+
+def near(point, other):
+    return math.dist(point, other) < 1e-6
+
+
 def incidence(wall):
     """The flattest angle at which a beam meets a wall."""
     (x1, y1), (x2, y2) = wall.start, wall.end
