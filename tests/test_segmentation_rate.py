@@ -84,7 +84,7 @@ def test_every_beam_in_a_room_has_a_wall_and_ends_where_it_was_measured(
     labelled = label(scan, 0.0, view.scene((x, y, heading)), SETTINGS)
     assert (labelled.surfaces == 0).all()
     assert np.hypot(*labelled.points.T) == pytest.approx(scan.ranges, abs=1e-6)
-    assert segmentation_rate(labelled.points, labelled.lines, found_lines(scan, SETTINGS)) > 0.99
+    assert segmentation_rate(labelled.points, labelled.lines, found_lines(scan, SETTINGS)) > 0.97
 
 
 def test_the_default_brings_back_97_percent_of_the_walls() -> None:
