@@ -11,14 +11,26 @@ SIGMA = 20.0
 COUNTED = ("in good view", "recall", "recall, all in view", "detections", "precision", "F1")
 
 
-def written(value):
+REST = (
+    *("Doors by floor plan, sigma 20 mm", "Strategies", "Real doors, freiburg-079"),
+    "Real logs, features a scan",
+)
+
+
+def written(value, column=""):
     if value is None:
         return "-"
+    if column.endswith((", mm", "us a scan")):
+        return f"{value:.0f}"
     return f"{value:.3f}" if isinstance(value, float) else str(value)
 
 
 def table(rows, columns):
-    lines = [columns, ["---"] * len(columns), *([written(row[c]) for c in columns] for row in rows)]
+    lines = [
+        columns,
+        ["---"] * len(columns),
+        *([written(row[c], c) for c in columns] for row in rows),
+    ]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
@@ -33,13 +45,8 @@ def main(path):
     doors = [row for row in found if row["feature"] == "doors"]
     print(table(at_sigma(found), ("poses", "clutter", "feature", *COUNTED)), end="\n\n")
     print(table(doors, ("poses", "clutter", "sigma, mm", *COUNTED)), end="\n\n")
-    rest = ("Doors by floor plan, sigma 20 mm", "Strategies", "Real doors, freiburg-079")
-    shown = [
-        at_sigma(errors),
-        *(tables[name] for name in rest),
-        tables["Real logs, features a scan"],
-    ]
-    for rows in shown:
+    print(table(errors, tuple(errors[0])), end="\n\n")
+    for rows in (tables[name] for name in REST if name in tables):
         print(table(rows, tuple(rows[0])), end="\n\n")
 
 
