@@ -15,7 +15,7 @@ from semnav_env.commands.suggest import nearest
 if TYPE_CHECKING:
     from lark import UnexpectedToken
 
-    from semnav_env.commands.meanings import Found
+    from semnav_env.commands.parts import Found
 
 
 def parse(text: str, language: str | Language = "en", rooms: Sequence[str] = ()) -> Command:

@@ -9,7 +9,7 @@ from typing import Any
 
 from semnav_env.commands.clauses import Approach, Clause, Follow, GoToDoor
 from semnav_env.commands.command import Command, may_count_on, reference_of
-from semnav_env.commands.meanings import EnterIt, Found
+from semnav_env.commands.parts import EnterIt, Found
 from semnav_env.commands.references import DoorReference
 
 MAX_READINGS = 16

@@ -1,0 +1,119 @@
+"""The parts that a rule of a grammar is made of, told apart by what they are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias, TypeVar
+
+from lark import Token
+
+from semnav_env.commands.clauses import Clause, Follow, GoToDoor, Turn, Turning
+from semnav_env.commands.references import Distance, DoorReference, PlaceReference, Side
+
+T = TypeVar("T")
+Parts: TypeAlias = list[Any]
+
+
+@dataclass(frozen=True, slots=True)
+class EnterIt:
+    """Go through the door that was spoken of just before."""
+
+
+Steps: TypeAlias = tuple["Clause | EnterIt", ...]
+Readings: TypeAlias = tuple[Steps, ...]
+"""What a stretch of text can mean: each reading is some clauses in turn."""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a stretch of text can mean.
+
+    Attributes:
+        readings: the ways to take it.
+        start: where it begins in the text.
+        stop: where it ends.
+        anew: whether it says that counting begins anew.
+    """
+
+    readings: Readings
+    start: int
+    stop: int
+    anew: bool
+
+
+def at_reference(reference: DoorReference | PlaceReference, steps: Steps) -> Readings:
+    """The readings of "at the second intersection, turn left"."""
+    match steps[0], reference:
+        case Turn(_, None, None) as turn, PlaceReference():
+            return ((replace(turn, at=reference), *steps[1:]),)
+        case Follow(None), PlaceReference():
+            return ((Follow(reference, past=True), *steps[1:]),)
+        case Turn(Turning.LEFT | Turning.RIGHT as way, None, None), DoorReference(ordinal, side):
+            through = GoToDoor(DoorReference(ordinal, Side(way.value)))
+            there: Steps = (Follow(reference), *steps)
+            aside = side in (None, Side(way.value))
+            return (there, (through, *steps[1:])) if aside else (there,)
+    return ((Follow(reference), *steps),)
+
+
+def door_and_turn(parts: Parts) -> tuple[DoorReference, Turn]:
+    """A door without its side, and the turn to that side.
+
+    Raises:
+        ValueError: it has none.
+    """
+    door = one(parts, DoorReference)
+    if door.side not in (Side.LEFT, Side.RIGHT):
+        raise ValueError("to the left or to the right? say which")
+    return replace(door, side=None), Turn(Turning(door.side.value))
+
+
+def sure(clause: Clause) -> Readings:
+    """The one reading of a clause that can be taken in one way only."""
+    return ((clause,),)
+
+
+def one(parts: Parts, kind: type[T]) -> T:
+    """The first part of a kind; there must be one."""
+    return next(part for part in parts if isinstance(part, kind))
+
+
+def reference_in(parts: Parts) -> Any:
+    """The first door, place or distance among the parts; None without."""
+    kinds = DoorReference | PlaceReference | Distance
+    return next((part for part in parts if isinstance(part, kinds)), None)
+
+
+def ordinal_in(parts: Parts) -> int:
+    """The ordinal among the parts; 1 without."""
+    return next((part for part in parts if isinstance(part, int)), 1)
+
+
+def whole(number: float) -> int:
+    """A whole number.
+
+    Raises:
+        ValueError: it is none.
+    """
+    if number != int(number):
+        raise ValueError(f"{number:g} is not a whole number")
+    return int(number)
+
+
+def side_in(parts: Sequence[Any]) -> Side | None:
+    """The side among the parts; None without.
+
+    Raises:
+        ValueError: there are two different ones.
+    """
+    sides = {*members(parts, Side), *(part for part in parts if isinstance(part, Side))}
+    if len(sides) > 1:
+        raise ValueError(f"a door is not {' and '.join(sorted(sides))} at once")
+    return sides.pop() if sides else None
+
+
+def members(parts: Sequence[Any], kind: Any) -> list[Any]:
+    """The members of an enumeration that terminals among the parts are named after."""
+    tokens = [part for part in parts if isinstance(part, Token)]
+    return [kind[token.type] for token in tokens if token.type in kind.__members__]
