@@ -11,7 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
+from semnav_env.evaluation.drift import drift_of
 from semnav_env.evaluation.matching import (
+    COVERED,
     PairError,
     PairSpec,
     errors_of,
@@ -67,6 +69,8 @@ class Arguments:
         sheets = [Sheet("Simulated pairs", _SIMULATED, rows)] if rows else []
         if self.logs:
             sheets.append(Sheet("Successive scans", _REAL, [*map(self._real, self.logs)]))
+            drifts = [self._drift(path, wheels) for path in self.logs for wheels in (False, True)]
+            sheets.append(Sheet("Odometry from scans", _DRIFT, drifts))
         if self.json:
             print(json.dumps({sheet.title: sheet.records() for sheet in sheets}))
         else:
@@ -90,10 +94,30 @@ class Arguments:
         middle = np.median(table.reshape(-1, 4), axis=0) * _REAL_UNITS if found else _NOTHING
         return path.name.split(".")[0], len(found), *map(float, middle)
 
+    def _drift(self, path: Path, wheels: bool) -> tuple[Cell, ...]:
+        with open_log(path) as log:
+            records = tracked(
+                itertools.islice(log, 0, None, self.every),
+                lambda n: f"{n} scans followed",
+                lambda: log.fraction,
+            )
+            drift = drift_of(records, wheels, self.settings)
+        guide = "wheels" if wheels else "the motion before"
+        told = (path.name.split(".")[0], guide, drift.scans, drift.path, drift.lost)
+        if not len(drift.position):
+            return *told, *_NOTHING
+        position = np.percentile(drift.position, (50, 90))
+        angle = np.degrees(np.percentile(drift.angle, (50, 90)))
+        return *told, *map(float, (*position, *angle))
+
 
 _SIMULATED = (
     *("plan", "sigma, mm", "pairs", "position, mm", "p90", "heading, degrees", "p90 "),
-    *("mean NEES", "undetermined", "ms"),
+    *("mean NEES", "covered at 95 %", "undetermined", "ms"),
+)
+_DRIFT = (
+    *("log", "guess from", "scans", "way, m", "not matched", "drift per 10 m, m", "p90"),
+    *("degrees", "p90 "),
 )
 _REAL = ("log", "scans", "to its poses, mm", "degrees", "loop of three, mm", "degrees ")
 _REAL_UNITS = np.array((1e3, math.degrees(1.0), 1e3, math.degrees(1.0)))
@@ -117,6 +141,7 @@ def _simulated_row(errors: list[PairError]) -> tuple[Cell, ...]:
         len(errors),
         *map(float, (*position, *angle)),
         float(np.mean([error.nees for error in errors])),
+        float(np.mean([error.nees < COVERED for error in errors])),
         sum(error.undetermined for error in errors),
         float(np.median([error.seconds for error in errors])) * 1e3,
     )

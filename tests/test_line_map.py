@@ -14,7 +14,7 @@ from shapely import LineString, box
 from semnav_env.features import Scene, extract
 from semnav_env.features.elements import Wall
 from semnav_env.features.frames import compose, to_parent
-from semnav_env.features.mapping import LineMap, MapSettings, ScanOdometry
+from semnav_env.features.mapping import KeyframeRule, LineMap, MapSettings, ScanOdometry
 from semnav_env.features.mapping.doubles import without_doubles
 from semnav_env.features.mapping.evidence import CELL
 from semnav_env.features.mapping.lines import Line, fuse, gap, line_of
@@ -278,3 +278,25 @@ def test_a_scan_that_shows_nothing_is_lost_and_no_more():
         odometry.update((blind if step == 5 else lidar).scan(pose, key=(0, 0, step)))
     assert odometry.lost == 1
     assert odometry.pose == pytest.approx((0.9, 0.0, 0.0), abs=0.06)
+
+
+def test_a_scan_of_another_place_is_not_believed():
+    """It shows something, and some of it fits; the next ones go on as the wheels said."""
+    lidar, odometry = Lidar(OFFICE), ScanOdometry()
+    for step in range(10):
+        seen_from = (17.0, 12.0, 1.0) if step == 5 else (8.0 + 0.1 * step, 9.1, 0.0)
+        odometry.update(lidar.scan(seen_from, key=(0, 0, step)), (0.1, 0.0, 0.0) if step else None)
+    assert odometry.lost == 1
+    assert odometry.pose == pytest.approx((0.9, 0.0, 0.0), abs=0.06)
+
+
+def test_through_a_door_the_scan_before_becomes_the_keyframe():
+    """The room shows little of what the corridor did, and the other way round."""
+    lidar = Lidar(OFFICE)
+    poses = [(11.2, 9.1 + 0.1 * step, 0.5 * math.pi) for step in range(30)]
+    odometry = ScanOdometry(rule=KeyframeRule(distance=100.0))
+    for step, pose in enumerate(poses):
+        found = compose(poses[0], odometry.update(lidar.scan(pose, key=(0, 0, step))))
+    assert odometry.lost == 0
+    assert 1 < odometry.keyframes < 20
+    assert found == pytest.approx(poses[-1], abs=0.05)

@@ -13,7 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import box
 
+from semnav_env.evaluation.drift import drift_of
 from semnav_env.evaluation.matching import (
+    COVERED,
     PairSpec,
     errors_of,
     log_differences,
@@ -150,7 +152,7 @@ def test_the_covariance_covers_the_error(sigma):
     """
     nees = np.array([error.nees for error in some_errors(sigma, 100)])
     assert 3.0 / 2.0 < nees.mean() < 3.0 * 1.6
-    assert np.mean(nees < 7.815) > 0.85  # 95 % if it were exact
+    assert np.mean(nees < COVERED) > 0.85  # 95 % if it were exact
 
 
 @pytest.mark.parametrize("name", ["GDC1", "AHG2"])
@@ -166,7 +168,7 @@ def test_exact_pairs_in_a_vector_map_match_to_a_millimetre_and_know_how_well(nam
     errors = list(errors_of(itertools.islice(pairs, 100)))
     assert np.median([error.position for error in errors]) < 0.0013
     assert np.median([error.angle for error in errors]) < math.radians(0.014)
-    assert np.mean([error.nees < 7.815 for error in errors]) > 0.9  # 95 % if it were exact
+    assert np.mean([error.nees < COVERED for error in errors]) > 0.9  # 95 % if it were exact
 
 
 def test_real_scans_match_as_well_as_their_poses_are_known():
@@ -178,6 +180,18 @@ def test_real_scans_match_as_well_as_their_poses_are_known():
     assert np.median([difference.position for difference in found]) < 0.023
     assert np.median([difference.angle for difference in found]) < math.radians(0.44)
     assert np.median([difference.loop_position for difference in found]) < 0.01
+
+
+@pytest.mark.parametrize("wheels", [False, True])
+def test_the_drift_of_a_real_log_is_centimetres_in_ten_metres(wheels):
+    if not FREIBURG.exists():
+        pytest.skip(f"{FREIBURG} is missing")
+    with open_log(FREIBURG) as log:
+        drift = drift_of(itertools.islice(log, 800), wheels)
+    assert drift.path > 30.0
+    assert drift.lost < 8
+    assert np.median(drift.position) < 0.15
+    assert np.median(drift.angle) < math.radians(2.0)
 
 
 @pytest.mark.parametrize(

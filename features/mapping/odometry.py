@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from semnav_env.features.frames import Pose, compose, relative
 from semnav_env.features.mapping.matching import (
@@ -26,20 +27,31 @@ class KeyframeRule:
         distance: from the last keyframe, metres.
         angle: turned since, radians.
         inliers: a smaller share of the scan's points lies on the keyframe.
+        trusted: with a smaller share a scan counts as not matched.
         lost: so many scans in a row could not be matched; one that can't be is no keyframe.
     """
 
     distance: float = 0.5
     angle: float = math.radians(20.0)
     inliers: float = 0.6
+    trusted: float = 0.3
     lost: int = 3
+
+
+class _Placed(NamedTuple):
+    """A scan and where it was taken."""
+
+    surface: Surface
+    pose: Pose
 
 
 class ScanOdometry:
     """Where the lidar is in the frame of its first scan, from scans alone.
 
     Every scan is matched with the last keyframe rather than with its predecessor, so that errors
-    add up only from keyframe to keyframe. The first guess is that it moves on as it did.
+    add up only from keyframe to keyframe; where the keyframe shows too little of what the scan
+    shows, as behind a door, the predecessor becomes the keyframe. The first guess is that it moves
+    on as it did.
 
     Args:
         settings: of the matches.
@@ -63,8 +75,8 @@ class ScanOdometry:
         self.lost = 0
         self._settings = settings
         self._rule = rule
-        self._keyframe: Surface | None = None
-        self._keyframe_pose: Pose = (0.0, 0.0, 0.0)
+        self._keyframe: _Placed | None = None
+        self._last: _Placed | None = None
         self._moved: Pose = (0.0, 0.0, 0.0)
         self._lost_in_a_row = 0
 
@@ -79,29 +91,42 @@ class ScanOdometry:
             Its pose in the frame of the first scan.
         """
         surface = surface_of(scan, self._settings)
-        if self._keyframe is None:
-            self._keep(surface, self.pose)
-            return self.pose
-        guess = compose(self.pose, self._moved if moved is None else moved)
-        found = self._found(self._keyframe, surface, guess)
-        self._lost_in_a_row = 0 if found else self._lost_in_a_row + 1
-        self.lost += found is None
-        self._moved = relative(self.pose, found or guess)
-        self.pose = found or guess
+        if self._last is not None:
+            guess = compose(self.pose, self._moved if moved is None else moved)
+            found = self._found(surface, guess)
+            self._lost_in_a_row = 0 if found else self._lost_in_a_row + 1
+            self.lost += found is None
+            self._moved = relative(self.pose, found or guess)
+            self.pose = found or guess
+        self._last = _Placed(surface, self.pose)
         if self._leaves_keyframe():
-            self._keep(surface, self.pose)
+            self._keep(self._last)
         return self.pose
 
-    def _found(self, keyframe: Surface, surface: Surface, guess: Pose) -> Pose | None:
-        start = relative(self._keyframe_pose, guess)
-        try:
-            self.match = match_surfaces(keyframe, surface, start, self._settings)
-        except MatchError:
+    def _found(self, surface: Surface, guess: Pose) -> Pose | None:
+        """Where a scan was taken, matched with the keyframe or, failing that, the one before it."""
+        assert self._keyframe is not None
+        assert self._last is not None
+        self.match = self._match(self._keyframe, surface, guess)
+        if _inliers(self.match) < self._rule.inliers and self._last is not self._keyframe:
+            again = self._match(self._last, surface, guess)
+            if _inliers(again) > _inliers(self.match):
+                self.match = again
+                self._keep(self._last)
+        if _inliers(self.match) < self._rule.trusted:
             self.match = None
+        return compose(self._keyframe.pose, self.match.pose) if self.match else None
+
+    def _match(self, reference: _Placed, surface: Surface, guess: Pose) -> Match | None:
+        start = relative(reference.pose, guess)
+        try:
+            return match_surfaces(reference.surface, surface, start, self._settings)
+        except MatchError:
             return None
-        return compose(self._keyframe_pose, self.match.pose)
 
     def _leaves_keyframe(self) -> bool:
+        if self._keyframe is None:
+            return True
         if self.match is None:
             return self._lost_in_a_row >= self._rule.lost
         x, y, turn = self.match.pose
@@ -111,7 +136,12 @@ class ScanOdometry:
             or self.match.inliers < self._rule.inliers
         )
 
-    def _keep(self, surface: Surface, pose: Pose) -> None:
-        self._keyframe, self._keyframe_pose = surface, pose
+    def _keep(self, scan: _Placed) -> None:
+        self._keyframe = scan
         self.keyframes += 1
         self._lost_in_a_row = 0
+
+
+def _inliers(match: Match | None) -> float:
+    """Share of the points that lie on the reference, 0 without a match."""
+    return match.inliers if match else 0.0

@@ -26,6 +26,9 @@ Way = tuple[Point, Point]
 CLEARANCE = 0.3
 """From a sampled pose to the nearest thing, metres."""
 
+COVERED = 7.815
+"""95 % of a chi-square with three degrees of freedom lies below this."""
+
 
 @dataclass(frozen=True)
 class PairSpec:

@@ -1,0 +1,77 @@
+"""How far odometry from scans strays from the poses of a log."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray, Pose, relative
+from semnav_env.features.mapping import MatchSettings, ScanOdometry
+from semnav_env.features.readers import LogRecord
+
+STRETCH = 10.0
+"""Drift is told over ways of this length, metres."""
+
+
+@dataclass(frozen=True, eq=False)
+class Drift:
+    """Odometry against the poses of a log.
+
+    Attributes:
+        scans: how many.
+        path: length of the way, metres.
+        lost: scans that could not be matched.
+        position: error of the displacement over every way of `STRETCH` metres, metres.
+        angle: error of the turn, radians, not negative.
+    """
+
+    scans: int
+    path: float
+    lost: int
+    position: FloatArray
+    angle: FloatArray
+
+
+def drift_of(
+    records: Iterable[LogRecord], wheels: bool, settings: MatchSettings = MatchSettings()
+) -> Drift:
+    """Follow a log by its scans.
+
+    Args:
+        records: with poses to compare with.
+        wheels: whether the log's odometry guides the matches; else only the motion before does.
+        settings: of the matcher.
+
+    Raises:
+        ValueError: a record tells no pose.
+    """
+    odometry = ScanOdometry(settings)
+    last: Pose | None = None
+    found: list[Pose] = []
+    true: list[Pose] = []
+    for record in records:
+        if record.pose is None:
+            raise ValueError("the log says no poses to compare with")
+        moved = relative(last, record.odometry) if wheels and last and record.odometry else None
+        last = record.odometry
+        found.append(odometry.update(record.scan, moved))
+        true.append(record.pose)
+    steps = [math.dist(a[:2], b[:2]) for a, b in pairwise(true)]
+    way = np.concatenate(((0.0,), np.cumsum(steps)))
+    position, angle = _errors(found, true, way)
+    return Drift(len(true), float(way[-1]), odometry.lost, position, angle)
+
+
+def _errors(found: list[Pose], true: list[Pose], way: FloatArray) -> tuple[FloatArray, FloatArray]:
+    stops = np.searchsorted(way, way + STRETCH)
+    errors = [
+        relative(relative(true[i], true[j]), relative(found[i], found[j]))
+        for i, j in enumerate(stops.tolist())
+        if j < len(true)
+    ]
+    table = np.array(errors).reshape(-1, 3)
+    return np.hypot(table[:, 0], table[:, 1]), np.abs(table[:, 2])
