@@ -75,7 +75,7 @@ def match_scans(
     line. With `settings.point_to_point` the step is Procrustes' closed form instead: the rigid
     motion with the least sum of |R p_i + t - q_i|^2 (Crosilla 2003, in the plane).
 
-    The covariance is the inverse of sum w_i J_i^T J_i, J_i = (n_i, n_i x R p_i), scaled up by the
+    The covariance is the inverse of sum w_i J_i^T J_i, J_i = (n_i, R p_i x n_i), scaled up by the
     weighted mean squared residual where that exceeds one, the first guess counting as one more
     observation.
 
