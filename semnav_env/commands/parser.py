@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from semnav_env.commands.clauses import GoToRoom
@@ -50,7 +51,7 @@ def readings(
     from lark import UnexpectedToken  # here, because Lark is slow to import
 
     from semnav_env.commands.grammar import MeaninglessError, find_clauses
-    from semnav_env.commands.readings import NoDoorSpokenOfError, commands_of
+    from semnav_env.commands.readings import NoDoorSpokenOfError, TooAmbiguousError, commands_of
 
     language = language_of(language)
     normalised = normalise(text, language)
@@ -65,6 +66,8 @@ def readings(
     except NoDoorSpokenOfError as error:
         at = found[error.index]
         raise _pointed(str(error), normalised, at.start, at.stop) from None
+    except TooAmbiguousError as error:
+        raise CommandError(str(error), _beginning(text)) from None
     check_rooms(commands[0], text, rooms)
     return commands
 
@@ -89,13 +92,14 @@ def _distinct(command: Command, start: int, stop: int) -> Command:
 
 
 def _check_length(found: Sequence[Found], normalised: NormalisedText) -> None:
-    """Refuse commands that have too many clauses even in the shortest reading."""
-    shortest = [min(map(len, each.readings)) for each in found]
-    if sum(shortest) > MAX_CLAUSES:
-        counted = [sum(shortest[: index + 1]) for index in range(len(found))]
-        first = next(index for index, count in enumerate(counted) if count > MAX_CLAUSES)
-        problem = f"the command has {sum(shortest)} clauses; at most {MAX_CLAUSES} are carried out"
-        raise _pointed(problem, normalised, found[first].start, found[first].stop)
+    """Refuse commands that have too many clauses in their longest reading."""
+    counted = list(accumulate(each.longest for each in found))
+    if counted[-1] > MAX_CLAUSES:
+        first = next(
+            each for each, count in zip(found, counted, strict=True) if count > MAX_CLAUSES
+        )
+        problem = f"the command has {counted[-1]} clauses; at most {MAX_CLAUSES} are carried out"
+        raise _pointed(problem, normalised, first.start, first.stop)
 
 
 def check_rooms(command: Command, text: str, rooms: Sequence[str]) -> None:

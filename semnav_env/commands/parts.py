@@ -41,6 +41,11 @@ class Found:
     stop: int
     anew: bool
 
+    @property
+    def longest(self) -> int:
+        """Number of clauses in the longest reading."""
+        return max(sum(not isinstance(step, EnterIt) for step in each) for each in self.readings)
+
 
 def at_reference(reference: DoorReference | PlaceReference, steps: Steps) -> Readings:
     """The readings of "at the second intersection, turn left"."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise, product
@@ -19,6 +20,10 @@ Program = list[tuple[Clause, bool]]
 """Clauses, each with whether it says that counting begins anew."""
 
 
+class TooAmbiguousError(ValueError):
+    """A text has more readings than `MAX_READINGS`."""
+
+
 class NoDoorSpokenOfError(ValueError):
     """One is to go in where no door has been spoken of."""
 
@@ -32,16 +37,21 @@ def commands_of(found: Sequence[Found]) -> tuple[Command, ...]:
 
     Raises:
         NoDoorSpokenOfError: "go in" without a door before it.
-        ValueError: too many readings.
+        TooAmbiguousError: too many readings.
     """
-    count = 1
-    for each in found:
-        count *= len(each.readings)
-    if count > MAX_READINGS:
-        raise ValueError(f"the command can be taken in {count} ways; say it in other words")
+    _check_number(math.prod(len(each.readings) for each in found))
     programs = [_program(found, choice) for choice in product(*(f.readings for f in found))]
     counted = [clauses for program in programs for clauses in _countings(program)]
+    if len(counted) > MAX_READINGS:
+        raise TooAmbiguousError(
+            f"the command can be taken in {len(counted)} ways; say it in other words"
+        )
     return tuple(dict.fromkeys(Command(clauses) for clauses in counted))
+
+
+def _check_number(ways: int) -> None:
+    if ways > MAX_READINGS:
+        raise TooAmbiguousError(f"the command can be taken in {ways} ways; say it in other words")
 
 
 def _program(found: Sequence[Found], choice: Sequence[Any]) -> Program:
@@ -72,7 +82,7 @@ def _countings(program: Program) -> list[tuple[Clause, ...]]:
         nexts = [clause]
         if may_count_on(before, clause) and not anew:
             nexts.append(_counted_on(before, clause))
-        ways = [(*way, each) for way in ways for each in nexts][:MAX_READINGS]
+        ways = [(*way, each) for way in ways for each in nexts]
     return ways
 
 
