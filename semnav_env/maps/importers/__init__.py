@@ -2,15 +2,10 @@
 
 from semnav_env.maps.importers.building import load_building
 from semnav_env.maps.importers.imported import Imported, ImportReport
-from semnav_env.maps.importers.occupancy import (
-    OccupancyMap,
-    OccupancySpec,
-    Tracing,
-    read_occupancy,
-    trace,
-)
+from semnav_env.maps.importers.occupancy import OccupancyMap, OccupancySpec, read_occupancy
 from semnav_env.maps.importers.opening import import_map
 from semnav_env.maps.importers.segments import load_csv, load_vector_map
+from semnav_env.maps.importers.tracing import Tracing, trace
 
 __all__ = [
     "ImportReport",

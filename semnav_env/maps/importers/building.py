@@ -20,7 +20,8 @@ from semnav_env.maps.importers.labels import (
     read_door_labels,
     read_place_labels,
 )
-from semnav_env.maps.importers.occupancy import OccupancyMap, Tracing, read_occupancy, trace
+from semnav_env.maps.importers.occupancy import OccupancyMap, read_occupancy
+from semnav_env.maps.importers.tracing import Tracing, trace
 from semnav_env.maps.rules import FloorPlanError, check_region
 
 LONG = 4.0

@@ -6,8 +6,9 @@ from pathlib import Path
 
 from semnav_env.maps.importers.building import load_building
 from semnav_env.maps.importers.imported import Imported
-from semnav_env.maps.importers.occupancy import IMAGES, Tracing, read_occupancy, trace
+from semnav_env.maps.importers.occupancy import IMAGES, read_occupancy
 from semnav_env.maps.importers.segments import load_csv, load_vector_map
+from semnav_env.maps.importers.tracing import Tracing, trace
 from semnav_env.maps.rules import FloorPlanError
 
 KINDS = (
