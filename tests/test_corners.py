@@ -139,3 +139,18 @@ def test_a_box_off_the_wall_makes_no_corner_with_the_wall_behind(off: float, sid
     corners = full(extract(scan_of(segments, HERE, 1622)))
     assert [corner.kind for corner in corners] == [CornerKind.INNER]
     assert corners[0].point == pytest.approx((0.8, side * 0.4), abs=0.01)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.one_of(rooms(), openings(0.5, 2.5)), seeds)
+def test_at_every_loose_end_of_a_wall_is_a_corner(place: Room | Opening, seed: int) -> None:
+    rng, chosen = np.random.default_rng(seed), ExtractorSettings()
+    scene = extract(scan_of(place.segments, place.pose, sigma=0.02, rng=rng), chosen)
+    loose = [w.start for w in scene.walls if w.start_break or w.start_rupture]
+    loose += [w.end for w in scene.walls if w.end_break or w.end_rupture]
+    for end in loose:
+        assert any(
+            math.dist(end, corner.point)
+            <= (chosen.corner_fuse if corner.kind is CornerKind.POTENTIAL else chosen.corner_gap)
+            for corner in scene.corners
+        )
