@@ -51,12 +51,18 @@ def extract(
         the scan says nothing.
 
     Raises:
-        TypeError: bare ranges were given, which do not say where their beams point.
+        TypeError: bare ranges were given, which do not say where their beams point; or settings
+            that are none.
     """
     if not isinstance(scan, Scan):
         raise TypeError(
             f"extract takes a Scan, not {type(scan).__name__}; make one of the ranges: "
             "Scan(ranges, angle_min=..., angle_increment=..., range_max=...), angles in radians"
+        )
+    if not isinstance(settings, ExtractorSettings):
+        raise TypeError(
+            f"the settings are an ExtractorSettings, not {type(settings).__name__}; "
+            "for example ExtractorSettings(sigma=0.03)"
         )
     directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
     beams = len(directions)

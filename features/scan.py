@@ -28,7 +28,8 @@ class Scan:
     turned over, so that its attributes always run counter-clockwise.
 
     Attributes:
-        ranges: distances in metres, shape (n,); any real array is accepted and copied.
+        ranges: distances in metres, shape (n,); any real array is accepted and copied; what a
+            masked array hides is no return.
         angle_min: direction of beam 0 in radians, x forward, counter-clockwise.
         angle_increment: angle between beams in radians; positive, whatever sign it was given.
         range_min: shortest valid distance in metres.
@@ -113,6 +114,7 @@ def _check_angles(angle_min: float, increment: float, beams: int) -> None:
 
 
 def _check_ranges(ranges: ArrayLike, range_max: float) -> FloatArray:
+    masked = np.ma.getmaskarray(ranges) if isinstance(ranges, np.ma.MaskedArray) else None
     raw = np.asarray(ranges)
     if raw.ndim != 1:
         raise ValueError(f"ranges have shape {raw.shape}; one scan is one-dimensional")
@@ -121,6 +123,8 @@ def _check_ranges(ranges: ArrayLike, range_max: float) -> FloatArray:
     if len(raw) == 0:
         raise ValueError("ranges are empty; a scan has at least one beam")
     array: FloatArray = raw.astype(np.float64)
+    if masked is not None:
+        array[masked] = np.nan
     _check_unit(array, range_max)
     return array
 

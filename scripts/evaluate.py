@@ -58,6 +58,8 @@ class Arguments:
             self.out.parent.mkdir(parents=True, exist_ok=True)
             self.out.write_text("".join(json.dumps(asdict(r)) + "\n" for r in results))
         self._show([_summary(trial.command, results) for trial in trials], results)
+        if self.out is not None and not self.json:
+            print(f"wrote {self.out}")
         return 0
 
     def _show(self, summaries: list[Summary], results: list[Result]) -> None:

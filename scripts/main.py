@@ -85,6 +85,10 @@ def _run(words: list[str]) -> int:
         return 0
     if rest and f"{name} {rest[0]}" in COMMANDS:
         name, rest = f"{name} {rest[0]}", rest[1:]
+    elif rest and not rest[0].startswith("-"):
+        near = difflib.get_close_matches(f"{name} {rest[0]}", COMMANDS, n=1, cutoff=0.9)
+        if near:
+            raise ValueError(f"no command '{name} {rest[0]}'; did you mean '{near[0]}'?")
     if name not in COMMANDS:
         near = difflib.get_close_matches(name, COMMANDS, n=1)
         hint = f"did you mean {near[0]!r}? " if near else ""
@@ -100,7 +104,8 @@ def _run(words: list[str]) -> int:
 
 
 def _help() -> str:
-    commands = "\n".join(f"  {name:<19}{help}" for name, (_, help) in COMMANDS.items())
+    width = max(map(len, COMMANDS)) + 2
+    commands = "\n".join(f"  {name:<{width}}{help}" for name, (_, help) in COMMANDS.items())
     return (
         "usage: semnav COMMAND ...\n\nSemantic indoor navigation: see, understand, drive.\n\n"
         f"commands:\n{commands}\n\n"

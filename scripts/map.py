@@ -51,6 +51,8 @@ class Show:
         if self.out:
             _draw(plan, self.out)
         print(json.dumps(summary(plan)) if self.json else _paragraph(summary(plan)))
+        if self.out and not self.json:
+            print(f"wrote {self.out}")
         return 0
 
 

@@ -110,6 +110,8 @@ class Build:
             print(json.dumps(counts))
         else:
             print("{scans} scans, {walls} walls, {doors} doors\nwrote {out}".format(**counts))
+            if self.picture:
+                print(f"wrote {self.picture}")
 
     def _check(self) -> None:
         for name in ("every", "limit"):

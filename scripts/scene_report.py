@@ -11,6 +11,7 @@ from typing import Any
 
 from semnav_env.features import Scene
 from semnav_env.features.readers import LogRecord, ScanLog
+from semnav_env.features.scene import Door
 
 _KINDS = ("walls", "doors", "corners", "corridors", "arcs")
 
@@ -27,15 +28,23 @@ def document(record: LogRecord, scene: Scene) -> dict[str, Any]:
         "pose": record.pose,
         "odometry": record.odometry,
         "walls": [_rounded(asdict(wall)) for wall in scene.walls],
-        "doors": [
-            _rounded(dict(start=d.start, end=d.end, midpoint=d.midpoint, width=d.width))
-            for d in scene.doors
-        ],
+        "doors": [_rounded(_door(door)) for door in scene.doors],
         "corners": [_rounded(asdict(corner)) for corner in scene.corners],
         "corridors": [
             _rounded(dict(start=c.start, end=c.end, midpoint=c.midpoint)) for c in scene.corridors
         ],
         "arcs": [_rounded(asdict(arc)) for arc in scene.arcs],
+    }
+
+
+def _door(door: Door) -> dict[str, Any]:
+    return {
+        "start": door.start,
+        "end": door.end,
+        "midpoint": door.midpoint,
+        "width": door.width,
+        "confidence": door.confidence,
+        "leaf": None if door.leaf is None else asdict(door.leaf),
     }
 
 

@@ -320,3 +320,9 @@ def test_the_bar_appears_only_for_what_takes_long(capsys, monkeypatch):
 
     assert seen(60.0) == ""
     assert "3 letters" in seen(0.0)
+
+
+def test_a_misspelt_second_word_is_answered_with_the_right_one(capsys):
+    code, _, error = run(capsys, "evaluate", "feature")
+    assert code == 2
+    assert "did you mean 'evaluate features'?" in error

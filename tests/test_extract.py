@@ -341,3 +341,8 @@ def test_the_doors_of_a_real_hallway_are_seen_from_it() -> None:
     assert sightings > 50
     assert found >= 0.95 * sightings
     assert false <= 0.05 * detections
+
+
+def test_settings_that_are_none_are_refused_with_what_they_must_be() -> None:
+    with pytest.raises(TypeError, match="ExtractorSettings, not dict"):
+        extract(Scan([1.0, 1.0], 0.0, 0.1), {"sigma": 0.02})  # type: ignore[arg-type]

@@ -93,3 +93,9 @@ def test_read_only_arrays_and_views_are_accepted() -> None:
     ranges = np.arange(1.0, 7.0)
     ranges.setflags(write=False)
     assert Scan(ranges[::-2], 0.0, 0.1).ranges.tolist() == [6.0, 4.0, 2.0]
+
+
+def test_what_a_masked_array_hides_is_no_return() -> None:
+    ranges = np.ma.masked_greater(np.array([1.0, 2.0, 5.0, 3.0]), 4.0)
+    scan = Scan(ranges, 0.0, 0.1)
+    np.testing.assert_array_equal(scan.valid, [True, True, False, True])
