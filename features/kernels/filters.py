@@ -8,7 +8,7 @@ from typing import Any
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.breakpoints import breakpoint_reach, incidence_factor
+from semnav_env.features.kernels.breakpoints import Reach, breakpoint_reach, incidence_factor
 from semnav_env.features.kernels.segmentation import is_return
 
 MOST_VEILED = 2
@@ -42,9 +42,12 @@ def filter_ranges(
         repeat(ranges, beams, range_min, limit, clear)
         ranges = clear
     if settings.median_beams > 0:
-        smooth = scratch.smooth[: len(ranges)]
+        smooth, half = scratch.smooth[: len(ranges)], settings.median_beams
+        reach = breakpoint_reach(increment, settings)
         for i in range(beams):
-            smooth[i] = median(ranges, i, increment, range_min, limit, turn, settings, scratch)
+            smooth[i] = median(
+                ranges, i, increment, range_min, limit, turn, half, reach, scratch.window
+            )
         repeat(ranges, beams, range_min, limit, smooth)
         ranges = smooth
     return ranges
@@ -168,23 +171,23 @@ def median(
     range_min: float,
     limit: float,
     turn: int,
-    settings: Any,
-    scratch: Any,
+    half: int,
+    reach: Reach,
+    window: FloatArray,
 ) -> float:
-    """The median of a beam and `median_beams` on either side, where that moves no edge.
+    """The median of a beam and the `half` beams on either side, where that moves no edge.
 
     That is within a surface, where all of these are joined by the breakpoint rule, and in a run
-    of at most `median_beams` joined to nothing on either side: an outlier.
+    of at most `half` joined to nothing on either side: an outlier.
     """
     at = return_at(ranges, i, range_min, limit, turn)
-    half = settings.median_beams
-    left = joined_beams(ranges, i, -1, increment, range_min, limit, turn, settings)
-    right = joined_beams(ranges, i, 1, increment, range_min, limit, turn, settings)
+    left = joined_beams(ranges, i, -1, increment, range_min, limit, turn, half, reach)
+    right = joined_beams(ranges, i, 1, increment, range_min, limit, turn, half, reach)
     within = left == half and right == half
     alone = min(left, right) >= 0 and left + right < half
     if not (within or alone):
         return float(ranges[i])
-    window, count = scratch.window, 0
+    count = 0
     for k in range(i - half, i + half + 1):
         value = return_at(ranges, k, range_min, limit, turn)
         if value == value:
@@ -206,21 +209,22 @@ def joined_beams(
     range_min: float,
     limit: float,
     turn: int,
-    settings: Any,
+    half: int,
+    reach: Reach,
 ) -> int:
-    """How many of the next `median_beams` beams one way are joined to beam i and one another.
+    """How many of the next `half` beams one way are joined to beam i and one another.
 
     -1 if a beam without a return follows them: what is there is not known.
     """
-    nearer, farther, previous, offset = breakpoint_reach(increment, settings)
+    nearer, farther, previous, offset = reach
     here = return_at(ranges, i, range_min, limit, turn)
-    for k in range(settings.median_beams):
+    for k in range(half):
         there = return_at(ranges, i + way * (k + 1), range_min, limit, turn)
         if not (here == here and there == there):
             return -1
         first = here if way > 0 else there
-        reach = nearer * min(here, there) + farther * max(here, there) + previous * first + offset
-        if apart(here, there, increment) > reach:
+        most = nearer * min(here, there) + farther * max(here, there) + previous * first + offset
+        if apart(here, there, increment) > most:
             return k
         here = there
-    return int(settings.median_beams)
+    return half
