@@ -80,7 +80,7 @@ class ExtractorSettings:
             is only the edge of a shadow.
         door_beams: fewest beams through an opening.
         door_confidence_min: least confidence of a door, 0 to 1: higher is fewer false doors and
-            more missed ones.
+            more missed ones. At 0.6 the F1 in simulated offices full of furniture is highest.
         one_sided_doors: accept doors with a wall in line on one side only, or on none.
         arcs: look for columns and curved walls.
         arc_radius_min: thinnest column, metres; thinner ones are legs of chairs and people.
@@ -138,7 +138,7 @@ class ExtractorSettings:
     door_recess: float = 0.2
     door_shadow: float = 0.3
     door_beams: int = 3
-    door_confidence_min: float = 0.5
+    door_confidence_min: float = 0.6
     one_sided_doors: bool = True
     arcs: bool = True
     arc_radius_min: float = 0.1

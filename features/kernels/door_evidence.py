@@ -74,31 +74,49 @@ def measure_gap(
         edge of a shadow.
     """
     first, last = gap.first, gap.last
+    start_jump = reach_beyond(ranges, directions, range_min, limit, gap, first)
+    end_jump = reach_beyond(ranges, directions, range_min, limit, gap, last)
+    if min(start_jump, end_jump) < -settings.door_shadow:
+        return False
     clear = deep = front = 0
-    depth = start_jump = end_jump = 0.0
+    depth = 0.0
     for beam in range(first, last + 1):
-        beyond = across = DEEPEST
-        if is_return(ranges[beam], range_min, limit):
-            slant = directions[beam, 0] * gap.along_y - directions[beam, 1] * gap.along_x
-            across = ranges[beam] * slant - gap.distance
-            beyond = across / slant
-        clear += beyond >= settings.door_depth
+        measured = ranges[beam]
+        if not is_return(measured, range_min, limit):
+            clear += 1
+            deep += 1
+            depth += DEEPEST
+            continue
+        slant = directions[beam, 0] * gap.along_y - directions[beam, 1] * gap.along_x
+        across = measured * slant - gap.distance
+        clear += across >= settings.door_depth * slant
         deep += across >= settings.door_recess
-        front += beyond < -FRONT
+        front += across < -FRONT * slant
         depth += min(max(across, 0.0), DEEPEST)
-        if beam == first:
-            start_jump = beyond
-        end_jump = beyond
     beams = last - first + 1
     if deep == 0 or clear < settings.door_clear_fraction * beams:
-        return False
-    if min(start_jump, end_jump) < -settings.door_shadow:
         return False
     start_jump, end_jump = max(min(start_jump, 1.0), -0.5), max(min(end_jump, 1.0), -0.5)
     evidence[4], evidence[5], evidence[6] = clear / beams, deep / beams, front / beams
     evidence[7], evidence[8] = depth / beams, math.log(beams)
     evidence[13], evidence[14] = min(start_jump, end_jump), max(start_jump, end_jump)
     return True
+
+
+@njit(cache=True, error_model="numpy")
+def reach_beyond(
+    ranges: FloatArray,
+    directions: FloatArray,
+    range_min: float,
+    limit: float,
+    gap: Any,
+    beam: int,
+) -> float:
+    """How far a beam reaches beyond the chord, along the beam, metres; far without a return."""
+    if not is_return(ranges[beam], range_min, limit):
+        return DEEPEST
+    slant = directions[beam, 0] * gap.along_y - directions[beam, 1] * gap.along_x
+    return float(ranges[beam] - gap.distance / slant)
 
 
 @njit(cache=True, error_model="numpy")

@@ -18,19 +18,17 @@ REMEMBERED_DOOR = np.dtype(
 """A remembered door: its ends, the logarithm of the odds that it is one, how often it was seen,
 and whether the last scan showed it."""
 
-SURPRISE = 0.5
-"""Taken from the log-odds of every sighting: what many scans show is mostly looked at from nearly
-the same place, and errors repeat."""
-MISSED = 0.5
-"""Taken where a scan looks through the opening but finds no door there."""
+MISSED = 0.25
+"""Taken from the log-odds where a scan looks through the opening but finds no door there: little,
+as successive scans are taken from nearly the same place."""
 FILLED = 1.0
 """Taken where a scan finds the opening filled."""
-CERTAIN = 1.5
-"""Log-odds from which a door counts: 0.82 likely."""
+CERTAIN = 1.4
+"""Log-odds from which a door counts: 0.8 likely."""
 BOUND = 6.0
 """The log-odds stay within this, so that a door that gets closed is forgotten again."""
-SUREST = 0.85
-"""No single scan is believed more than this."""
+SUREST = 0.8
+"""No single scan is believed more than this: a door takes two."""
 
 SAME_PLACE = 0.5
 """Of two doors whose middles are nearer than this only one counts, metres."""
@@ -94,7 +92,7 @@ def remember_door(door: Ends, confidence: float, memory: Any, used: int) -> int:
         Entries used afterwards.
     """
     likely = min(max(confidence, 1.0 - SUREST), SUREST)
-    speaks = math.log(likely / (1.0 - likely)) - SURPRISE
+    speaks = math.log(likely / (1.0 - likely))
     turned = (door[2], door[3], door[0], door[1])
     best, nearest, swapped = -1, SAME_JAMB, False
     for k in range(used):

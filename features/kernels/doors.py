@@ -178,11 +178,14 @@ def longest_wall(pieces: int, scratch: Any) -> tuple[float, float, float]:
 
 @njit(cache=True, error_model="numpy")
 def farthest_beam(jamb: Any, widest: float, increment: float) -> int:
-    """How many beams from a jamb the other one can be: a chord seen square on at its far end."""
+    """How many beams from a jamb the other one can be, at most.
+
+    A chord of width w from a point at distance r spans asin(w / r) or less: it is seen square on
+    at its far end. The arc sine is at most pi / 2 times its argument.
+    """
     distance = math.sqrt(jamb.x * jamb.x + jamb.y * jamb.y)
-    if distance <= widest:
-        return int(math.pi / increment) + 1
-    return int(math.asin(widest / distance) / increment) + 1
+    span = math.pi if distance <= widest else 0.5 * math.pi * widest / distance
+    return int(span / increment) + 1
 
 
 @njit(cache=True, error_model="numpy")

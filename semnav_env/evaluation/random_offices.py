@@ -1,8 +1,7 @@
 """Random furnished offices along a corridor, with the things that make real doors hard to see.
 
-Walls are thick; doors have frames, stand open at any angle or are closed in their recess; there
-are pilasters, niches, mouths of side corridors, cabinets with gaps of door width, tables and
-chairs of which a lidar sees the legs.
+Walls are thick or thin; doors have frames, stand open at any angle or are closed in their recess;
+there are pilasters, niches, mouths of side corridors, and furniture (`random_furniture`).
 """
 
 from __future__ import annotations
@@ -11,10 +10,13 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
+import shapely
 from numpy.random import Generator
 
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.evaluation.random_furniture import Furniture
+from semnav_env.features.frames import FloatArray, Pose, to_local
 from semnav_env.features.scene import Door
+from semnav_env.maps.floor_plan import FloorPlan, Surface
 
 CLEARANCE = 0.3
 """A scanner stands at least this far from everything, metres."""
@@ -26,7 +28,7 @@ class Office:
 
     Attributes:
         segments: everything that stops a beam, shape (n, 4), metres.
-        doors: the openings one may pass.
+        doors: the openings one may pass, in the middle of the wall's thickness.
         corridor: half its length and half its width, metres; it lies about the origin along x.
         depth: of the rooms to both sides, metres.
     """
@@ -35,6 +37,23 @@ class Office:
     doors: tuple[Door, ...]
     corridor: tuple[float, float]
     depth: float
+
+    @property
+    def floor_plan(self) -> FloorPlan:
+        """Its walls and furniture as a floor plan, without names."""
+        surfaces = tuple([Surface(((a, b), (c, d))) for a, b, c, d in self.segments.tolist()])
+        return FloorPlan("random_office", surfaces, (), (), (), (), shapely.box(*self._bounds))
+
+    @property
+    def _bounds(self) -> tuple[float, float, float, float]:
+        points = self.segments.reshape(-1, 2)
+        return (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
+
+    def doors_from(self, pose: Pose) -> tuple[Door, ...]:
+        """The doors in the frame of `pose`."""
+        return tuple(
+            [Door(to_local(pose, door.start), to_local(pose, door.end)) for door in self.doors]
+        )
 
     def corridor_pose(self, rng: Generator) -> Pose:
         """A free pose in the corridor."""
@@ -66,9 +85,9 @@ def random_office(rng: Generator, furnished: bool = True) -> Office:
         rng: where all the chance comes from.
         furnished: with furniture and pilasters.
     """
-    builder = _Builder(rng, furnished)
+    builder = _Builder(rng, furnished=furnished)
     half_length, half_width = rng.uniform(5.0, 9.0), rng.uniform(0.75, 1.3)
-    depth, thickness = rng.uniform(3.0, 5.5), rng.uniform(0.06, 0.2)
+    depth, thickness = rng.uniform(3.0, 5.5), rng.choice((0.02, 0.1, 0.15, 0.3))
     for side in (-1.0, 1.0):
         builder.side(side, half_length, half_width, depth, thickness)
     for end in (-1.0, 1.0):
@@ -78,22 +97,9 @@ def random_office(rng: Generator, furnished: bool = True) -> Office:
 
 
 @dataclass
-class _Builder:
-    rng: Generator
-    furnished: bool
-    segments: list[tuple[float, float, float, float]] = field(default_factory=list)
+class _Builder(Furniture):
+    furnished: bool = True
     doors: list[Door] = field(default_factory=list)
-
-    def box(self, x1: float, y1: float, x2: float, y2: float) -> None:
-        corners = [(x1, y1), (x2, y1), (x2, y2), (x1, y2)]
-        self.loop(corners)
-
-    def loop(self, corners: list[tuple[float, float]]) -> None:
-        pairs = zip(corners, corners[1:] + corners[:1], strict=True)
-        self.segments.extend((*a, *b) for a, b in pairs)
-
-    def chance(self, probability: float) -> bool:
-        return bool(self.rng.random() < probability)
 
     def side(self, side: float, half_length: float, y0: float, depth: float, thick: float) -> None:
         """One side of the corridor: rooms from left to right, each with a way in."""
@@ -128,7 +134,11 @@ class _Builder:
         far: float,
         half_length: float,
     ) -> None:
-        width = self.rng.triangular(0.72, 0.85, 1.22)
+        width = (
+            self.rng.triangular(0.72, 0.85, 1.22)
+            if self.chance(0.7)
+            else self.rng.uniform(0.72, 1.22)
+        )
         edge = self.rng.choice((0.06, 0.12, 0.25, 0.4))
         low = self.rng.uniform(x1 + edge, max(x2 - edge - width, x1 + edge + 0.01))
         wall = self.rng.uniform(-0.02, 0.02)
@@ -137,7 +147,7 @@ class _Builder:
         margin = self.rng.uniform(0.05, 0.3) if inset else 0.0
         for a, b in ((x1, low - margin), (low + width + margin, x2)):
             if b - a > 0.01:
-                self.box(a, side * near, b, side * (back + inset))
+                self.wall(side, a, b, near, back + inset)
         if inset:
             for a, b in ((low - margin, low), (low + width, low + width + margin)):
                 self.box(a, side * (near + inset), b, side * (back + inset))
@@ -149,7 +159,19 @@ class _Builder:
         self.segments.append((x1, side * far, x2, side * far))
         if self.furnished:
             self.pilasters(side, ((x1, low - 0.1), (low + width + 0.1, x2)), near)
-            self.furniture(side, x1, x2, back + inset, far, (low, low + width))
+            self.furnish(side, (x1, x2), (back + inset, far), (low, low + width))
+
+    def wall(self, side: float, x1: float, x2: float, near: float, back: float) -> None:
+        """A stretch of the corridor's wall, some with a niche as wide as a door."""
+        width, depth = self.rng.uniform(0.6, 1.2), self.rng.uniform(0.2, 0.8)
+        if not self.chance(0.2) or x2 - x1 < width + 0.3:
+            self.box(x1, side * near, x2, side * back)
+            return
+        low = self.rng.uniform(x1 + 0.1, x2 - width - 0.1)
+        high, deep = low + width, side * (near + depth)
+        self.box(x1, side * near, low, side * back)
+        self.box(high, side * near, x2, side * back)
+        self.line([(low, side * near), (low, deep), (high, deep), (high, side * near)])
 
     def door(self, side: float, x1: float, x2: float, near: float, back: float) -> None:
         """Frame and leaf; open, half-open or closed."""
@@ -190,6 +212,7 @@ class _Builder:
         self.box(x - 0.05, low, x + 0.05, start)
         self.box(x - 0.05, start + width, x + 0.05, high)
         self.doors.append(Door((x, start), (x, start + width)))
+        self.passages.append(x)
 
     def end(self, x: float, half_width: float) -> None:
         """An end of the corridor: a wall, or a door across it and more corridor behind."""
@@ -202,8 +225,7 @@ class _Builder:
         for a, b in ((-y, low), (low + width, y)):
             self.box(x - 0.05, a, x + 0.05, b)
         self.doors.append(Door((x, low), (x, low + width)))
-        self.loop([(x, -y), (beyond, -y), (beyond, y), (x, y)][:4])
-        self.segments.pop()
+        self.line([(x, -y), (beyond, -y), (beyond, y), (x, y)])
         if self.chance(0.6):
             self.corridor_leaf(x, low, low + width, math.copysign(1.0, beyond - x))
 
@@ -213,65 +235,3 @@ class _Builder:
         along, out = sense * math.cos(angle) * (y2 - y1), away * math.sin(angle) * (y2 - y1)
         start = x + 0.05 * away
         self.segments.append((start, hinge, start + out, hinge + along))
-
-    def pilasters(
-        self, side: float, stretches: tuple[tuple[float, float], ...], near: float
-    ) -> None:
-        """Pilasters, radiators, bins and cabinets along the corridor's wall."""
-        for low, high in stretches:
-            if high - low > 0.6 and self.chance(0.4):
-                width = self.rng.uniform(0.1, min(0.5, high - low))
-                a = self.rng.uniform(low, high - width)
-                self.box(a, side * near, a + width, side * (near - self.rng.uniform(0.04, 0.25)))
-
-    def furniture(
-        self,
-        side: float,
-        x1: float,
-        x2: float,
-        back: float,
-        far: float,
-        way_in: tuple[float, float],
-    ) -> None:
-        """Cabinets along the walls, tables and chairs; the way in stays free."""
-        for y, sense in ((back, 1.0), (far, -1.0)):
-            x = x1 + 0.05
-            while x < x2 - 0.5:
-                width = min(self.rng.uniform(0.4, 1.6), x2 - 0.05 - x)
-                near_door = y == back and x < way_in[1] + 0.1 and x + width > way_in[0] - 0.1
-                if not near_door and self.chance(0.5):
-                    edge = y + sense * self.rng.uniform(0.3, 0.6)
-                    self.box(x, side * y, x + width, side * edge)
-                x += width + self.rng.choice((0.0, 0.05, 0.5, 0.8, 1.0))
-        for _ in range(self.rng.integers(0, 7)):
-            x = self.rng.uniform(x1 + 0.5, x2 - 0.5)
-            self.table(x, side * self.rng.uniform(back + 1.2, max(far - 0.6, back + 1.3)))
-        for _ in range(self.rng.integers(0, 12)):
-            x, y = self.rng.uniform(x1 + 0.1, x2 - 0.1), self.rng.uniform(back + 0.3, far - 0.1)
-            if abs(x - sum(way_in) / 2) > 0.9 or y > back + 1.0:
-                self.clutter(x, side * y)
-
-    def clutter(self, x: float, y: float) -> None:
-        """Something of no particular shape, 5 to 60 cm wide."""
-        size, count = self.rng.uniform(0.03, 0.3), int(self.rng.integers(3, 7))
-        turns = np.sort(self.rng.uniform(0.0, 2.0 * math.pi, count))
-        radii = size * self.rng.uniform(0.5, 1.0, count)
-        self.loop(
-            [(x + r * math.cos(t), y + r * math.sin(t)) for r, t in zip(radii, turns, strict=True)]
-        )
-
-    def table(self, x: float, y: float) -> None:
-        """Four legs, or a solid body."""
-        width, depth, turn = *self.rng.uniform(0.4, 1.6, 2), self.rng.uniform(0.0, math.pi)
-        c, s = math.cos(turn), math.sin(turn)
-        corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-        placed = [
-            (x + (c * width * a - s * depth * b) / 2, y + (s * width * a + c * depth * b) / 2)
-            for a, b in corners
-        ]
-        if self.chance(0.3):
-            self.loop(placed)
-            return
-        leg = self.rng.uniform(0.015, 0.04)
-        for a, b in placed:
-            self.box(a - leg, b - leg, a + leg, b + leg)

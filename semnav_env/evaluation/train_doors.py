@@ -21,20 +21,22 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from semnav_env.evaluation.door_candidates import apart, candidates_of
-from semnav_env.evaluation.random_offices import Office, random_office
+from semnav_env.evaluation.random_offices import random_office
 from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import FloatArray, Pose, to_local
+from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.door_evidence import EVIDENCE
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Door
-from semnav_env.lidar.culling import Culling
-from semnav_env.lidar.raster import cast
+from semnav_env.lidar.lidar import Lidar
 from semnav_env.lidar.spec import TIM561, LidarSpec
 
 HALF_DEGREE = LidarSpec("half_degree", 361, -math.pi / 2, math.radians(0.5))
 LIDARS = (TIM561, HALF_DEGREE)
 SIGMAS = (0.0, 0.01, 0.02, 0.03)
 """Standard deviations of the simulated ranges, metres."""
+
+EDGE, MIXED = 0.1, 0.2
+"""Where neighbouring ranges differ by more, metres, this share of the beams reads a mixture."""
 
 HIT, MISS = 0.2, 0.3
 """A gap with both jambs this near to a door's is one, with a jamb farther off it is none, metres;
@@ -89,22 +91,22 @@ def simulated_scans(offices: int, poses: int, seed: int) -> Iterator[tuple[Scan,
         rng = default_rng((seed, number))
         office = random_office(rng, furnished=number % 8 != 0)
         spec = replace(LIDARS[number % 2], sigma=SIGMAS[number // 2 % len(SIGMAS)])
+        lidar = Lidar(office.floor_plan, spec)
         for k in range(poses):
             pose = office.any_pose(rng) if k % 2 else office.corridor_pose(rng)
-            doors = [
-                Door(to_local(pose, door.start), to_local(pose, door.end)) for door in office.doors
-            ]
-            yield simulate(office, spec, pose, rng), tuple(doors)
+            scan = blurred(lidar.scan(pose, (seed, number, k)), rng)
+            yield scan, office.doors_from(pose)
 
 
-def simulate(office: Office, spec: LidarSpec, pose: Pose, rng: Generator) -> Scan:
-    """A scan in an office."""
-    culling = Culling.of(office.segments, spec.range_max)
-    ranges = np.empty(spec.beams)
-    cast(*pose, culling.grid, culling.starts, culling.ends, spec.directions, spec.sensor, ranges)
-    ranges += rng.normal(0.0, 1.0, spec.beams) * spec.sigma
-    ranges[rng.random(spec.beams) < spec.dropout] = math.inf
-    return Scan(ranges, spec.angle_min, spec.angle_increment, spec.range_min, spec.range_max)
+def blurred(scan: Scan, rng: Generator) -> Scan:
+    """The scan with some beams that met an edge with half of their width, and read a mixture."""
+    ranges = scan.ranges.copy()
+    with np.errstate(invalid="ignore"):  # no return beside no return
+        jumps = np.abs(np.diff(ranges)) > EDGE
+    edges = np.flatnonzero(jumps & (rng.random(len(jumps)) < MIXED))
+    share = rng.random(len(edges))
+    ranges[edges] = share * scan.ranges[edges] + (1.0 - share) * scan.ranges[edges + 1]
+    return replace(scan, ranges=ranges)
 
 
 def fit(evidence: FloatArray, labels: FloatArray, training: Training) -> dict[str, object]:
