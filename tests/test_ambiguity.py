@@ -24,11 +24,13 @@ AMBIGUOUS = {
         "turn left at the second door",
         "go past the first door and go through the second door",
         "go back, then turn 90 degrees",
+        "take the second door, left",
     ),
     "de": (
         "die zweite Tür links",
         "geh zurück",
         "dreh dich um 90 Grad",
+        "nimm die zweite Tür, links",
         "bieg an der zweiten Tür links ab",
         "geh an der ersten Tür vorbei und dann durch die zweite Tür",
     ),
@@ -65,6 +67,14 @@ def test_the_clauses_that_all_readings_share_are_left_out() -> None:
     to, through = "go to the first door on the right", "go through the first door on the right"
     assert [each.split(", ")[-1].split(" and ")[-1] for each in error.differences] == [to, through]
     assert all("around" not in each for each in error.differences)
+
+
+def test_a_bare_side_is_a_turn_unless_it_can_be_that_of_a_door() -> None:
+    turns = "left, right, left, right, left, right, left, right"
+    assert str(parse(turns)).count("turn") == 8
+    assert str(parse("take the second door and left")) == "go through the second door and turn left"
+    assert len(readings("take the second door on the right, left")) == 1
+    assert len(readings("take the second door, left")) == 2
 
 
 def test_from_there_counting_begins_anew() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 from lark import Lark, Token
@@ -58,13 +59,25 @@ def find_clauses(language: Language, text: str, rooms: tuple[str, ...] = ()) -> 
     spoken = {_spoken(name): name for name in rooms}
     tree = _tree(language, text, tuple(spoken))
     try:
-        return meanings_of(tree, language, spoken)
+        return _apart(meanings_of(tree, language, spoken), text)
     except VisitError as error:
         if not isinstance(error.orig_exc, ValueError):
             raise
         meta: Any = getattr(error.obj, "meta", None)
         start, stop = getattr(meta, "start_pos", 0), getattr(meta, "end_pos", len(text))
         raise MeaninglessError(str(error.orig_exc), start, stop) from None
+
+
+def _apart(found: list[Found], text: str) -> list[Found]:
+    """Let a bare side speak of a door only right after one without a side: "the door, left".
+
+    After "and" or "then" it is a turn.
+    """
+    apart = found[:1] and [found[0].without_asides()]
+    for before, each in pairwise(found):
+        joined = any(map(str.isalpha, text[before.stop : each.start]))
+        apart.append(each if before.wants_side and not joined else each.without_asides())
+    return apart
 
 
 def _tree(language: Language, text: str, rooms: tuple[str, ...]) -> Any:

@@ -27,6 +27,7 @@ from semnav_env.commands.language import Language
 from semnav_env.commands.parts import (
     EnterIt,
     Found,
+    OnThatSide,
     Parts,
     Readings,
     at_reference,
@@ -86,6 +87,10 @@ class _Meanings(Transformer[Token, list[Found]]):
 
     def turn(self, parts: Parts) -> Readings:
         return sure(Turn(*members(parts, Turning)))
+
+    def aside(self, parts: Parts) -> Readings:
+        (way,) = members(parts, Turning)
+        return (Turn(way),), (OnThatSide(Side(way.value)),)
 
     def turn_twice(self, parts: Parts) -> Readings:
         return ((Turn(*members(parts, Turning)),) * 2,)

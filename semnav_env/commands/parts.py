@@ -20,7 +20,14 @@ class EnterIt:
     """Go through the door that was spoken of just before."""
 
 
-Steps: TypeAlias = tuple["Clause | EnterIt", ...]
+@dataclass(frozen=True, slots=True)
+class OnThatSide:
+    """The door that was spoken of just before is on this side: "the second door, left"."""
+
+    side: Side
+
+
+Steps: TypeAlias = tuple["Clause | EnterIt | OnThatSide", ...]
 Readings: TypeAlias = tuple[Steps, ...]
 """What a stretch of text can mean: each reading is some clauses in turn."""
 
@@ -42,9 +49,23 @@ class Found:
     anew: bool
 
     @property
+    def wants_side(self) -> bool:
+        """Whether it ends with a door whose side is left open."""
+        ends = [reading[-1] for reading in self.readings]
+        return any(isinstance(end, GoToDoor) and end.door.side is None for end in ends)
+
+    def without_asides(self) -> Found:
+        """The same without the readings in which it speaks of the door before."""
+        kept = [r for r in self.readings if not any(isinstance(s, OnThatSide) for s in r)]
+        return replace(self, readings=tuple(kept))
+
+    @property
     def longest(self) -> int:
         """Number of clauses in the longest reading."""
-        return max(sum(not isinstance(step, EnterIt) for step in each) for each in self.readings)
+        return max(
+            sum(not isinstance(step, EnterIt | OnThatSide) for step in each)
+            for each in self.readings
+        )
 
 
 def at_reference(reference: DoorReference | PlaceReference, steps: Steps) -> Readings:

@@ -10,7 +10,7 @@ from typing import Any
 
 from semnav_env.commands.clauses import Approach, Clause, Follow, GoToDoor
 from semnav_env.commands.command import Command, may_count_on, reference_of
-from semnav_env.commands.parts import EnterIt, Found
+from semnav_env.commands.parts import EnterIt, Found, OnThatSide
 from semnav_env.commands.references import DoorReference
 
 MAX_READINGS = 16
@@ -41,7 +41,7 @@ def commands_of(found: Sequence[Found]) -> tuple[Command, ...]:
     """
     _check_number(math.prod(len(each.readings) for each in found))
     programs = [_program(found, choice) for choice in product(*(f.readings for f in found))]
-    counted = [clauses for program in programs for clauses in _countings(program)]
+    counted = [clauses for program in programs if program for clauses in _countings(program)]
     if len(counted) > MAX_READINGS:
         raise TooAmbiguousError(
             f"the command can be taken in {len(counted)} ways; say it in other words"
@@ -55,11 +55,18 @@ def _check_number(ways: int) -> None:
 
 
 def _program(found: Sequence[Found], choice: Sequence[Any]) -> Program:
+    """The clauses of one reading; none if it gives a side to no door."""
     program: Program = []
     for index, (each, steps) in enumerate(zip(found, choice, strict=True)):
         for number, step in enumerate(steps):
             if isinstance(step, EnterIt):
                 program[-1:] = [_entered(program, index)]
+            elif isinstance(step, OnThatSide):
+                before = program[-1][0] if program else None
+                if not isinstance(before, GoToDoor) or before.door.side is not None:
+                    return []
+                door = replace(before.door, side=step.side)
+                program[-1:] = [(replace(before, door=door), program[-1][1])]
             else:
                 program.append((step, each.anew and number == 0))
     return program
