@@ -240,6 +240,8 @@ def wall_misfit(
             continue
         allowed = settings.door_point_tolerance + settings.door_angle_tolerance * gap.width
         misfit = misfit_at(wall, far_x, far_y, allowed, settings)
+        if misfit >= best:
+            continue
         misfit = max(misfit, misfit_at(wall, x, y, settings.door_point_tolerance, settings))
         if misfit < best:
             best, length = misfit, min(wall.length, LONGEST_SUPPORT)
