@@ -246,14 +246,14 @@ def incidence(wall):
 def test_extraction_of_truth_scans_returns_nearly_all_doors_in_good_view(name):
     rng = np.random.default_rng(0)
     gate, doors, found = Gate(reach=5.0), 0, 0
-    for case in draw_cases(load_floor_plan(name), 40, (0.0,), False, rng):
+    for case in draw_cases(load_floor_plan(name), 150, (0.0,), False, rng):
         scan = case.scans[0][1]
         seen = extract(scan).doors
         for door in case.truth.doors:
             if gate.view(scan, door.start, door.end) is View.GATED:
                 doors += 1
                 found += any(matches(other, door.start, door.end) for other in seen)
-    assert doors > 10
+    assert doors > 50
     assert found >= 0.8 * doors
 
 
