@@ -18,9 +18,9 @@ from semnav_env.features import ExtractorSettings
 from semnav_env.features.elements import Door
 from semnav_env.features.frames import compose, to_local, to_parent
 from semnav_env.features.mapping import MapSettings
+from semnav_env.features.mapping.doorway import Passage
 from semnav_env.features.mapping.map_door import MapDoor
 from semnav_env.features.mapping.map_doors import MapDoors
-from semnav_env.features.mapping.passage import Passage
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, Surface
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from semnav_env.features.elements import Door
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.mapping.passage import Passage
+from semnav_env.features.mapping.doorway import Passage
 
 
 @dataclass(slots=True, eq=False)

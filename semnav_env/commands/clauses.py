@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import re
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeAlias
@@ -37,14 +38,14 @@ class Approach(StrEnum):
     THROUGH = "through"
 
 
-class _Said:
+class _Said(ABC):
     """A clause that says itself."""
 
     __slots__ = ()
 
+    @abstractmethod
     def say(self, language: Language) -> str:
         """In the words of a language."""
-        raise NotImplementedError
 
     def __str__(self) -> str:
         return self.say(english())
