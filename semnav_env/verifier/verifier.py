@@ -1,49 +1,30 @@
-"""Says, clause by clause, whether a command was carried out. It alone knows the floor plan."""
+"""The verifier: follows one episode on the true scene and judges it."""
 
 from __future__ import annotations
 
 import math
-from enum import StrEnum
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from semnav_env.commands import Command, encode
-from semnav_env.commands.clauses import Turn
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local
-from semnav_env.features.hallway import Opening
+from semnav_env.commands import Clause, Command, encode
+from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, GoalKind, first_crossed
-from semnav_env.grounding.situation import GroundingError
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor
 from semnav_env.maps.geodesic import Geodesic, WaysTo
-
-ASTRAY = 1.2
-"""A wrong turn is taken when the robot is this far inside an arm it should not be in, metres."""
+from semnav_env.verifier.astray import went_astray
+from semnav_env.verifier.goals import place, plan_goals
+from semnav_env.verifier.verdict import Verdict, verdicts
 
 STILL_FOR = 10.0
 """After standing still for so long before the end, the robot has stopped short, seconds."""
 
 STILL = 0.02
 """Slower than this is standing still, m/s."""
-
-
-class Verdict(StrEnum):
-    """What became of a clause or of a command."""
-
-    PENDING = "pending"
-    ACTIVE = "active"
-    DONE = "done"
-    WRONG_DOOR = "wrong door"
-    WRONG_TURN = "wrong turn"
-    STOPPED_SHORT = "stopped short"
-    OUT_OF_TIME = "out of time"
-
-
-FAILURES = (Verdict.WRONG_DOOR, Verdict.WRONG_TURN, Verdict.STOPPED_SHORT, Verdict.OUT_OF_TIME)
 
 
 class Motion(NamedTuple):
@@ -138,7 +119,7 @@ class Verifier:
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
         """One per clause."""
-        return _verdicts(len(self.command.clauses), self.follower.active, self.failure)
+        return verdicts(len(self.command.clauses), self.follower.active, self.failure)
 
     @property
     def remaining(self) -> float:
@@ -174,6 +155,11 @@ class Verifier:
     def _scene(self) -> Scene:
         return self.floor_plan.scene
 
+    @property
+    def _clause(self) -> Clause:
+        clauses = self.command.clauses
+        return clauses[min(self.follower.active, len(clauses) - 1)]
+
     def _judge(self, goal: Goal, completed: bool, pose: Pose) -> None:
         crossed = self._crossed_door(pose)
         if crossed is not None:
@@ -181,7 +167,7 @@ class Verifier:
         if (self.failure is None and not self.follower.done) or completed:
             if crossed is not None and not _is_door_of(goal, crossed):
                 self.failure = Verdict.WRONG_DOOR
-            elif not completed and self._went_astray(goal, pose):
+            elif not completed and went_astray(self._clause, goal, pose):
                 self.failure = Verdict.WRONG_TURN
             elif not self.follower.done and self._still > STILL_FOR:
                 self.failure = Verdict.STOPPED_SHORT
@@ -190,60 +176,7 @@ class Verifier:
         index = first_crossed(self._door_ends, *self._last[:2], *pose[:2])
         return None if index < 0 else self.floor_plan.doors[index]
 
-    def _went_astray(self, goal: Goal, pose: Pose) -> bool:
-        """Whether the robot left the hallway by an arm that the clause does not name."""
-        if goal.hallway is None:
-            return False
-        along, offset = to_local(goal.hallway.frame, (pose[0], pose[1]))
-        for junction in goal.hallway.junctions if abs(offset) > ASTRAY else ():
-            for opening in (junction.left, junction.right):
-                if opening is None or not opening.near < along < opening.far:
-                    continue
-                depth = (offset if opening.left else -offset) - opening.offset
-                named = goal.junction is junction and self._is_named(opening)
-                if depth > ASTRAY and opening.far > 0.5 and not named:
-                    return True
-        return goal.junction is not None and along > goal.junction.far + 2 * ASTRAY
-
-    def _is_named(self, opening: Opening) -> bool:
-        clause = self.command.clauses[min(self.follower.active, len(self.command.clauses) - 1)]
-        return isinstance(clause, Turn) and clause.turning.value == (
-            "left" if opening.left else "right"
-        )
-
-
-def plan_goals(floor_plan: FloorPlan, command: Command, start: Pose) -> tuple[Goal, ...]:
-    """The goals of a command on the true scene, each grounded where the one before ends.
-
-    Raises:
-        GroundingError: a clause cannot be carried out.
-    """
-    follower = Follower(command, complete=True)
-    follower.start(floor_plan.scene, start)
-    goals = []
-    while not follower.done:
-        if follower.impossible is not None:
-            raise GroundingError(follower.impossible)
-        goals.append(follower.goal)
-        follower.skip_to_next(floor_plan.scene)
-    return tuple(goals)
-
-
-def place(goal: Goal) -> Point:
-    """The point that a goal leads to: the middle of the doorway to cross, else its pose."""
-    if goal.kind is GoalKind.PASS and goal.door is not None:
-        return goal.door.midpoint
-    return goal.pose[:2]
-
 
 def _is_door_of(goal: Goal, crossed: PlanDoor) -> bool:
     """Whether a goal is to pass that very door."""
     return goal.kind is GoalKind.PASS and goal.door is not None and goal.door.name == crossed.name
-
-
-@lru_cache(maxsize=256)
-def _verdicts(clauses: int, active: int, failure: Verdict | None) -> tuple[Verdict, ...]:
-    """Done, then what became of the active clause, then pending."""
-    rest = clauses - active - 1
-    done = (Verdict.DONE,) * active
-    return done if rest < 0 else (*done, failure or Verdict.ACTIVE, *(Verdict.PENDING,) * rest)

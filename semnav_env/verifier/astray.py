@@ -1,0 +1,39 @@
+"""Wrong turns: arms of junctions that a clause does not name."""
+
+from __future__ import annotations
+
+from semnav_env.commands.clauses import Clause, Turn
+from semnav_env.features.frames import Pose, to_local
+from semnav_env.features.hallway import Opening
+from semnav_env.grounding.goal import Goal
+
+ASTRAY = 1.2
+"""A wrong turn is taken when the robot is this far inside an arm it should not be in, metres."""
+
+
+def went_astray(clause: Clause, goal: Goal, pose: Pose) -> bool:
+    """Whether the robot left the hallway by an arm that the clause does not name.
+
+    Args:
+        clause: under way.
+        goal: of that clause, on the true scene.
+        pose: of the robot's centre, world frame.
+    """
+    if goal.hallway is None:
+        return False
+    along, offset = to_local(goal.hallway.frame, (pose[0], pose[1]))
+    for junction in goal.hallway.junctions if abs(offset) > ASTRAY else ():
+        for opening in (junction.left, junction.right):
+            if opening is None or not opening.near < along < opening.far:
+                continue
+            depth = (offset if opening.left else -offset) - opening.offset
+            named = goal.junction is junction and _names(clause, opening)
+            if depth > ASTRAY and opening.far > 0.5 and not named:
+                return True
+    return goal.junction is not None and along > goal.junction.far + 2 * ASTRAY
+
+
+def _names(clause: Clause, opening: Opening) -> bool:
+    return isinstance(clause, Turn) and clause.turning.value == (
+        "left" if opening.left else "right"
+    )

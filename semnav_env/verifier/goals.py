@@ -1,0 +1,34 @@
+"""What a command asks for on the true scene."""
+
+from __future__ import annotations
+
+from semnav_env.commands import Command
+from semnav_env.features.frames import Point, Pose
+from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.situation import GroundingError
+from semnav_env.maps.floor_plan import FloorPlan
+
+
+def plan_goals(floor_plan: FloorPlan, command: Command, start: Pose) -> tuple[Goal, ...]:
+    """The goals of a command on the true scene, each grounded where the one before ends.
+
+    Raises:
+        GroundingError: a clause cannot be carried out.
+    """
+    follower = Follower(command, complete=True)
+    follower.start(floor_plan.scene, start)
+    goals = []
+    while not follower.done:
+        if follower.impossible is not None:
+            raise GroundingError(follower.impossible)
+        goals.append(follower.goal)
+        follower.skip_to_next(floor_plan.scene)
+    return tuple(goals)
+
+
+def place(goal: Goal) -> Point:
+    """The point that a goal leads to: the middle of the doorway to cross, else its pose."""
+    if goal.kind is GoalKind.PASS and goal.door is not None:
+        return goal.door.midpoint
+    return goal.pose[:2]
