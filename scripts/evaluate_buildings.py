@@ -15,9 +15,8 @@ from semnav_env.evaluation.buildings import (
     building_sheet,
     find_buildings,
     look_around,
-    map_row,
-    map_sheet,
 )
+from semnav_env.evaluation.map_doorways import map_row, map_sheet
 from semnav_env.evaluation.sheets import Cell
 from semnav_env.features import ExtractorSettings
 from semnav_env.scripts.progress import tracked
@@ -60,8 +59,8 @@ class Arguments:
             widths = f"{self.settings.door_width_min} to {self.settings.door_width_max} m"
             rows.append(building_row(f"{name}, {widths}", looks, self.settings))
             rows.append(building_row(f"{name}, all", looks, None))
-            if building.plan.regions:
-                mapped.append(map_row(name, building))
+            if building.pixels is not None and building.doors:
+                mapped.append(map_row(name, building, building.pixels))
             if self.out is not None:
                 self._draw(self.out / name.replace("/", "_"), building, looks)
         sheets = [building_sheet(rows), *([map_sheet(mapped)] if mapped else [])]

@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 
 from semnav_env.evaluation.buildings import building_row, find_buildings, look_around
+from semnav_env.evaluation.false_doorways import false_doorways
 from semnav_env.evaluation.plan_openings import openings_of
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.scene import Door
+from semnav_env.maps.floor_plan import PlanDoor
+from semnav_env.maps.importers import read_occupancy
 from semnav_env.maps.importers.segments import plan_of_segments
 from semnav_env.scripts import main as cli
 from tests.drawn_maps import DOORS, FREE, PLACES, SOLID, write_map
@@ -123,10 +126,27 @@ def test_the_command_measures_every_floor_and_draws_failures(data, capsys):
     blind = ["--settings.door-confidence-min", "1.0"]
     assert cli.main([*words, *blind, "--out", str(data / "pages")]) == 0
     records, mapped = json.loads(capsys.readouterr().out).values()
-    assert [(m["labelled open doors"], m["found"]) for m in mapped] == [(1, 1)]
+    (small,) = mapped
+    assert (small["labelled open doors"], small["of them found"]) == (1, 1)
+    assert (small["doorways found"], small["false"]) == (1, 0)
     assert [record["scans"] for record in records] == [15] * 4
     assert all(record["recall"] == 0.0 for record in records)
     assert (data / "pages" / "gdc_floors_small_missed.png").stat().st_size > 0
+
+
+def test_a_doorway_is_false_if_one_gets_around_it_with_all_of_them_sealed(tmp_path):
+    grey = np.full((60, 100), FREE)
+    grey[[0, -1], :] = grey[:, [0, -1]] = SOLID
+    grey[:20, 50] = grey[40:, 50] = SOLID  # an opening of 2 m
+    grey[29:31, 50] = SOLID  # with a pillar in it
+    pixels = read_occupancy(write_map(tmp_path, grey))
+    halves = (
+        PlanDoor("north", (5.05, 4.0), (5.05, 3.1)),
+        PlanDoor("south", (5.05, 2.9), (5.05, 2.0)),
+    )
+    assert false_doorways(halves, (), pixels) == ()
+    assert false_doorways(halves[:1], halves[1:], pixels) == ()
+    assert false_doorways(halves[:1], (), pixels) == halves[:1]
 
 
 def test_bad_arguments_are_refused(data, capsys):

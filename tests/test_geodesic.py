@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.maps import load_floor_plan
+from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.geodesic import CLEARANCE, SPACING, Geodesic
 
 PLAN = load_floor_plan("office_cross")
@@ -44,3 +45,22 @@ def test_ways_keep_their_distance_from_everything_solid() -> None:
 
 def test_a_closed_door_is_no_way_in() -> None:
     assert GEODESIC.to((23.0, 6.0)).length((23.0, 9.0)) == math.inf
+
+
+COORDINATE = st.integers(-2000, 2000).map(lambda millimetres: millimetres / 1000.0)
+
+
+@given(st.lists(st.tuples(*[COORDINATE] * 4), min_size=1, max_size=6))
+@settings(max_examples=50)
+def test_a_cell_is_free_where_everything_solid_is_far_enough(
+    ends: list[tuple[float, float, float, float]],
+) -> None:
+    walls = tuple(Surface(((a, b), (c, d))) for a, b, c, d in ends)
+    plan = FloorPlan("walls", walls, (), (), (), (), shapely.box(-3.0, -3.0, 3.0, 3.0))
+    solid = shapely.multilinestrings(plan.segments.reshape(-1, 2, 2))
+    rows, columns = np.indices((61, 61))
+    places = shapely.points(-3.0 + SPACING * columns, -3.0 + SPACING * rows)
+    distance = shapely.distance(solid, places)
+    inside = shapely.contains(plan.boundary, places)
+    clear = np.abs(distance - CLEARANCE) > 1e-6
+    assert (Geodesic(plan).free == (inside & (distance > CLEARANCE)))[clear].all()

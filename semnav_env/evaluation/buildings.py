@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -23,8 +22,13 @@ from semnav_env.features.scene import Door, Scene
 from semnav_env.lidar import Lidar, LidarSpec
 from semnav_env.lidar.spec import TIM561
 from semnav_env.maps import FloorPlan
-from semnav_env.maps.importers import load_building, load_vector_map, read_occupancy
-from semnav_env.maps.importers.gaps import APART, find_doorways, places_beside
+from semnav_env.maps.importers import (
+    OccupancyMap,
+    load_building,
+    load_vector_map,
+    read_occupancy,
+)
+from semnav_env.maps.importers.gaps import places_beside
 from semnav_env.maps.importers.labels import DOORS, read_door_labels
 
 CLEARANCE = 0.35
@@ -47,13 +51,17 @@ class Building:
         plan: what is solid, and its places.
         doors: the open ones, world frame.
         area: where the lidar may stand.
-        is_free: whether the source of the plan says that a place is free.
+        pixels: the occupancy map that the plan comes from, if it does.
     """
 
     plan: FloorPlan
     doors: tuple[Door, ...]
     area: BaseGeometry
-    is_free: Callable[[Point], bool]
+    pixels: OccupancyMap | None = None
+
+    def is_free(self, point: Point) -> bool:
+        """Whether the source of the plan says that a place is free."""
+        return self.pixels is None or self.pixels.is_free(point)
 
     def poses(self, rng: np.random.Generator) -> Iterator[Pose]:
         """Random free poses indoors, uniform over place and heading, without end.
@@ -112,13 +120,13 @@ def labelled(path: Path) -> Building:
     names = {label.name for label in read_door_labels(path.with_name(DOORS))}
     doors = tuple([door.as_door() for door in plan.doors if door.open and door.name in names])
     area = shapely.union_all([region.polygon for region in plan.regions])
-    return Building(plan, doors, area, read_occupancy(path).is_free)
+    return Building(plan, doors, area, read_occupancy(path))
 
 
 def drawn(path: Path) -> Building:
     """A floor of a vector map whose doors are the gaps between walls (`openings_of`)."""
     plan = load_vector_map(path).plan
-    return Building(plan, openings_of(plan), plan.boundary, lambda _: True)
+    return Building(plan, openings_of(plan), plan.boundary)
 
 
 class Look(NamedTuple):
@@ -207,23 +215,3 @@ def building_sheet(rows: Sequence[tuple[Cell, ...]]) -> Sheet:
         *("precision", "precision, unlabelled wrong"),
     )
     return Sheet("Doors in real floors, simulated scans", columns, rows)
-
-
-def map_row(name: str, building: Building) -> tuple[Cell, ...]:
-    """How many of the labelled open doors the importer finds without their labels.
-
-    It looks for gaps between places (`find_doorways`).
-    """
-    begin = time.perf_counter()
-    found = find_doorways(building.plan.regions, building.plan.solids, building.is_free)
-    seconds = time.perf_counter() - begin
-    hits = sum(any(matches(f.as_door(), d.start, d.end) for f in found) for d in building.doors)
-    middles = [door.midpoint for door in building.doors]
-    further = sum(all(math.dist(f.midpoint, middle) > APART for middle in middles) for f in found)
-    return name, len(building.doors), hits, hits / len(building.doors), further, seconds
-
-
-def map_sheet(rows: Sequence[tuple[Cell, ...]]) -> Sheet:
-    """The rows of `map_row` as a table."""
-    columns = ("floor", "labelled open doors", "found", "recall", "other doorways", "seconds")
-    return Sheet("Doorways found in the map without the labels of doors", columns, rows)

@@ -23,7 +23,11 @@ CLEARANCE = 0.2
 
 
 class Geodesic:
-    """Shortest ways of a robot's centre in one floor plan."""
+    """Shortest ways of a robot's centre in one floor plan.
+
+    Attributes:
+        free: which cells of the grid the centre may cross, shape (rows, columns).
+    """
 
     def __init__(self, floor_plan: FloorPlan) -> None:
         west, south, east, north = floor_plan.boundary.bounds
@@ -32,7 +36,7 @@ class Geodesic:
             math.ceil((north - south) / SPACING) + 1,
             math.ceil((east - west) / SPACING) + 1,
         )
-        self._free = self._free_cells(floor_plan)
+        self.free = self._free_cells(floor_plan)
         self._graph = self._build_graph()
         self._known: dict[tuple[int, int], FloatArray] = {}
 
@@ -45,7 +49,7 @@ class Geodesic:
 
     def _cell(self, point: Point) -> tuple[int, int]:
         """The nearest free cell (row, column)."""
-        rows, columns = np.nonzero(self._free)
+        rows, columns = np.nonzero(self.free)
         dx = self._origin[0] + SPACING * columns - point[0]
         dy = self._origin[1] + SPACING * rows - point[1]
         nearest = int(np.argmin(dx * dx + dy * dy))
@@ -55,24 +59,22 @@ class Geodesic:
         rows, columns = np.indices(self._shape)
         x = self._origin[0] + SPACING * columns
         y = self._origin[1] + SPACING * rows
-        solid = shapely.multilinestrings(floor_plan.segments.reshape(-1, 2, 2))
-        blocked = solid.buffer(CLEARANCE)
-        shapely.prepare(blocked)
-        inside = shapely.contains_xy(floor_plan.boundary, x, y)
-        return np.asarray(inside & ~shapely.contains_xy(blocked, x, y), dtype=bool)
+        free = np.asarray(shapely.contains_xy(floor_plan.boundary, x, y), dtype=bool)
+        _block(free, floor_plan.segments, *self._origin)
+        return free
 
     def _build_graph(self) -> coo_matrix:
-        index = np.arange(self._free.size).reshape(self._shape)
+        index = np.arange(self.free.size).reshape(self._shape)
         parts = []
         for dr, dc in ((0, 1), (1, 0), (1, 1), (1, -1)):
             a = np.s_[: self._shape[0] - dr, max(0, -dc) : self._shape[1] - max(0, dc)]
             b = np.s_[dr:, max(0, dc) : self._shape[1] + min(0, dc)]
-            both = self._free[a] & self._free[b]
+            both = self.free[a] & self.free[b]
             length = np.full(both.sum(), SPACING * math.hypot(dr, dc))
             parts.append((index[a][both], index[b][both], length))
             parts.append((index[b][both], index[a][both], length))
         i, j, length = (np.concatenate(column) for column in zip(*parts, strict=True))
-        return coo_matrix((length, (i, j)), shape=(self._free.size,) * 2).tocsr()
+        return coo_matrix((length, (i, j)), shape=(self.free.size,) * 2).tocsr()
 
     def _distances(self, source: int) -> FloatArray:
         distances = dijkstra(self._graph, indices=source)
@@ -104,6 +106,26 @@ class WaysTo:
         cells = _descend(self.distances, *_nearest_reached(self.distances, row, column))
         inner = np.array(self.origin) + SPACING * cells[:, ::-1]
         return np.vstack((start, inner[1:-1], self.goal))
+
+
+@njit(cache=True, error_model="numpy")
+def _block(free: NDArray[np.bool_], segments: FloatArray, west: float, south: float) -> None:
+    """Clear the cells that lie nearer than `CLEARANCE` to a segment, within a rounding error."""
+    reach = CLEARANCE - 1e-9
+    for k in range(len(segments)):
+        x1, y1, x2, y2 = segments[k]
+        first_row = max(0, math.floor((min(y1, y2) - CLEARANCE - south) / SPACING))
+        last_row = min(free.shape[0] - 1, math.ceil((max(y1, y2) + CLEARANCE - south) / SPACING))
+        first = max(0, math.floor((min(x1, x2) - CLEARANCE - west) / SPACING))
+        last = min(free.shape[1] - 1, math.ceil((max(x1, x2) + CLEARANCE - west) / SPACING))
+        dx, dy = x2 - x1, y2 - y1
+        squared = dx * dx + dy * dy
+        for row in range(first_row, last_row + 1):
+            for column in range(first, last + 1):
+                x, y = west + SPACING * column - x1, south + SPACING * row - y1
+                share = min(1.0, max(0.0, (x * dx + y * dy) / squared)) if squared > 0.0 else 0.0
+                if math.hypot(x - share * dx, y - share * dy) < reach:
+                    free[row, column] = False
 
 
 @njit(cache=True)

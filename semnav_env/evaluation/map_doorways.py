@@ -1,0 +1,41 @@
+"""Doorways that the importer finds in maps of real floors without the labels of doors."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+
+from semnav_env.evaluation.buildings import Building
+from semnav_env.evaluation.door_sightings import matches
+from semnav_env.evaluation.false_doorways import false_doorways
+from semnav_env.evaluation.sheets import Cell, Sheet
+from semnav_env.maps.floor_plan import PlanDoor
+from semnav_env.maps.importers import OccupancyMap
+from semnav_env.maps.importers.gaps import APART, find_doorways
+
+
+def map_row(name: str, building: Building, pixels: OccupancyMap) -> tuple[Cell, ...]:
+    """How many of the labelled open doors are found, what else is found, and what of it is false.
+
+    The importer looks for gaps between places (`find_doorways`); `false_doorways` judges them.
+    """
+    begin = time.perf_counter()
+    found = find_doorways(building.plan.regions, building.plan.solids, pixels.is_free)
+    seconds = time.perf_counter() - begin
+    hits = sum(any(matches(f.as_door(), d.start, d.end) for f in found) for d in building.doors)
+    middles = [door.midpoint for door in building.doors]
+    further = sum(all(math.dist(f.midpoint, middle) > APART for middle in middles) for f in found)
+    labelled = [PlanDoor("labelled", door.start, door.end) for door in building.doors]
+    false = len(false_doorways(found, labelled, pixels))
+    recall, wrong = hits / len(building.doors), false / max(1, len(found))
+    return name, len(building.doors), hits, recall, len(found), further, false, wrong, seconds
+
+
+def map_sheet(rows: Sequence[tuple[Cell, ...]]) -> Sheet:
+    """The rows of `map_row` as a table."""
+    columns = (
+        *("floor", "labelled open doors", "of them found", "recall", "doorways found"),
+        *("without a label", "false", "share false", "seconds"),
+    )
+    return Sheet("Doorways found in the map without the labels of doors", columns, rows)
