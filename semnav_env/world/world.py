@@ -1,4 +1,4 @@
-"""The physical world: a robot that is driven through a floor plan and stopped by what is solid."""
+"""A robot that is driven through a floor plan and stopped by what is solid."""
 
 from __future__ import annotations
 
@@ -8,26 +8,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import pymunk
-from shapely import Polygon
 
-from semnav_env.features.frames import Point, Pose, to_parent, wrap_angle
+from semnav_env.features.frames import Pose, wrap_angle
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
-
-SLOP = 1e-3
-"""How deep shapes may overlap at rest, metres."""
-
-OVERLAP_LEFT = 0.7**60
-"""Share of a deeper overlap that is left after a second: 0.7 of it after each substep."""
-
-GRIP = 0.7
-"""Friction between tyres or feet and the floor: bounds how hard a robot pushes."""
-
-SCRAPE = 0.3
-"""Friction between robots and walls."""
-
-GRAVITY = 9.81
-"""m/s^2."""
+from semnav_env.world.bodies import driving_joints, robot_body, solid_space
+from semnav_env.world.standing import clearance, standing_error
 
 
 @dataclass(frozen=True)
@@ -83,7 +69,9 @@ class World:
                 footprint would touch something solid.
         """
         start = _finite(pose, "pose", "(x, y, heading)")
-        self._check_free(start)
+        problem = standing_error(self.floor_plan, self.robot, start)
+        if problem is not None:
+            raise ValueError(problem)
         self._start, self._journal = start, array("d")
         self._impulses: list[float] = []
         self._build(start)
@@ -138,36 +126,11 @@ class World:
 
         Infinite in a plan without segments. Takes some 50 us: for evaluation.
         """
-        return self._clearance(self.pose)
+        return clearance(self.floor_plan, self.robot, self.pose)
 
     def fits(self, pose: Pose) -> bool:
         """Whether the robot could stand at `pose`: inside the boundary, touching nothing."""
-        inside: bool = self.floor_plan.boundary.covers(Polygon(self._footprint(pose)))
-        return inside and self._clearance(pose) > 0.0
-
-    def _clearance(self, pose: Pose) -> float:
-        solids = self.floor_plan.solids
-        if len(solids) == 0:
-            return math.inf
-        _, distances = solids.query_nearest(
-            Polygon(self._footprint(pose)), return_distance=True, all_matches=False
-        )
-        return float(distances[0])
-
-    def _check_free(self, pose: Pose) -> None:
-        where = f"the pose {tuple(round(value, 3) for value in pose)}"
-        if not self.floor_plan.boundary.covers(Polygon(self._footprint(pose))):
-            raise ValueError(
-                f"{where} puts the {self.robot.name} outside the boundary of {self.floor_plan.name}"
-            )
-        if self._clearance(pose) == 0.0:
-            raise ValueError(
-                f"at {where} the {self.robot.name} would stand in something solid: "
-                f"it needs a free {self.robot.length} m x {self.robot.width} m"
-            )
-
-    def _footprint(self, pose: Pose) -> list[Point]:
-        return [to_parent(pose, corner) for corner in _corners(self.robot)]
+        return standing_error(self.floor_plan, self.robot, pose) is None
 
     def _require_reset(self) -> None:
         if self._start is None:
@@ -175,13 +138,10 @@ class World:
 
     def _build(self, start: Pose) -> None:
         """A new space: episodes cannot influence each other."""
-        self._space = pymunk.Space()
-        self._space.collision_slop = SLOP
-        self._space.collision_bias = OVERLAP_LEFT
-        self._space.add(*_solid_shapes(self.floor_plan, self._space.static_body))
-        self._body, shape = _robot_body(self.robot, start)
+        self._space = solid_space(self.floor_plan.segments)
+        self._body, shape = robot_body(self.robot, start)
         self._control = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
-        joints = _joints(self.robot, self._control, self._body)
+        joints = driving_joints(self.robot, self._control, self._body)
         self._space.add(self._body, shape, self._control, *joints)
         self._space.on_collision(post_solve=self._touch)
 
@@ -258,41 +218,3 @@ def _finite(values: Any, name: str, parts: str) -> tuple[float, float, float]:
 
 def _cut(value: float, limit: float) -> float:
     return limit if value > limit else -limit if value < -limit else value
-
-
-def _corners(robot: RobotSpec) -> list[Point]:
-    """Of the footprint in the robot frame, counter-clockwise."""
-    x, y = robot.length / 2, robot.width / 2
-    return [(-x, -y), (x, -y), (x, y), (-x, y)]
-
-
-def _solid_shapes(floor_plan: FloorPlan, body: pymunk.Body) -> list[pymunk.Shape]:
-    shapes: list[pymunk.Shape] = []
-    for x1, y1, x2, y2 in floor_plan.segments.tolist():
-        shape = pymunk.Segment(body, (x1, y1), (x2, y2), 0.0)
-        shape.friction = 1.0
-        shapes.append(shape)
-    return shapes
-
-
-def _robot_body(robot: RobotSpec, start: Pose) -> tuple[pymunk.Body, pymunk.Shape]:
-    """A body whose origin and centre of gravity are the axle's middle, centre at `start`."""
-    inertia = robot.mass * ((robot.length**2 + robot.width**2) / 12.0 + robot.axle**2)
-    body = pymunk.Body(robot.mass, inertia)
-    body.position = to_parent(start, (robot.axle, 0.0))
-    body.angle = start[2]
-    shape = pymunk.Poly(body, [(x - robot.axle, y) for x, y in _corners(robot)])
-    shape.friction = SCRAPE
-    return body, shape
-
-
-def _joints(
-    robot: RobotSpec, control: pymunk.Body, body: pymunk.Body
-) -> tuple[pymunk.PivotJoint, pymunk.GearJoint]:
-    """Joints that match velocities with bounded force and never correct positions."""
-    pivot = pymunk.PivotJoint(control, body, (0.0, 0.0), (0.0, 0.0))
-    gear = pymunk.GearJoint(control, body, 0.0, 1.0)
-    pivot.max_bias = gear.max_bias = 0.0
-    pivot.max_force = GRIP * GRAVITY * robot.mass
-    gear.max_force = pivot.max_force * robot.width / 2
-    return pivot, gear

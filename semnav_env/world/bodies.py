@@ -1,0 +1,59 @@
+"""What the physics is made of: walls, a robot's body and the joints that drive it."""
+
+from __future__ import annotations
+
+import pymunk
+
+from semnav_env.features.frames import FloatArray, Pose, to_parent
+from semnav_env.robots import RobotSpec
+from semnav_env.world.standing import corners
+
+SLOP = 1e-3
+"""How deep shapes may overlap at rest, metres."""
+
+OVERLAP_LEFT = 0.7**60
+"""Share of a deeper overlap that is left after a second: 0.7 of it after each substep."""
+
+GRIP = 0.7
+"""Friction between tyres or feet and the floor: bounds how hard a robot pushes."""
+
+SCRAPE = 0.3
+"""Friction between robots and walls."""
+
+GRAVITY = 9.81
+"""m/s^2."""
+
+
+def solid_space(segments: FloatArray) -> pymunk.Space:
+    """A space in which these segments are solid, shape (n, 4): x1, y1, x2, y2 in metres."""
+    space = pymunk.Space()
+    space.collision_slop = SLOP
+    space.collision_bias = OVERLAP_LEFT
+    for x1, y1, x2, y2 in segments.tolist():
+        shape = pymunk.Segment(space.static_body, (x1, y1), (x2, y2), 0.0)
+        shape.friction = 1.0
+        space.add(shape)
+    return space
+
+
+def robot_body(robot: RobotSpec, start: Pose) -> tuple[pymunk.Body, pymunk.Shape]:
+    """A body whose origin and centre of gravity are the axle's middle, centre at `start`."""
+    inertia = robot.mass * ((robot.length**2 + robot.width**2) / 12.0 + robot.axle**2)
+    body = pymunk.Body(robot.mass, inertia)
+    body.position = to_parent(start, (robot.axle, 0.0))
+    body.angle = start[2]
+    shape = pymunk.Poly(body, [(x - robot.axle, y) for x, y in corners(robot)])
+    shape.friction = SCRAPE
+    return body, shape
+
+
+def driving_joints(
+    robot: RobotSpec, control: pymunk.Body, body: pymunk.Body
+) -> tuple[pymunk.PivotJoint, pymunk.GearJoint]:
+    """Joints that match velocities with bounded force and never correct positions."""
+    pivot = pymunk.PivotJoint(control, body, (0.0, 0.0), (0.0, 0.0))
+    gear = pymunk.GearJoint(control, body, 0.0, 1.0)
+    pivot.max_bias = gear.max_bias = 0.0
+    pivot.max_force = GRIP * GRAVITY * robot.mass
+    gear.max_force = pivot.max_force * robot.width / 2
+    return pivot, gear
