@@ -19,7 +19,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.commands import MAX_CLAUSES, token_space
-from semnav_env.features.frames import Pose
+from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.door_memory import door_counts
 from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
 from semnav_env.features.kernels.scratch import Features
@@ -119,7 +119,8 @@ class Observer:
         self.range_max = range_max
         places = {e.name: slice(_STARTS[e.name], _STARTS[e.name] + e.size) for e in ENTRIES}
         places["scan"] = slice(ROW_SIZE, ROW_SIZE + beams)
-        self._places = [(name, places[name]) for name in MODES[mode] if name != "command"]
+        self._names = tuple(name for name in MODES[mode] if name != "command")
+        self._places = tuple(places[name] for name in self._names)
 
     @property
     def space(self) -> Dict:
@@ -139,8 +140,8 @@ class Observer:
             row: `ROW_SIZE` values and, behind them, the scan; shape (ROW_SIZE + beams,).
             tokens: of the command.
         """
-        fresh = row.copy()
-        packed: dict[str, NDArray[Any]] = {name: fresh[place] for name, place in self._places}
+        entries = map(row.copy().__getitem__, self._places)
+        packed: dict[str, NDArray[Any]] = dict(zip(self._names, entries, strict=True))
         packed["command"] = tokens.ravel().copy()
         return packed
 
@@ -162,7 +163,7 @@ def table(observation: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
     return rows[observation[f"{name}_mask"] > 0.5]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def write_features(
     row: NDArray[np.float32], features: Features, mount: tuple[float, float, float]
 ) -> None:
@@ -191,7 +192,7 @@ def write_features(
         row[_CORRIDORS + 2 * N_CORRIDORS + i] = 1.0
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def write_remembered(
     row: NDArray[np.float32], doors: np.ndarray, used: int, pose: tuple[float, float, float]
 ) -> None:
@@ -208,6 +209,16 @@ def write_remembered(
             k += 1
 
 
+@njit(cache=True, error_model="numpy")
+def write_scan(
+    row: NDArray[np.float32], ranges: FloatArray, range_min: float, range_max: float
+) -> None:
+    """Write the ranges, and `range_max` where a beam has no return."""
+    for i in range(np.uint64(len(ranges))):  # unsigned, or it is tested for counting from the end
+        measured = ranges[i]
+        row[i] = measured if (measured >= range_min) & (measured < range_max) else range_max
+
+
 @njit(cache=True, inline="always")
 def _write_ends(
     row: NDArray[np.float32], at: int, item: Any, x: float, y: float, c: float, s: float
@@ -218,7 +229,7 @@ def _write_ends(
     row[at + 3] = y + s * item.end_x + c * item.end_y
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def write_state(
     row: NDArray[np.float32],
     active: int,

@@ -103,13 +103,19 @@ class Odometry:
         return self.pose
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _turned(angle: float) -> float:
     """The same angle in [-pi, pi]."""
     return float(angle - _TURN * np.rint(angle / _TURN))
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def _walk(moved: float, draws: np.uint64, index: int) -> float:
+    """The error of a random walk over a motion, at one unit of noise."""
+    return math.sqrt(abs(moved)) * float(normal(bits(draws, index)))
+
+
+@njit(cache=True, error_model="numpy")
 def advance(
     pose: Pose,
     before: Pose,
@@ -135,11 +141,10 @@ def advance(
     forward, left, turn = c * x + s * y, c * y - s * x, _turned(after[2] - before[2])
     distance = math.hypot(forward, left)
     draws = stream(seed, 0, update)
-    moved = (forward, left, turn, distance)
-    errors = [math.sqrt(abs(moved[i])) * normal(bits(draws, i)) for i in range(4)]
-    forward = scales[0] * forward + noise[0] * errors[0]
-    left = scales[0] * left + noise[0] * errors[1]
-    turn = scales[1] * turn + noise[1] * errors[2] + noise[2] * errors[3]
+    veer = noise[2] * _walk(distance, draws, 3)
+    forward = scales[0] * forward + noise[0] * _walk(forward, draws, 0)
+    left = scales[0] * left + noise[0] * _walk(left, draws, 1)
+    turn = scales[1] * turn + noise[1] * _walk(turn, draws, 2) + veer
     c, s = math.cos(pose[2]), math.sin(pose[2])
     return (
         pose[0] + c * forward - s * left,

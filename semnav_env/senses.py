@@ -18,7 +18,7 @@ from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.memory import remember
 from semnav_env.lidar.lidar import sense
-from semnav_env.observations import ROW_SIZE, write_features, write_remembered
+from semnav_env.observations import ROW_SIZE, write_features, write_remembered, write_scan
 
 
 @structref.register
@@ -59,7 +59,7 @@ class Senses(structref.StructRefProxy):
 structref.define_proxy(Senses, SensesType, list(Senses.__annotations__))
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def join_senses(
     lidar: Any,
     beams: FloatArray,
@@ -75,7 +75,7 @@ def join_senses(
     return Senses(lidar, beams, record, scratch, mount, ranges, features, remembered, row)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def observe(
     senses: Senses,
     robot_world: Pose,
@@ -110,13 +110,10 @@ def observe(
     )
     _, doors, used = senses.remembered
     write_remembered(row, doors, used[1], robot_odom)
-    for i in range(len(ranges)):
-        measured = ranges[i]
-        valid = limits.range_min <= measured < limits.range_max
-        row[ROW_SIZE + i] = measured if valid else limits.range_max
+    write_scan(row[ROW_SIZE:], ranges, limits.range_min, limits.range_max)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def extract_features(senses: Senses) -> None:
     """Extract the features of the scan that was taken last."""
     features, limits = senses.features, senses.lidar[4][0]
@@ -137,7 +134,7 @@ def extract_features(senses: Senses) -> None:
     )
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _mounted(robot: Pose, mount: Pose) -> Pose:
     """The pose of a lidar on its mount; its heading is not wrapped."""
     c, s = math.cos(robot[2]), math.sin(robot[2])

@@ -49,7 +49,7 @@ NOTHING, OPEN, STOPPED = range(3)
 """What a scan tells of an opening."""
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def door_counts(doors: Any, k: int) -> bool:
     """Whether door `k` of the remembered ones is likely enough to be taken for a door.
 
@@ -67,7 +67,7 @@ def door_counts(doors: Any, k: int) -> bool:
     return True
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _comes_first(rival: Any, i: int, door: Any, k: int) -> bool:
     """Whether a rival is likelier, or was seen more often, or at least earlier."""
     if rival.odds != door.odds:
@@ -75,7 +75,7 @@ def _comes_first(rival: Any, i: int, door: Any, k: int) -> bool:
     return bool(rival.hits > door.hits or (rival.hits == door.hits and i < k))
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def remember_door(door: Ends, confidence: float, memory: Any, used: int) -> int:
     """Fuse a door with the remembered one that it repeats, or add it.
 
@@ -108,13 +108,13 @@ def remember_door(door: Ends, confidence: float, memory: Any, used: int) -> int:
     return used
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _set(new: Any, door: Ends, speaks: float) -> None:
     new.start_x, new.start_y, new.end_x, new.end_y = door
     new.hits, new.odds = 1, speaks
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _fuse(old: Any, door: Ends, speaks: float) -> None:
     x1, y1, x2, y2 = door
     share = 1.0 / min(old.hits + 1, RECENT_HITS)
@@ -126,7 +126,7 @@ def _fuse(old: Any, door: Ends, speaks: float) -> None:
     old.odds = min(old.odds + speaks, BOUND)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _apart(old: Any, door: Ends) -> float:
     """The larger distance between the starts and between the ends of two doors, metres."""
     return max(
@@ -135,7 +135,7 @@ def _apart(old: Any, door: Ends) -> float:
     )
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def doubt_doors(
     ranges: FloatArray,
     angle_min: float,
@@ -163,7 +163,7 @@ def doubt_doors(
         door.seen = False
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def look_at(
     ranges: FloatArray,
     angle_min: float,

@@ -34,7 +34,7 @@ WALL_GAP = 0.3
 """Walls less than this apart along their line may be one, metres: nothing passes between them."""
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def remember(
     walls: Any,
     doors: Any,
@@ -70,13 +70,13 @@ def remember(
     doubt_doors(ranges, angle_min, angle_increment, pose, known_doors[: used[1]])
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def wall_counts(walls: Any, k: int) -> bool:
     """Whether wall `k` of the remembered ones was seen often enough."""
     return bool(walls[k].hits >= WALL_HITS)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def how_many_count(walls: Any, doors: Any, used: Any) -> tuple[int, int]:
     """How many of the remembered walls and doors count."""
     wall_total, door_total = 0, 0
@@ -87,7 +87,7 @@ def how_many_count(walls: Any, doors: Any, used: Any) -> tuple[int, int]:
     return wall_total, door_total
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def what_counts(walls: Any, doors: Any, used: Any) -> tuple[FloatArray, FloatArray]:
     """The remembered walls and doors that count.
 
@@ -112,7 +112,7 @@ def what_counts(walls: Any, doors: Any, used: Any) -> tuple[FloatArray, FloatArr
     return wall_rows[:n], door_rows[:m]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def placed(ends: Ends, frame: tuple[float, float, float]) -> Ends:
     """The ends of a wall or door, moved from a frame to the frame's parent."""
     x1, y1, x2, y2 = ends
@@ -121,7 +121,7 @@ def placed(ends: Ends, frame: tuple[float, float, float]) -> Ends:
     return x + c * x1 - s * y1, y + s * x1 + c * y1, x + c * x2 - s * y2, y + s * x2 + c * y2
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def remember_wall(wall: Ends, memory: Any, used: int) -> int:
     """Fuse a wall with the first remembered one that it continues or repeats, or add it.
 
@@ -155,7 +155,7 @@ def remember_wall(wall: Ends, memory: Any, used: int) -> int:
     return used
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _on_one_line(old: Any, wall: Ends) -> bool:
     """Whether two nearly parallel walls meet, and lie on one line where they do."""
     x1, y1, x2, y2 = wall
@@ -171,7 +171,7 @@ def _on_one_line(old: Any, wall: Ends) -> bool:
     return bool(abs((x - old.start_x) * dy - (y - old.start_y) * dx) < SAME_LINE * length)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _fuse_wall(old: Any, wall: Ends) -> None:
     """The line is the mean weighted by length and sightings; its extent is the union of both."""
     x1, y1, x2, y2 = wall

@@ -10,7 +10,7 @@ Ends: TypeAlias = tuple[float, float, float, float]
 """Start and end of a wall or door: x1, y1, x2, y2 in metres."""
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def place_for_new(memory: Any, used: int) -> tuple[int, int]:
     """Where a new entry goes, and how many are used then; a full memory gives up the rarest."""
     if used < len(memory):
