@@ -13,6 +13,9 @@ from semnav_env.features.frames import FloatArray
 _FARTHEST = 8.0 * math.pi
 """Beyond it a first direction is in degrees, not a heading that nobody wrapped; radians."""
 
+_LONGEST = 1000.0
+"""No lidar of a robot sees farther, metres."""
+
 _WIDEST = 4.0 * math.pi
 """More than any scanner sweeps, though some repeat a few beams of the circle; radians."""
 
@@ -38,7 +41,7 @@ class Scan:
 
     Raises:
         ValueError: not one-dimensional, no beams, not real numbers, an increment of zero, angles
-            that must be degrees, limits out of order, or ranges that must be millimetres.
+            that must be degrees, limits out of order, or lengths that must be millimetres.
     """
 
     ranges: FloatArray
@@ -95,6 +98,11 @@ def _check_numbers(values: dict[str, float]) -> None:
         raise ValueError(
             f"range_min {values['range_min']} and range_max {values['range_max']} must satisfy "
             "0 <= range_min < range_max"
+        )
+    if values["range_max"] > _LONGEST:
+        raise ValueError(
+            f"range_max is {values['range_max']:g}; it must be metres, at most {_LONGEST:g}: "
+            "divide ranges and limits in millimetres by 1000"
         )
 
 

@@ -58,6 +58,7 @@ class Arguments:
         """Drive, film and report."""
         if self.seed < 0:
             raise ValueError(f"seed is {self.seed}; it must be 0 or more")
+        self._check_files()
         agent = make_agent(self.agent)
         filmed = self.save is not None or self.picture is not None
         mode = "human" if self.show else "rgb_array" if filmed else None
@@ -80,6 +81,15 @@ class Arguments:
         self._save(frames)
         self._report(start, info, env.seconds)
         return 0 if info["is_success"] else 1
+
+    def _check_files(self) -> None:
+        """Before the drive, which takes its time."""
+        from semnav_env.rendering.video import check_suffix
+
+        if self.save is not None:
+            check_suffix(self.save)
+        if self.picture is not None:
+            check_suffix(self.picture, (".png",))
 
     def _save(self, frames: list[NDArray[np.uint8]]) -> None:
         from semnav_env.rendering.video import save_png, save_video

@@ -49,6 +49,19 @@ def scenes(path):
     return [json.loads(line) for line in path.read_text().splitlines()]
 
 
+@pytest.mark.parametrize(
+    ("option", "name", "message"),
+    [("--save", "run.avi", ".gif, .mp4 or .png"), ("--picture", "end.gif", "must end in .png")],
+)
+def test_a_demo_refuses_a_file_it_cannot_write_before_it_drives(
+    capsys, tmp_path, option, name, message
+):
+    path = tmp_path / name
+    code, out, err = run(capsys, "demo", "go through the next door on the right", option, path)
+    assert (code, out) == (2, "")
+    assert message in err
+
+
 def test_extract_writes_a_scene_per_scan(capsys, monkeypatch, log, tmp_path):
     monkeypatch.setattr(progress, "PATIENCE", 1e6)  # however long the first scan compiles
     out, page = tmp_path / "new" / "scenes.jsonl", tmp_path / "page.png"

@@ -110,6 +110,7 @@ def test_actions_out_of_range_are_clipped() -> None:
         (START | {"pose": (500.0, 0.0, 0.0)}, ValueError, "start pose"),
         (START | {"pose": (np.nan, 0.0, 0.0)}, ValueError, "start pose"),
         (START | {"pose": (1.0, 2.0)}, ValueError, "x, y, heading"),
+        (START | {"pose": (-2.5, -0.3, 90.0)}, ValueError, "radians"),
         ({"floor_plan": "heidelberg_halway"}, ValueError, "heidelberg_hallway"),
     ],
 )

@@ -62,6 +62,7 @@ def test_bad_ranges_are_refused_with_the_reason(ranges: object, message: str) ->
         ({"angle_min": math.inf}, "finite"),
         ({"range_min": -1.0}, "range_min"),
         ({"range_min": 10.0, "range_max": 10.0}, "range_max"),
+        ({"range_max": 10000.0}, "millimetres"),
     ],
 )
 def test_bad_numbers_are_refused_with_the_reason(numbers: dict[str, float], message: str) -> None:

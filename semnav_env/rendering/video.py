@@ -39,16 +39,27 @@ def save_video(path: str | Path, frames: Sequence[Picture], fps: float, scale: f
         ImportError: .mp4 without imageio and PyAV.
     """
     path = Path(path)
+    check_suffix(path)
     match path.suffix.lower():
         case ".gif":
             return save_gif(path, frames, fps, scale)
         case ".mp4":
             return save_mp4(path, frames, fps, scale)
-        case ".png" if len(frames):
-            return save_png(path, frames[-1], scale)
-        case ".png":
-            raise ValueError(f"there are no frames to save as {path}")
-    raise ValueError(f"cannot save {path.name!r}; the name must end in .gif, .mp4 or .png")
+    if not len(frames):
+        raise ValueError(f"there are no frames to save as {path}")
+    return save_png(path, frames[-1], scale)
+
+
+def check_suffix(path: Path, suffixes: Sequence[str] = (".gif", ".mp4", ".png")) -> None:
+    """Refuse a path of which the suffix is not one of those.
+
+    Raises:
+        ValueError: names the file, and the suffixes that would do.
+    """
+    if path.suffix.lower() not in suffixes:
+        *most, last = suffixes
+        wanted = f"{', '.join(most)} or {last}" if most else last
+        raise ValueError(f"cannot save {path.name!r}; the name must end in {wanted}")
 
 
 def save_png(path: str | Path, frame: Picture, scale: float = 1.0) -> Path:

@@ -24,6 +24,9 @@ from semnav_env.verifier import Motion, Verifier, plan_goals
 START_TRIES = 200
 """Start poses drawn before a floor plan is found unfit for commands."""
 
+MOST_TURNED = 2.0 * math.tau
+"""Beyond it a heading is in degrees, not one that nobody wrapped; radians."""
+
 LEAST_AHEAD, WIDEST_HALF = 3.0, 1.5
 """A random start has so much of a hallway ahead, no wider than twice that, metres; if there is any
 such place."""
@@ -143,4 +146,9 @@ def _pose(given: object) -> Pose | None:
         raise ValueError(
             f"a pose is (x, y, heading) in metres and radians, not {given!r}"
         ) from None
+    if abs(heading) > MOST_TURNED:
+        raise ValueError(
+            f"the heading {heading:g} is more than two turns; give it in radians, not degrees "
+            "(math.radians)"
+        )
     return x, y, heading
