@@ -3,15 +3,34 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 from tyro.conf import Positional
 
-from semnav_env.agents.evaluation import Result, Summary, run_suite, suite, summarise
+from semnav_env.agents.evaluation import (
+    Extras,
+    Result,
+    Summary,
+    failure_line,
+    run_suite,
+    suite,
+    summarise,
+)
+from semnav_env.metrics import SHARES
 from semnav_env.scripts.progress import tracked
+
+SHOWN = {
+    "success": "success",
+    "contact_free": "no contact",
+    "spl": "SPL",
+    "ndtw": "nDTW",
+    "clauses": "clauses",
+    "seconds": "seconds",
+}
+"""Measures of each command that are shown, and their headings."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +44,8 @@ class Arguments:
         seeds: how many start poses and noises per command.
         first_seed: of them.
         workers: processes.
+        recheck: judge every path a second time with Shapely, and count disagreements.
+        pictures: folder for a picture of each failure.
         out: file for every episode, one JSON object a line.
         json: print the table as JSON.
     """
@@ -35,6 +56,8 @@ class Arguments:
     seeds: int = 20
     first_seed: int = 0
     workers: int = 1
+    recheck: bool = False
+    pictures: Path | None = None
     out: Path | None = None
     json: bool = False
 
@@ -48,7 +71,8 @@ class Arguments:
         seeds = range(self.first_seed, self.first_seed + self.seeds)
         total = len(trials) * len(seeds)
         results: list[Result] = []
-        episodes = run_suite(trials, self.agent, self.robot, seeds, self.workers)
+        extras = Extras(self.recheck, self.pictures)
+        episodes = run_suite(trials, self.agent, self.robot, seeds, self.workers, extras)
         for result in tracked(episodes, lambda n: f"{n} episodes", lambda: len(results) / total):
             results.append(result)
         results.sort(
@@ -56,7 +80,7 @@ class Arguments:
         )
         if self.out is not None:
             self.out.parent.mkdir(parents=True, exist_ok=True)
-            self.out.write_text("".join(json.dumps(asdict(r)) + "\n" for r in results))
+            self.out.write_text("".join(json.dumps(r.row()) + "\n" for r in results))
         self._show([_summary(trial.command, results) for trial in trials], results)
         if self.out is not None and not self.json:
             print(f"wrote {self.out}")
@@ -65,17 +89,49 @@ class Arguments:
     def _show(self, summaries: list[Summary], results: list[Result]) -> None:
         everything = summarise("all", results)
         if self.json:
-            print(json.dumps([asdict(summary) for summary in (*summaries, everything)]))
+            print(json.dumps([summary.row() for summary in (*summaries, everything)]))
             return
-        table = Table("command", "episodes", "success", "no contact", "SPL", "seconds")
-        for row in (*summaries, everything):
-            shares = (f"{row.success:.3f}", f"{row.contact_free:.3f}", f"{row.spl:.3f}")
-            table.add_row(row.name, str(row.episodes), *shares, f"{row.seconds:.1f}")
         console = Console()
-        console.print(table)
+        console.print(_commands_table([*summaries, everything]))
+        console.print(_measures_table(everything))
         for row in summaries:
             for failure in row.failures:
-                console.print(f"{row.name}: {failure}", highlight=False, soft_wrap=True)
+                line = f"{row.name}: {failure_line(failure)}"
+                console.print(line, highlight=False, soft_wrap=True)
+        self._show_extras(results)
+
+    def _show_extras(self, results: list[Result]) -> None:
+        if self.recheck:
+            odd = [result for result in results if result.rechecked]
+            print(f"second opinion: {len(odd)} of {len(results)} episodes judged otherwise")
+            for result in odd:
+                said = f"{' / '.join(result.verdicts)}, second opinion: {result.rechecked}"
+                print(f"{result.command}: seed {result.seed}: {said}")
+        if self.pictures is not None:
+            drawn = sum(not result.success for result in results)
+            print(f"drew {drawn} failures into {self.pictures}")
+
+
+def _commands_table(summaries: list[Summary]) -> Table:
+    table = Table("command", "episodes")
+    for heading in SHOWN.values():
+        table.add_column(heading, no_wrap=True, justify="right")
+    for row in summaries:
+        table.add_row(row.name, str(row.episodes), *(_written(row.means[name]) for name in SHOWN))
+    return table
+
+
+def _measures_table(everything: Summary) -> Table:
+    """Every measure over all episodes: its mean, and its mean over its worst episodes."""
+    table = Table("all episodes", "mean", *(f"worst {share:.0%}" for share in SHARES))
+    for name, mean in everything.means.items():
+        worst = (_written(row[name]) for row in everything.worst)
+        table.add_row(name.replace("_", " "), _written(mean), *worst)
+    return table
+
+
+def _written(value: float) -> str:
+    return f"{value:.1f}" if abs(value) >= 10.0 else f"{value:.3f}"
 
 
 def _summary(command: str, results: list[Result]) -> Summary:

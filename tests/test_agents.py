@@ -28,8 +28,8 @@ def test_agents_reach_the_doors_of_the_measured_hallway(
 ) -> None:
     [result] = run_suite([trial], agent, robot, seeds=[0])
     assert result.success
-    assert result.collisions == 0
-    assert 0.5 < result.spl <= 1.0
+    assert result.metrics.contact_free
+    assert 0.5 < result.metrics.spl <= 1.0
 
 
 @pytest.mark.parametrize("trial", OFFICE, ids=lambda trial: trial.command)

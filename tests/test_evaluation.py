@@ -2,36 +2,89 @@
 
 from __future__ import annotations
 
-import pytest
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
-from semnav_env.agents.evaluation import SUITES, Result, suite, summarise
+import numpy as np
+import pytest
+from PIL import Image
+
+from semnav_env.agents.evaluation import SUITES, Result, runner, suite, summarise
 from semnav_env.commands import parse
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
+from semnav_env.metrics import COLUMNS, Metrics
 from semnav_env.robots import ROBOTS
+from semnav_env.scripts.main import main
 from semnav_env.verifier import plan_goals
 
-
-def result(success: bool, path: float, route: float, collisions: int = 0, seed: int = 0) -> Result:
-    verdict = "done" if success else "wrong door"
-    return Result("stop", seed, success, (verdict,), collisions, 3.0, path, route)
+NOTHING = Metrics(**dict.fromkeys(COLUMNS, 0))
 
 
-@pytest.mark.parametrize(
-    ("success", "path", "route", "spl"),
-    [(True, 10.0, 5.0, 0.5), (True, 4.0, 5.0, 1.0), (False, 5.0, 5.0, 0.0), (True, 0.0, 0.0, 1.0)],
-)
-def test_spl_is_success_weighted_by_path_length(
-    success: bool, path: float, route: float, spl: float
-) -> None:
-    assert result(success, path, route).spl == spl
+def result(success: bool, collisions: int = 0, seed: int = 0, rechecked: str = "") -> Result:
+    verdict, cause = ("done", "") if success else ("wrong door", "crossed a, wanted b")
+    measured = replace(
+        NOTHING, success=success, collisions=collisions, contact_free=collisions == 0, spl=success
+    )
+    return Result("stop", seed, (verdict,), measured, cause, rechecked)
 
 
-def test_a_summary_counts_shares_and_names_failures() -> None:
-    results = [result(True, 10, 5), result(False, 5, 5, collisions=2, seed=7)]
+def test_a_summary_has_means_and_the_worst_and_names_failures() -> None:
+    results = [result(True), result(False, collisions=2, seed=7, rechecked="done")]
     summary = summarise("all", results)
-    assert (summary.success, summary.contact_free, summary.spl) == (0.5, 0.5, 0.25)
-    assert summary.failures == ("seed 7: wrong door",)
+    row = summary.row()
+    assert (row["success"], row["contact_free"], row["spl"], row["collisions"]) == (
+        0.5,
+        0.5,
+        0.5,
+        1,
+    )
+    assert row["cvar"]["5%"]["success"] == 0.0
+    assert row["cvar"]["5%"]["collisions"] == 2.0
+    assert row["failures"] == ["seed 7: wrong door (crossed a, wanted b)"]
+    assert row["disagreements"] == 1
+
+
+def test_the_row_of_an_episode_is_flat_json() -> None:
+    row = json.loads(json.dumps(result(True).row()))
+    assert row["success"] is True
+    assert set(COLUMNS) < set(row)
+
+
+def test_evaluate_tells_shares_causes_and_the_second_opinion_and_draws_failures(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An agent that stands still fails every episode, and both judges say so."""
+    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    out, pictures = tmp_path / "out.jsonl", tmp_path / "pictures"
+    words = ["heidelberg", "--seeds", "1", "--recheck", "--pictures", str(pictures)]
+    assert main(["evaluate", *words, "--out", str(out)]) == 0
+    text = capsys.readouterr().out
+    assert "second opinion: 0 of 4 episodes judged otherwise" in text
+    assert "stopped short (not done: the first door on the right" in text
+    assert "drew 4 failures" in text
+    for picture in pictures.iterdir():
+        with Image.open(picture) as image:
+            assert min(image.size) > 300
+    assert len(list(pictures.iterdir())) == 4
+    rows = [json.loads(line) for line in out.read_text().splitlines()]
+    assert {row["goal_distance"] > 1.0 for row in rows} == {True}
+    assert main(["evaluate", *words[:3], "--json"]) == 0
+    *_, everything = json.loads(capsys.readouterr().out)
+    assert everything["episodes"] == 4
+    assert everything["cvar"]["10%"]["clauses"] == everything["success"] == 0.0
+
+
+class Statue:
+    observation = "truth"
+
+    def reset(self, info: dict[str, Any]) -> None:
+        self.action = np.zeros(info["robot_spec"].action_size, dtype=np.float32)
+
+    def act(self, observation: dict[str, Any]) -> np.ndarray:
+        return self.action
 
 
 @pytest.mark.parametrize("trial", suite("all"), ids=lambda trial: trial.command)

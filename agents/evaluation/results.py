@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+
+from semnav_env.metrics import SHARES, Metrics, means, worst
 
 
 @dataclass(frozen=True)
@@ -13,30 +15,28 @@ class Result:
     Attributes:
         command: what the robot was told.
         seed: of the episode.
-        success: the whole command was carried out.
         verdicts: one per clause.
-        collisions: how often it touched something.
-        seconds: simulated time.
-        path_length: of the robot's centre, metres.
-        route_length: of the shortest way, metres.
-        remark: what the robot believed at the end, if it found the command impossible.
+        metrics: all measures.
+        cause: why it failed, in words; empty after success.
+        rechecked: verdict of the second opinion where it is not the verifier's; else empty.
     """
 
     command: str
     seed: int
-    success: bool
     verdicts: tuple[str, ...]
-    collisions: int
-    seconds: float
-    path_length: float
-    route_length: float
-    remark: str = ""
+    metrics: Metrics
+    cause: str = ""
+    rechecked: str = ""
 
     @property
-    def spl(self) -> float:
-        """Success weighted by path length (Anderson et al. 2018), of this episode."""
-        longest = max(self.path_length, self.route_length)
-        return self.route_length / longest if self.success and longest > 0 else float(self.success)
+    def success(self) -> bool:
+        """Whether the whole command was carried out."""
+        return self.metrics.success
+
+    def row(self) -> dict[str, object]:
+        """One flat object, as it is written to a file."""
+        first = {"command": self.command, "seed": self.seed, "verdicts": self.verdicts}
+        return {**first, **asdict(self.metrics), "cause": self.cause, "rechecked": self.rechecked}
 
 
 @dataclass(frozen=True)
@@ -46,37 +46,45 @@ class Summary:
     Attributes:
         name: the command, or "all".
         episodes: how many.
-        success: share.
-        contact_free: share without any contact.
-        spl: mean success weighted by path length.
-        seconds: mean simulated time.
-        failures: one line for each failed episode.
+        means: mean of each measure, by its name.
+        worst: mean of each measure over its worst episodes, one dictionary for each of
+            `metrics.SHARES`.
+        failures: the failed episodes.
+        disagreements: episodes that the second opinion judges otherwise.
     """
 
     name: str
     episodes: int
-    success: float
-    contact_free: float
-    spl: float
-    seconds: float
-    failures: tuple[str, ...]
+    means: dict[str, float]
+    worst: tuple[dict[str, float], ...]
+    failures: tuple[Result, ...]
+    disagreements: int
+
+    def row(self) -> dict[str, object]:
+        """One object for JSON: the means by name, then the means of the worst by share."""
+        return {
+            "name": self.name,
+            "episodes": self.episodes,
+            **self.means,
+            "cvar": {f"{share:.0%}": row for share, row in zip(SHARES, self.worst, strict=True)},
+            "failures": [failure_line(result) for result in self.failures],
+            "disagreements": self.disagreements,
+        }
 
 
 def summarise(name: str, results: Sequence[Result]) -> Summary:
-    """The shares and means of some episodes; there must be at least one."""
-    count = len(results)
+    """The means and the worst of some episodes; there must be at least one."""
+    measured = [result.metrics for result in results]
     return Summary(
         name,
-        count,
-        sum(r.success for r in results) / count,
-        sum(r.collisions == 0 for r in results) / count,
-        sum(r.spl for r in results) / count,
-        sum(r.seconds for r in results) / count,
-        tuple(_failure(r) for r in results if not r.success),
+        len(results),
+        means(measured),
+        tuple(worst(measured, share) for share in SHARES),
+        tuple(result for result in results if not result.success),
+        sum(bool(result.rechecked) for result in results),
     )
 
 
-def _failure(result: Result) -> str:
-    verdicts = " / ".join(result.verdicts)
-    remark = f" ({result.remark})" if result.remark else ""
-    return f"seed {result.seed}: {verdicts}{remark}"
+def failure_line(result: Result) -> str:
+    """A failed episode in one line: its seed, the verdicts and the cause."""
+    return f"seed {result.seed}: {' / '.join(result.verdicts)} ({result.cause})"

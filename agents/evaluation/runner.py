@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import multiprocessing
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from semnav_env.agents.evaluation.results import Result
+from semnav_env.agents.evaluation.drive import Drive, drive
+from semnav_env.agents.evaluation.results import Result, failure_line
 from semnav_env.agents.evaluation.suites import Trial
 from semnav_env.agents.registry import make_agent
 from semnav_env.env import SemNavEnv
@@ -20,6 +23,22 @@ from semnav_env.robots import RobotSpec
 
 
 @dataclass(frozen=True)
+class Extras:
+    """What else to do with an episode.
+
+    Attributes:
+        recheck: ask for a second opinion.
+        pictures: folder for a picture of each failure.
+    """
+
+    recheck: bool = False
+    pictures: Path | None = None
+
+
+NO_EXTRAS = Extras()
+
+
+@dataclass(frozen=True)
 class Job:
     """One trial with one agent on one body, for some seeds."""
 
@@ -27,10 +46,16 @@ class Job:
     agent: str
     robot: str
     seeds: tuple[int, ...]
+    extras: Extras = NO_EXTRAS
 
 
 def run_suite(
-    trials: Sequence[Trial], agent: str, robot: str, seeds: Sequence[int], workers: int = 1
+    trials: Sequence[Trial],
+    agent: str,
+    robot: str,
+    seeds: Sequence[int],
+    workers: int = 1,
+    extras: Extras = NO_EXTRAS,
 ) -> Iterator[Result]:
     """The result of every trial with every seed, as they come.
 
@@ -40,8 +65,9 @@ def run_suite(
         robot: name of a body.
         seeds: each gives a start pose, sensor noise and odometry drift.
         workers: processes; results do not depend on it, but for their order.
+        extras: what else to do with each episode.
     """
-    jobs = [Job(trial, agent, robot, (seed,)) for trial in trials for seed in seeds]
+    jobs = [Job(trial, agent, robot, (seed,), extras) for trial in trials for seed in seeds]
     if workers == 1:
         runner = Runner()
         yield from (result for job in jobs for result in runner.run(job))
@@ -64,31 +90,46 @@ class Runner:
             agent = make_agent(job.agent)
             self._envs[key] = SemNavEnv(job.robot, observation=agent.observation), agent
         env, agent = self._envs[key]
-        return [run_episode(env, agent, job.trial, seed) for seed in job.seeds]
+        return [run_episode(env, agent, job.trial, seed, job.extras) for seed in job.seeds]
 
 
-def run_episode(env: SemNavEnv, agent: Any, trial: Trial, seed: int) -> Result:
+def run_episode(
+    env: SemNavEnv, agent: Any, trial: Trial, seed: int, extras: Extras = NO_EXTRAS
+) -> Result:
     """One episode from a start pose that the seed scatters."""
-    options: dict[str, Any] = {"command": trial.command, "floor_plan": trial.floor_plan}
     env.reset(seed=seed, options={"floor_plan": trial.floor_plan})
-    options["pose"] = scattered(trial, env.floor_plan, env.robot, np.random.default_rng(seed))
-    observation, info = env.reset(seed=seed, options=options)
-    agent.reset(info)
-    over = False
-    while not over:
-        observation, _, terminated, truncated, info = env.step(agent.act(observation))
-        over = terminated or truncated
-    return Result(
+    pose = scattered(trial, env.floor_plan, env.robot, np.random.default_rng(seed))
+    options = {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
+    driven = drive(env, agent, seed, options)
+    result = Result(
         command=trial.command,
         seed=seed,
-        success=info["is_success"],
-        verdicts=tuple(str(verdict) for verdict in info["verdicts"]),
-        collisions=info["collisions"],
-        seconds=env.seconds,
-        path_length=info["path_length"],
-        route_length=info["route_length"],
-        remark=info["impossible"] or "",
+        verdicts=tuple(str(verdict) for verdict in driven.verifier.verdicts),
+        metrics=driven.metrics,
+        cause=driven.cause,
+        rechecked=driven.rechecked() if extras.recheck else "",
     )
+    if extras.pictures is not None and not result.success:
+        _draw(
+            extras.pictures / picture_name(trial, env.robot.name, seed), driven, env.robot, result
+        )
+    return result
+
+
+def picture_name(trial: Trial, robot: str, seed: int) -> str:
+    """The file name of the picture of an episode."""
+    plan = Path(trial.floor_plan).stem
+    command = re.sub("[^a-z0-9]+", "_", trial.command.lower())[:80].strip("_")
+    return f"{plan}-{command}-{robot}-seed{seed}.png"
+
+
+def _draw(path: Path, driven: Drive, robot: RobotSpec, result: Result) -> None:
+    from semnav_env.metrics.picture import save_episode
+
+    verifier = driven.verifier
+    title = f"{result.command}: {failure_line(result)}"
+    goals = verifier.planned_goals
+    save_episode(path, verifier.floor_plan, driven.recording, robot, verifier.route, goals, title)
 
 
 def scattered(

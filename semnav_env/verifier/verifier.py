@@ -75,7 +75,7 @@ class Verifier:
         self.crossed: list[str] = []
         self.collisions = 0
         self.path_length = 0.0
-        self._geodesic = geodesic
+        self.geodesic = geodesic
         self._ways = self._ways_to_goal()
         self._door_ends = np.array(
             [(*door.start, *door.end) for door in floor_plan.doors], dtype=np.float64
@@ -117,6 +117,11 @@ class Verifier:
         return self.failure is not None or self.follower.done
 
     @property
+    def verdict(self) -> Verdict:
+        """What became of the command as a whole; active while it is under way."""
+        return self.failure or (Verdict.DONE if self.follower.done else Verdict.ACTIVE)
+
+    @property
     def verdicts(self) -> tuple[Verdict, ...]:
         """One per clause."""
         return verdicts(len(self.command.clauses), self.follower.active, self.failure)
@@ -130,7 +135,7 @@ class Verifier:
     def route(self) -> FloatArray:
         """The true route as points, shape (k, 2), world frame."""
         points = [self.start[:2], *(place(goal) for goal in self.planned_goals)]
-        ways = [self._geodesic.to(b).way(a) for a, b in pairwise(points)]
+        ways = [self.geodesic.to(b).way(a) for a, b in pairwise(points)]
         return np.vstack(ways) if ways else np.array([self.start[:2]])
 
     def true_route(self) -> dict[str, Any]:
@@ -150,7 +155,7 @@ class Verifier:
         return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
     def _ways_to_goal(self) -> WaysTo:
-        return self._geodesic.to(place(self.follower.goal))
+        return self.geodesic.to(place(self.follower.goal))
 
     def _scene(self) -> Scene:
         return self.floor_plan.scene

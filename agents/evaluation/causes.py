@@ -1,0 +1,42 @@
+"""Why an episode failed, in words."""
+
+from __future__ import annotations
+
+from semnav_env.grounding.goal import Goal
+from semnav_env.metrics import Metrics
+from semnav_env.verifier import Verdict, Verifier
+
+
+def cause_of(verifier: Verifier, metrics: Metrics, impossible: str | None) -> str:
+    """Why an episode failed; empty if it did not.
+
+    Args:
+        verifier: that judged it.
+        metrics: of the episode.
+        impossible: why the robot took the command for impossible, if it did.
+    """
+    if verifier.success:
+        return ""
+    words = [_what_happened(verifier)]
+    if impossible:
+        words.append(f"robot: {impossible}")
+    words.append(f"{metrics.goal_distance:.1f} m from the goal")
+    if metrics.collisions:
+        words.append(f"{metrics.collisions} collisions")
+    return "; ".join(words)
+
+
+def _what_happened(verifier: Verifier) -> str:
+    goal = verifier.follower.goal
+    match verifier.failure:
+        case Verdict.WRONG_DOOR:
+            return f"crossed {verifier.crossed[-1]}, {_instead(goal)}"
+        case Verdict.WRONG_TURN:
+            return f"left by another arm or went past, {_instead(goal)}"
+        case _:
+            return f"not done: {goal.because}"
+
+
+def _instead(goal: Goal) -> str:
+    door = f" ({goal.door.name})" if goal.door is not None and goal.door.name else ""
+    return f"wanted: {goal.because}{door}"

@@ -1,0 +1,58 @@
+"""One episode driven by an agent, recorded and judged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from semnav_env.agents.base import Agent
+from semnav_env.agents.evaluation.causes import cause_of
+from semnav_env.env import SemNavEnv
+from semnav_env.metrics import Metrics, Recorder, Recording, measure
+from semnav_env.recheck import recheck
+from semnav_env.verifier import Verifier
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """A driven episode.
+
+    Attributes:
+        recording: poses, velocities and contacts of every step.
+        verifier: that judged it; knows the plan, the command, the true route and the goals.
+        metrics: all measures.
+        cause: why it failed, in words; empty after success.
+    """
+
+    recording: Recording
+    verifier: Verifier
+    metrics: Metrics
+    cause: str
+
+    def rechecked(self) -> str:
+        """The verdict of the second opinion where it is not the verifier's; else empty."""
+        verifier = self.verifier
+        found = recheck(self.recording, verifier.floor_plan, verifier.planned_goals)
+        return "" if found.verdict == verifier.verdict else found.verdict
+
+
+def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> Drive:
+    """Let an agent drive one episode to its end.
+
+    Args:
+        env: whose `observation=` is the agent's.
+        agent: the driver.
+        seed: of the environment.
+        options: for `env.reset`: "command", "pose", "floor_plan".
+    """
+    observation, info = env.reset(seed=seed, options=options)
+    agent.reset(info)
+    recorder = Recorder(env.world)
+    over = False
+    while not over:
+        observation, _, terminated, truncated, info = env.step(agent.act(observation))
+        recorder.note()
+        over = terminated or truncated
+    verifier, recording = env.task.verifier, recorder.recording()
+    metrics = measure(recording, verifier, env.robot)
+    return Drive(recording, verifier, metrics, cause_of(verifier, metrics, info["impossible"]))

@@ -1,0 +1,32 @@
+"""Measures of driven episodes: plain functions over arrays, and what was recorded to measure."""
+
+from semnav_env.metrics.measure import measure
+from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
+from semnav_env.metrics.paths import cls, dtw, length, ndtw, resampled, sdtw, soft_spl, spl
+from semnav_env.metrics.recording import Recorder, Recording
+from semnav_env.metrics.results import COLUMNS, HIGH_IS_BAD, Metrics, means, worst
+from semnav_env.metrics.risk import SHARES, cvar
+
+__all__ = [
+    "COLUMNS",
+    "HIGH_IS_BAD",
+    "SHARES",
+    "Metrics",
+    "Recorder",
+    "Recording",
+    "clearances",
+    "cls",
+    "collisions_per_100m",
+    "cvar",
+    "dtw",
+    "length",
+    "means",
+    "measure",
+    "ndtw",
+    "resampled",
+    "rms_jerk",
+    "sdtw",
+    "soft_spl",
+    "spl",
+    "worst",
+]

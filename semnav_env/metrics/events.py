@@ -1,0 +1,131 @@
+"""What can happen on a way, as typed values in the order of time.
+
+`step` is the row of the recording at which it is first true; `seconds` the time since the start.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TypeAlias
+
+
+class Arm(StrEnum):
+    """By which arm a junction was left, seen from where it was entered."""
+
+    AHEAD = "ahead"
+    LEFT = "left"
+    RIGHT = "right"
+    BACK = "back"
+
+
+@dataclass(frozen=True, slots=True)
+class DoorCrossed:
+    """The robot's centre crossed the line between a door's jambs.
+
+    Attributes:
+        step: of the recording.
+        seconds: since the start.
+        door: its name.
+        from_left: came from the left of the way from the door's first jamb to its second, where
+            the corridor lies in the bundled plans.
+        origin: the region that it came from; empty where the plan names none.
+        into: the region that it came into.
+    """
+
+    step: int
+    seconds: float
+    door: str
+    from_left: bool
+    origin: str
+    into: str
+
+
+@dataclass(frozen=True, slots=True)
+class JunctionEntered:
+    """The robot's centre came into an intersection of the plan.
+
+    Attributes:
+        step: of the recording.
+        seconds: since the start.
+        junction: name of the intersection.
+        origin: the region that it came from.
+    """
+
+    step: int
+    seconds: float
+    junction: str
+    origin: str
+
+
+@dataclass(frozen=True, slots=True)
+class JunctionLeft:
+    """The robot's centre left an intersection of the plan.
+
+    Attributes:
+        step: of the recording.
+        seconds: since the start.
+        junction: name of the intersection.
+        arm: by which side, seen from the side by which it was entered.
+        into: the region that it came into.
+    """
+
+    step: int
+    seconds: float
+    junction: str
+    arm: Arm
+    into: str
+
+
+@dataclass(frozen=True, slots=True)
+class Turned:
+    """The robot began to turn, and turned without pause.
+
+    Attributes:
+        step: of the recording, where the turn began.
+        seconds: since the start.
+        angle: by how much, radians, positive to the left.
+        duration: seconds.
+    """
+
+    step: int
+    seconds: float
+    angle: float
+    duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class Stopped:
+    """The robot came to a stand.
+
+    Attributes:
+        step: of the recording.
+        seconds: since the start.
+        duration: of standing still, seconds.
+    """
+
+    step: int
+    seconds: float
+    duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class ContactBegun:
+    """The robot touched something.
+
+    Attributes:
+        step: of the recording.
+        seconds: since the start.
+        impulse: received in that step, N s.
+        total: received until the contact ended, N s.
+        duration: of the contact, seconds.
+    """
+
+    step: int
+    seconds: float
+    impulse: float
+    total: float
+    duration: float
+
+
+Event: TypeAlias = DoorCrossed | JunctionEntered | JunctionLeft | Turned | Stopped | ContactBegun

@@ -1,0 +1,88 @@
+"""From a recorded episode to its measures."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.grounding.follower import STANDSTILL
+from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.maps.geodesic import WaysTo
+from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
+from semnav_env.metrics.paths import cls, length, ndtw, resampled, soft_spl, spl
+from semnav_env.metrics.recording import Recording
+from semnav_env.metrics.results import Metrics
+from semnav_env.robots import RobotSpec
+from semnav_env.verifier import Verdict, Verifier, place
+
+NEAR, VLN = 1.0, 3.0
+"""A goal is reached within so much in the looser measures of success, metres."""
+
+
+def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metrics:
+    """All measures of an episode.
+
+    Args:
+        recording: of the episode.
+        verifier: that judged it; it knows the plan, the route and the goals.
+        robot: that drove.
+    """
+    path, route = recording.path, verifier.route
+    path_length, route_length = length(path), verifier.route_length
+    goals = verifier.planned_goals
+    goal = place(goals[-1]) if goals else verifier.start[:2]
+    distances = geodesic_distances(verifier.geodesic.to(goal), path)
+    driven, wanted = resampled(path), resampled(route)
+    alike = ndtw(driven, wanted)
+    clear = clearances(recording.poses, robot, verifier.floor_plan)
+    success, verdicts = verifier.success, verifier.verdicts
+    return Metrics(
+        success=success,
+        within_1m=bool(distances[-1] < NEAR),
+        within_3m=bool(distances[-1] < VLN),
+        oracle_success=success or (bool(goals) and ever_met(goals[-1], recording)),
+        oracle_within_1m=bool(distances.min() < NEAR),
+        oracle_within_3m=bool(distances.min() < VLN),
+        spl=spl(success, path_length, route_length),
+        soft_spl=soft_spl(float(distances[-1]), float(distances[0]), path_length, route_length),
+        ndtw=alike,
+        sdtw=success * alike,
+        cls=cls(driven, wanted),
+        clauses=verdicts.count(Verdict.DONE) / len(verdicts) if verdicts else 1.0,
+        contact_free=recording.collisions == 0,
+        collisions=recording.collisions,
+        collisions_per_100m=collisions_per_100m(recording.collisions, path_length),
+        least_clearance=float(clear.min()),
+        mean_clearance=float(clear.mean()),
+        jerk=rms_jerk(path, recording.period),
+        goal_distance=float(distances[-1]),
+        path_length=path_length,
+        route_length=route_length,
+        seconds=recording.seconds,
+    )
+
+
+def geodesic_distances(ways: WaysTo, points: FloatArray) -> FloatArray:
+    """Lengths of the shortest ways from some points, shape (n, 2) to (n,), metres.
+
+    From where no way leads, it is that of the nearest place from where one does.
+    """
+    known = [ways.length((x, y)) for x, y in points.tolist()]
+    return np.array(
+        [
+            distance if np.isfinite(distance) else length(ways.way((x, y)))
+            for distance, (x, y) in zip(known, points.tolist(), strict=True)
+        ]
+    )
+
+
+def ever_met(goal: Goal, recording: Recording) -> bool:
+    """Whether a goal was met at any time, whatever happened before."""
+    poses = [(x, y, heading) for x, y, heading in recording.poses.tolist()]
+    if goal.kind is GoalKind.PASS:
+        return any(goal.crossed_between(before, after) for before, after in pairwise(poses))
+    if goal.kind is GoalKind.STOP:
+        return bool((recording.speeds[1:] < STANDSTILL).any())
+    return any(map(goal.reached_by, poses[1:]))

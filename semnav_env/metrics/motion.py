@@ -1,0 +1,68 @@
+"""How a robot moved: how smoothly, how near to what is solid, how often it touched it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import shapely
+
+from semnav_env.features.frames import FloatArray, points_to_parent
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.robots import RobotSpec
+
+FARTHEST = 10.0
+"""A clearance is no more than this, metres: nothing that matters is near."""
+
+LEAST_PATH = 1.0
+"""Collisions are per 100 m of a path at least so long, metres: standing still divides by none."""
+
+
+def rms_jerk(path: FloatArray, period: float) -> float:
+    """Root mean square of the jerk of the robot's centre, m/s^3.
+
+    The jerk is the third derivative of the place (Flash and Hogan 1985), here the third difference
+    over the cube of the period. A path of fewer than four points has none: 0.
+
+    Args:
+        path: of the robot's centre, one point a step, shape (n, 2), metres.
+        period: between two points, seconds.
+    """
+    if len(path) < 4:
+        return 0.0
+    jerk = np.diff(path, n=3, axis=0) / period**3
+    return math.sqrt(float((jerk**2).sum(axis=1).mean()))
+
+
+def clearances(poses: FloatArray, robot: RobotSpec, floor_plan: FloorPlan) -> FloatArray:
+    """Distance of the footprint from the nearest solid segment, Euclidean, metres, shape (n,).
+
+    0 where they touch, and at most `FARTHEST`. Only what the plan holds counts.
+
+    Args:
+        poses: of the robot's centre, shape (n, 3), world frame.
+        robot: whose footprint.
+        floor_plan: what is solid.
+    """
+    if len(floor_plan.segments) == 0:
+        return np.full(len(poses), FARTHEST)
+    bodies = footprints(poses, robot)
+    (rows, _), distances = floor_plan.solids.query_nearest(
+        bodies, return_distance=True, all_matches=False
+    )
+    found = np.full(len(poses), FARTHEST)
+    found[rows] = np.minimum(distances, FARTHEST)
+    return found
+
+
+def footprints(poses: FloatArray, robot: RobotSpec) -> FloatArray:
+    """The rectangles that a robot covers at some poses, as Shapely polygons, shape (n,)."""
+    x, y = robot.length / 2, robot.width / 2
+    corners = np.array([(x, y), (-x, y), (-x, -y), (x, -y)])
+    placed = np.array([points_to_parent(tuple(pose), corners) for pose in poses.tolist()])
+    return shapely.polygons(placed.reshape(-1, 4, 2))  # type: ignore[no-any-return]
+
+
+def collisions_per_100m(collisions: int, path_length: float) -> float:
+    """Collisions per 100 m of path; a path shorter than `LEAST_PATH` counts as that long."""
+    return 100.0 * collisions / max(path_length, LEAST_PATH)

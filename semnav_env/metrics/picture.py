@@ -1,0 +1,118 @@
+"""Pictures of driven episodes; the only file of the metrics that imports matplotlib."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import shapely
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.grounding.goal import Goal
+from semnav_env.maps.draw import draw_floor_plan
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.metrics.motion import footprints
+from semnav_env.metrics.recording import Recording
+from semnav_env.robots import RobotSpec
+from semnav_env.verifier import place
+
+ROUTE, PATH, CONTACT, GOAL = "#1a7f37", "#1f4fd8", "#d62728", "#8e3bb8"
+BODY_EVERY = 1.0
+"""Seconds between the bodies that are drawn."""
+
+AROUND = 2.5
+"""Shown around path and route, metres."""
+
+LONGEST_SIDE, LEAST_SIDE = 10.0, 5.0
+"""Of a picture, inches."""
+
+
+def save_episode(
+    path: str | Path,
+    floor_plan: FloorPlan,
+    recording: Recording,
+    robot: RobotSpec,
+    route: FloatArray,
+    goals: Sequence[Goal] = (),
+    title: str = "",
+) -> None:
+    """Write a picture of an episode: the plan, the true route, the way driven, contacts, goals.
+
+    Args:
+        path: the file; its suffix says the format (png, svg, pdf).
+        floor_plan: where.
+        recording: of the episode.
+        robot: whose body is drawn once a second.
+        route: the true route, shape (k, 2).
+        goals: of the clauses, numbered.
+        title: above it, wrapped.
+    """
+    low, high = _extent(floor_plan, np.vstack((recording.path, route)))
+    width, height = high - low
+    inch = LONGEST_SIDE / max(width, height)
+    size = max(LEAST_SIDE, width * inch) + 1.0, max(LEAST_SIDE, height * inch) + 1.6
+    figure = Figure(figsize=size, layout="constrained")
+    FigureCanvasAgg(figure)
+    ax = figure.add_subplot()
+    draw_floor_plan(floor_plan, ax, names=False)
+    draw_episode(ax, recording, robot, route, goals)
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    _name_doors(ax, floor_plan, low, high)
+    ax.set_title("\n".join(textwrap.wrap(title, int(10 * size[0]))), fontsize=10)
+    figure.legend(loc="outside lower center", ncols=4, fontsize=9)
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=90)
+
+
+def draw_episode(
+    ax: Axes,
+    recording: Recording,
+    robot: RobotSpec,
+    route: FloatArray,
+    goals: Sequence[Goal] = (),
+) -> None:
+    """Draw the true route, the way driven, bodies, contacts and goals onto a plan."""
+    ax.plot(*route.T, "--", color=ROUTE, linewidth=1.8, label="true route", zorder=4)
+    _draw_bodies(ax, recording, robot)
+    ax.plot(*recording.path.T, color=PATH, linewidth=1.8, label="driven", zorder=5)
+    touched = recording.path[recording.contacts > 0]
+    if len(touched):
+        ax.plot(*touched.T, "x", color=CONTACT, markersize=6, label="in contact", zorder=6)
+    for number, goal in enumerate(goals, start=1):
+        x, y = place(goal)
+        label = "goals" if number == 1 else None
+        ax.plot(x, y, "o", color=GOAL, markersize=14, alpha=0.8, label=label, zorder=7)
+        ax.text(x, y, str(number), color="white", size=8, ha="center", va="center", zorder=8)
+
+
+def _draw_bodies(ax: Axes, recording: Recording, robot: RobotSpec) -> None:
+    every = max(1, round(BODY_EVERY / recording.period))
+    rows = sorted({*range(0, len(recording.poses), every), recording.steps})
+    bodies = footprints(recording.poses[rows], robot)
+    corners = shapely.get_coordinates(bodies).reshape(len(rows), -1, 2)
+    faces = PolyCollection(corners, facecolor="none", edgecolor=PATH, linewidth=0.4, alpha=0.5)
+    ax.add_collection(faces)
+    ax.fill(*corners[-1].T, color=PATH, alpha=0.4, zorder=5)
+    x, y, heading = recording.poses[-1]
+    nose = robot.length / 2 * np.array((np.cos(heading), np.sin(heading)))
+    ax.annotate("", (x + nose[0], y + nose[1]), (x, y), arrowprops={"arrowstyle": "->"}, zorder=6)
+
+
+def _extent(floor_plan: FloorPlan, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The part of a plan to show: around some points, not beyond the plan."""
+    west, south, east, north = floor_plan.boundary.bounds
+    low = np.maximum(points.min(axis=0) - AROUND, (west - 0.3, south - 0.3))
+    high = np.minimum(points.max(axis=0) + AROUND, (east + 0.3, north + 0.3))
+    return low, high
+
+
+def _name_doors(ax: Axes, floor_plan: FloorPlan, low: FloatArray, high: FloatArray) -> None:
+    for door in floor_plan.doors:
+        if (door.midpoint > low).all() and (door.midpoint < high).all():
+            ax.annotate(door.name, door.midpoint, size=7, xytext=(4, 4), textcoords="offset points")

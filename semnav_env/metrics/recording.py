@@ -1,0 +1,137 @@
+"""What an episode left behind: poses, velocities and contacts, one row a step."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.world import World
+
+COLUMNS = {"poses": 3, "velocities": 3, "contacts": 0, "impulses": 0}
+"""Arrays of a recording and how wide they are; 0 is one number a row."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """One episode as it was driven. Row 0 is the start; each step adds a row.
+
+    Attributes:
+        poses: true poses of the robot's centre, shape (n + 1, 3), world frame, metres and radians.
+        velocities: of the robot's centre: forward, left (m/s) and turn (rad/s), robot frame,
+            shape (n + 1, 3).
+        contacts: solid segments touched during the step, shape (n + 1,).
+        impulses: sum of the magnitudes of the impulses received during the step, N s, shape
+            (n + 1,).
+        period: duration of a step, seconds.
+
+    Raises:
+        ValueError: the arrays do not fit together, are empty or not finite.
+    """
+
+    poses: FloatArray
+    velocities: FloatArray
+    contacts: NDArray[np.int64]
+    impulses: FloatArray
+    period: float
+
+    def __post_init__(self) -> None:
+        rows = len(self.poses)
+        for name, width in COLUMNS.items():
+            array: NDArray[Any] = getattr(self, name)
+            shape = (rows, width) if width else (rows,)
+            if rows == 0 or array.shape != shape or not np.isfinite(array).all():
+                raise ValueError(
+                    f"{name} of a recording has shape {array.shape}; it must be {shape}, "
+                    "finite, with at least one row"
+                )
+        if not 0.0 < self.period < np.inf:
+            raise ValueError(f"the period is {self.period}; it must be positive and finite")
+
+    @property
+    def steps(self) -> int:
+        """How many steps were taken."""
+        return len(self.poses) - 1
+
+    @property
+    def seconds(self) -> float:
+        """Simulated time."""
+        return self.steps * self.period
+
+    @property
+    def path(self) -> FloatArray:
+        """Where the robot's centre was, shape (n + 1, 2), world frame."""
+        return self.poses[:, :2]
+
+    @cached_property
+    def speeds(self) -> FloatArray:
+        """Of the robot's centre, whatever its direction, shape (n + 1,), m/s."""
+        return np.asarray(np.hypot(self.velocities[:, 0], self.velocities[:, 1]))
+
+    @property
+    def collisions(self) -> int:
+        """How many contacts began."""
+        touched = self.contacts > 0
+        return int(touched[0]) + int(np.count_nonzero(touched[1:] & ~touched[:-1]))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write an .npz file."""
+        arrays = {name: getattr(self, name) for name in COLUMNS}
+        np.savez_compressed(path, allow_pickle=False, period=self.period, **arrays)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Recording:
+        """Read what `save` wrote.
+
+        Raises:
+            ValueError: an array is missing or does not fit.
+        """
+        with np.load(path, allow_pickle=False) as file:
+            missing = [name for name in (*COLUMNS, "period") if name not in file]
+            if missing:
+                raise ValueError(f"{os.fspath(path)!r} is no recording: it lacks {missing[0]!r}")
+            return cls(**{name: file[name] for name in COLUMNS}, period=float(file["period"]))
+
+
+class Recorder:
+    """Writes down what a world does.
+
+        recorder = Recorder(env.world)  # after env.reset
+        ...                             # env.step(action)
+        recorder.note()                 # after each step
+        recorder.recording()
+
+    Args:
+        world: after its `reset`.
+    """
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._poses: list[Pose] = []
+        self._velocities: list[Pose] = []
+        self._touched: list[tuple[int, float]] = []
+        self.note()
+
+    def note(self) -> None:
+        """Write down the world as it is now."""
+        world = self._world
+        self._poses.append(world.pose)
+        self._velocities.append(world.velocity)
+        contacts = world.contacts
+        self._touched.append((contacts.count, contacts.impulse))
+
+    def recording(self) -> Recording:
+        """Everything so far."""
+        counts, impulses = zip(*self._touched, strict=True)
+        return Recording(
+            np.array(self._poses),
+            np.array(self._velocities),
+            np.array(counts, dtype=np.int64),
+            np.array(impulses, dtype=np.float64),
+            1.0 / self._world.control_hz,
+        )

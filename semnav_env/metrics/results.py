@@ -1,0 +1,93 @@
+"""What is measured of one episode."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+
+from semnav_env.metrics.risk import cvar
+
+HIGH_IS_BAD = frozenset(
+    ("goal_distance", "path_length", "collisions", "collisions_per_100m", "jerk", "seconds")
+)
+"""Columns whose worst episodes are those with high values."""
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """The measures of one episode; docs/metrics.md gives their formulas.
+
+    Attributes:
+        success: the whole command was carried out; doors count by their identity.
+        within_1m: ended within 1 m of the goal, geodesic.
+        within_3m: ended within 3 m of the goal, geodesic.
+        oracle_success: the last clause's goal was met at any time.
+        oracle_within_1m: some point of the path lies within 1 m of the goal, geodesic.
+        oracle_within_3m: some point of the path lies within 3 m of the goal, geodesic.
+        spl: success weighted by path length.
+        soft_spl: progress weighted by path length.
+        ndtw: normalised dynamic time warping.
+        sdtw: success weighted by it.
+        cls: coverage weighted by length score.
+        clauses: share of the clauses that were done.
+        contact_free: nothing was touched.
+        collisions: contacts that began.
+        collisions_per_100m: of path.
+        least_clearance: least distance of the body from anything solid, metres.
+        mean_clearance: mean of it over time, metres.
+        jerk: root mean square, m/s^3.
+        goal_distance: from the end of the path to the goal, geodesic, metres.
+        path_length: of the robot's centre, Euclidean, metres.
+        route_length: of the shortest way through the goals of all clauses, geodesic, metres.
+        seconds: simulated time.
+    """
+
+    success: bool
+    within_1m: bool
+    within_3m: bool
+    oracle_success: bool
+    oracle_within_1m: bool
+    oracle_within_3m: bool
+    spl: float
+    soft_spl: float
+    ndtw: float
+    sdtw: float
+    cls: float
+    clauses: float
+    contact_free: bool
+    collisions: int
+    collisions_per_100m: float
+    least_clearance: float
+    mean_clearance: float
+    jerk: float
+    goal_distance: float
+    path_length: float
+    route_length: float
+    seconds: float
+
+
+COLUMNS = tuple(Metrics.__dataclass_fields__)
+"""The names of all measures."""
+
+
+def means(episodes: Sequence[Metrics]) -> dict[str, float]:
+    """The mean of each measure.
+
+    Raises:
+        ValueError: no episodes.
+    """
+    return worst(episodes, 1.0)
+
+
+def worst(episodes: Sequence[Metrics], share: float) -> dict[str, float]:
+    """The mean of each measure over its own worst episodes, see `cvar`.
+
+    Args:
+        episodes: at least one.
+        share: of them, in (0, 1].
+
+    Raises:
+        ValueError: no episodes, or a share outside (0, 1].
+    """
+    rows = [asdict(episode) for episode in episodes]
+    return {name: cvar([row[name] for row in rows], share, name in HIGH_IS_BAD) for name in COLUMNS}

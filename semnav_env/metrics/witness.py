@@ -1,0 +1,168 @@
+"""From a recording and the true floor plan to the events of the way."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray, Point, wrap_angle
+from semnav_env.grounding.goal import first_crossed
+from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
+from semnav_env.metrics.events import (
+    Arm,
+    ContactBegun,
+    DoorCrossed,
+    Event,
+    JunctionEntered,
+    JunctionLeft,
+    Stopped,
+    Turned,
+)
+from semnav_env.metrics.recording import Recording
+from semnav_env.verifier.verifier import STILL
+
+STAND = 1.0
+"""Standing for so long is a stop, seconds."""
+
+TURNING, LEAST_TURN = 0.1, math.radians(30.0)
+"""Faster than this is turning, rad/s; less than that in all is no turn, radians."""
+
+PAUSE = 0.5
+"""A turn goes on after a pause of at most this, seconds."""
+
+ARMS = (Arm.AHEAD, Arm.LEFT, Arm.BACK, Arm.RIGHT)
+
+Mask = NDArray[np.bool_]
+
+
+def events_of(recording: Recording, floor_plan: FloorPlan) -> tuple[Event, ...]:
+    """All events of a way, in the order of time.
+
+    Doors, regions and intersections are those of the plan; one without named intersections gives
+    no events of junctions.
+    """
+    found: list[Event] = [
+        *_doors(recording, floor_plan),
+        *_junctions(recording, floor_plan),
+        *_turns(recording),
+        *_stops(recording),
+        *_contacts(recording),
+    ]
+    return tuple(sorted(found, key=lambda event: event.step))
+
+
+def region_at(floor_plan: FloorPlan, point: Point) -> str:
+    """The name of the region around a point, rooms first; empty if there is none."""
+    for region in floor_plan.regions:
+        if shapely.intersects_xy(region.polygon, *point):
+            return region.name
+    return ""
+
+
+def _doors(recording: Recording, floor_plan: FloorPlan) -> Iterator[DoorCrossed]:
+    doors = floor_plan.doors
+    ends = np.array([(*door.start, *door.end) for door in doors]).reshape(-1, 4)
+    steps = pairwise(recording.path.tolist())
+    for step, (before, after) in enumerate(steps, start=1):
+        index = first_crossed(ends, *before, *after)
+        if index >= 0:
+            from_left = _is_left(doors[index], before)
+            left, right = (region_at(floor_plan, p) for p in _beside(doors[index]))
+            sides = (left, right) if from_left else (right, left)
+            time = step * recording.period
+            yield DoorCrossed(step, time, doors[index].name, from_left, *sides)
+
+
+def _is_left(door: PlanDoor, point: Point) -> bool:
+    (ax, ay), (bx, by) = door.start, door.end
+    return (bx - ax) * (point[1] - ay) - (by - ay) * (point[0] - ax) > 0.0
+
+
+def _beside(door: PlanDoor, distance: float = 0.5) -> tuple[Point, Point]:
+    """The points to the left and to the right of the middle of a door."""
+    (x, y), share = door.midpoint, distance / door.width
+    dx, dy = share * (door.end[0] - door.start[0]), share * (door.end[1] - door.start[1])
+    return (x - dy, y + dx), (x + dy, y - dx)
+
+
+def _junctions(
+    recording: Recording, floor_plan: FloorPlan
+) -> Iterator[JunctionEntered | JunctionLeft]:
+    for region in floor_plan.intersections:
+        inside = shapely.contains_xy(region.polygon, recording.path)
+        for start, stop in runs(inside):
+            yield from _visit(recording, floor_plan, region, start, stop)
+
+
+def _visit(
+    recording: Recording, floor_plan: FloorPlan, region: Region, start: int, stop: int
+) -> Iterator[JunctionEntered | JunctionLeft]:
+    """Of one stay in an intersection, from row `start` to the one before row `stop`."""
+    path, period, name = recording.path, recording.period, region.name
+    inward = float(recording.poses[0, 2])
+    if start > 0:
+        inward = _outward(region, path[start - 1], path[start]) + math.pi
+        origin = region_at(floor_plan, tuple(path[start - 1]))
+        yield JunctionEntered(start, start * period, name, origin)
+    if stop < len(path):
+        turn = wrap_angle(_outward(region, path[stop - 1], path[stop]) - inward)
+        arm = ARMS[round(turn / (math.pi / 2)) % 4]
+        into = region_at(floor_plan, tuple(path[stop]))
+        yield JunctionLeft(stop, stop * period, name, arm, into)
+
+
+def _outward(region: Region, before: FloatArray, after: FloatArray) -> float:
+    """The direction out of a region across the side nearest to a step over its border."""
+    ring = np.asarray(shapely.normalize(region.polygon).exterior.coords)[::-1]  # counter-clockwise
+    sides = shapely.linestrings(np.stack((ring[:-1], ring[1:]), axis=1))
+    step = shapely.Point((before + after) / 2)
+    dx, dy = np.diff(ring, axis=0)[int(np.argmin(shapely.distance(sides, step)))]
+    return math.atan2(-dx, dy)
+
+
+def _turns(recording: Recording) -> Iterator[Turned]:
+    rates, period = recording.velocities[:, 2], recording.period
+    headings = np.unwrap(recording.poses[:, 2])
+    pause = round(PAUSE / period)
+    for turning in (rates > TURNING, rates < -TURNING):
+        for start, stop in _joined(list(runs(turning)), pause):
+            begin = max(start - 1, 0)
+            angle = float(headings[stop - 1] - headings[begin])
+            if abs(angle) >= LEAST_TURN:
+                yield Turned(start, start * period, angle, (stop - 1 - begin) * period)
+
+
+def _stops(recording: Recording) -> Iterator[Stopped]:
+    still = (recording.speeds < STILL) & (np.abs(recording.velocities[:, 2]) < STILL)
+    for start, stop in runs(still):
+        duration = (stop - start) * recording.period
+        if start > 0 and duration >= STAND:
+            yield Stopped(start, start * recording.period, duration)
+
+
+def _contacts(recording: Recording) -> Iterator[ContactBegun]:
+    impulses, period = recording.impulses, recording.period
+    for start, stop in runs(recording.contacts > 0):
+        total, duration = float(impulses[start:stop].sum()), (stop - start) * period
+        yield ContactBegun(start, start * period, float(impulses[start]), total, duration)
+
+
+def runs(mask: Mask) -> list[tuple[int, int]]:
+    """The stretches of a mask that are true: (first row, row after the last)."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], mask, [False])).astype(np.int8)))
+    return [(start, stop) for start, stop in edges.reshape(-1, 2).tolist()]
+
+
+def _joined(stretches: list[tuple[int, int]], gap: int) -> list[tuple[int, int]]:
+    """The stretches, those at most `gap` rows apart made one."""
+    joined: list[tuple[int, int]] = []
+    for start, stop in stretches:
+        if joined and start - joined[-1][1] <= gap:
+            start = joined.pop()[0]
+        joined.append((start, stop))
+    return joined

@@ -1,0 +1,139 @@
+"""The verifier and the second opinion, which share no code, agree."""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from semnav_env import recheck as second
+from semnav_env.agents.evaluation import drive
+from semnav_env.agents.oracle import OracleAgent
+from semnav_env.commands import parse
+from semnav_env.env import SemNavEnv
+from semnav_env.grounding.follower import STANDSTILL
+from semnav_env.maps import bundled_names, load_floor_plan
+from semnav_env.maps.geodesic import Geodesic
+from semnav_env.maps.placement import sample_pose
+from semnav_env.metrics import Recording
+from semnav_env.recheck import recheck
+from semnav_env.robots import WHEELCHAIR
+from semnav_env.tasks.sampling import sample_feasible
+from semnav_env.verifier import Verdict, Verifier
+from semnav_env.verifier.astray import ASTRAY
+from semnav_env.verifier.verifier import STILL, STILL_FOR
+from tests.erring import ErringAgent, ghost, targets
+
+PLANS = {name: load_floor_plan(name) for name in bundled_names()}
+GEODESICS = {name: Geodesic(plan) for name, plan in PLANS.items()}
+
+
+def glide(name: str, seed: int) -> tuple[Verifier, Recording] | None:
+    """A random command on a plan and a ghost that carries it out, more or less."""
+    plan, rng = PLANS[name], np.random.default_rng(seed)
+    start = sample_pose(plan, WHEELCHAIR, rng)
+    command = sample_feasible(plan, start, rng)
+    if command is None:
+        return None
+    judge = Verifier(plan, GEODESICS[name], command, start)
+    wobble, stand = rng.choice((0.0, 0.1, 0.3)), rng.choice((0.0, 2.0, 9.9, 10.1, 12.0))
+    return judge, ghost(judge, targets(plan, judge, rng), rng, wobble=wobble, stand=stand)
+
+
+@pytest.mark.parametrize("name", PLANS)
+def test_both_judge_gliding_ghosts_alike(name: str) -> None:
+    seen: Counter[Verdict] = Counter()
+    for seed in range(150):
+        glided = glide(name, seed)
+        if glided is None:
+            continue
+        judge, recording = glided
+        found = recheck(recording, judge.floor_plan, judge.planned_goals)
+        assert found.verdict == judge.verdict, f"seed {seed}: {judge.command}"
+        assert found.step == recording.steps or judge.verdict is Verdict.STOPPED_SHORT
+        seen[judge.verdict] += 1
+    assert seen[Verdict.DONE] > 20
+    assert seen[Verdict.WRONG_DOOR] > 5
+    assert sum(seen.values()) > 100
+
+
+def test_every_way_to_fail_is_among_the_ghosts() -> None:
+    glides = [glide("office_cross", seed) for seed in range(60)]
+    seen = {glided[0].verdict for glided in glides if glided is not None}
+    assert seen == set(Verdict) - {Verdict.ACTIVE, Verdict.PENDING}
+
+
+@pytest.mark.parametrize("name", PLANS)
+@pytest.mark.parametrize("robot", ["wheelchair", "spot"])
+def test_both_judge_driven_episodes_alike(name: str, robot: str) -> None:
+    env = SemNavEnv(robot, PLANS[name], observation="truth", max_seconds=25.0)
+    for seed, agent in enumerate((OracleAgent(), ErringAgent(1), ErringAgent(2))):
+        driven = drive(env, agent, seed, {})
+        assert driven.rechecked() == ""
+        assert driven.metrics.success == (driven.verifier.verdict is Verdict.DONE)
+
+
+def test_a_disagreement_is_told() -> None:
+    """A verifier that is led to believe in another path is found out."""
+    env = SemNavEnv(observation="truth", max_seconds=25.0)
+    driven = drive(env, OracleAgent(), 0, {})
+    assert driven.verifier.success
+    driven.verifier.failure = Verdict.WRONG_DOOR
+    assert driven.rechecked() == "done"
+
+
+def walked(*points: tuple[float, float], heading: float = 0.0) -> Recording:
+    path = np.array(points, dtype=np.float64)
+    count = len(path)
+    poses = np.column_stack((path, np.full(count, heading)))
+    speeds = np.column_stack((np.ones(count), np.zeros((count, 2))))
+    return Recording(poses, speeds, np.zeros(count, dtype=np.int64), np.zeros(count), 1 / 15)
+
+
+@pytest.mark.parametrize(
+    ("command", "points", "verdict"),
+    [
+        ("go through the first door on the right", [(3.4, 9.0), (3.4, 7.0)], "done"),
+        ("go through the second door on the right", [(3.4, 9.0), (3.4, 7.0)], "wrong door"),
+        ("go through the first door on the right", [(6.0, 9.0)], "out of time"),
+        ("turn right at the intersection", [(15.0, 9.1), (15.0, 12.5)], "wrong turn"),
+        ("turn right at the intersection", [(20.0, 9.1)], "wrong turn"),
+        ("follow the hallway until the end", [(28.9, 9.1)], "done"),
+    ],
+)
+def test_plain_walks_are_judged_as_by_hand(
+    command: str, points: list[tuple[float, float]], verdict: str
+) -> None:
+    start = (1.3, 9.1, 0.0)
+    judge = Verifier(PLANS["office_cross"], GEODESICS["office_cross"], parse(command), start)
+    recording = walked(start[:2], *points)
+    assert recheck(recording, judge.floor_plan, judge.planned_goals).verdict == verdict
+
+
+@given(st.integers(0, 10_000))
+def test_what_comes_after_the_end_changes_nothing(seed: int) -> None:
+    start = (1.3, 9.1, 0.0)
+    command = parse("go through the first door on the right")
+    judge = Verifier(PLANS["office_cross"], GEODESICS["office_cross"], command, start)
+    more = np.random.default_rng(seed).uniform(0.0, 25.0, (5, 2)).tolist()
+    recording = walked(start[:2], (3.4, 9.0), (3.4, 7.0), *map(tuple, more))
+    found = recheck(recording, judge.floor_plan, judge.planned_goals)
+    assert (found.verdict, found.step) == ("done", 2)
+
+
+def test_the_second_opinion_imports_nothing_of_the_verifier_or_the_follower() -> None:
+    tree = ast.parse(Path(second.__file__).read_text())
+    names = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    names |= {a.name for node in ast.walk(tree) if isinstance(node, ast.Import) for a in node.names}
+    assert not [name for name in names if "verifier" in name or "follower" in name]
+
+
+def test_both_hold_the_same_limits() -> None:
+    assert (second.INSIDE_ARM, second.BEHIND_JUNCTION) == (ASTRAY, 2 * ASTRAY)
+    assert (second.AT_REST, second.STILL_SPEED, second.STILL_RATE) == (STANDSTILL, STILL, STILL)
+    assert second.LONGEST_STAND == STILL_FOR
