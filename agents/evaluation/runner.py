@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import re
+import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,6 +37,9 @@ class Extras:
 
 
 NO_EXTRAS = Extras()
+
+LONGEST_NAME = 90
+"""Characters of a command in the name of a picture."""
 
 
 @dataclass(frozen=True)
@@ -117,9 +121,11 @@ def run_episode(
 
 
 def picture_name(trial: Trial, robot: str, seed: int) -> str:
-    """The file name of the picture of an episode."""
+    """The file name of the picture of an episode; long commands are cut and told by a checksum."""
     plan = Path(trial.floor_plan).stem
-    command = re.sub("[^a-z0-9]+", "_", trial.command.lower())[:80].strip("_")
+    command = re.sub("[^a-z0-9]+", "_", trial.command.lower()).strip("_")
+    if len(command) > LONGEST_NAME:
+        command = f"{command[:LONGEST_NAME]}_{zlib.crc32(trial.command.encode()):08x}"
     return f"{plan}-{command}-{robot}-seed{seed}.png"
 
 

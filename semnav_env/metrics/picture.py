@@ -115,4 +115,11 @@ def _extent(floor_plan: FloorPlan, points: FloatArray) -> tuple[FloatArray, Floa
 def _name_doors(ax: Axes, floor_plan: FloorPlan, low: FloatArray, high: FloatArray) -> None:
     for door in floor_plan.doors:
         if (door.midpoint > low).all() and (door.midpoint < high).all():
-            ax.annotate(door.name, door.midpoint, size=7, xytext=(4, 4), textcoords="offset points")
+            ax.annotate(
+                door.name,
+                door.midpoint,
+                size=7,
+                zorder=9,
+                xytext=(8, 5),
+                textcoords="offset points",
+            )

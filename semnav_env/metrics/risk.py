@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-SHARES = (0.01, 0.05, 0.10)
+SHARES = (0.10, 0.05, 0.01)
 """Of the episodes, over which the reports take the mean of the worst."""
 
 
