@@ -133,7 +133,7 @@ def _line(report: Report) -> str:
     return (
         f"{report.steps} decisions, {report.rate:.0f}/s, "
         f"success {report.success:.0%}, no contact {report.contact_free:.0%}, "
-        f"reward {report.reward:.1f}"
+        f"SPL {report.spl:.2f}, reward {report.reward:.1f}"
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections import Counter
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -24,7 +25,7 @@ from semnav_env.metrics import Recording
 from semnav_env.recheck import recheck
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.tasks.sampling import sample_feasible
-from semnav_env.verifier import Verdict, Verifier
+from semnav_env.verifier import Verdict, Verifier, astray, verifier
 from semnav_env.verifier.astray import ASTRAY
 from semnav_env.verifier.verifier import STILL, STILL_FOR
 from tests.erring import ErringAgent, ghost, targets
@@ -76,6 +77,26 @@ def test_both_judge_driven_episodes_alike(name: str, robot: str) -> None:
         driven = drive(env, agent, seed, {})
         assert driven.rechecked() == ""
         assert driven.metrics.success == (driven.verifier.verdict is Verdict.DONE)
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "value"),
+    [
+        (astray, "ASTRAY", 0.6),
+        (verifier, "STILL", 2.0),
+        (verifier, "first_crossed", lambda *_: -1),
+    ],
+)
+def test_a_verifier_that_judges_otherwise_is_found_out(
+    monkeypatch: pytest.MonkeyPatch, module: ModuleType, name: str, value: object
+) -> None:
+    monkeypatch.setattr(module, name, value)
+    glides = [glide("office_cross", seed) for seed in range(60)]
+    verdicts = [
+        (judge.verdict, recheck(recording, judge.floor_plan, judge.planned_goals).verdict)
+        for judge, recording in filter(None, glides)
+    ]
+    assert any(one != other for one, other in verdicts)
 
 
 def test_a_disagreement_is_told() -> None:

@@ -25,6 +25,7 @@ from semnav_env.agents.learning.files import (  # noqa: E402
 )
 from semnav_env.agents.learning.presets import PRESETS, PPOSettings  # noqa: E402
 from semnav_env.agents.learning.training import Trainer  # noqa: E402
+from semnav_env.metrics import spl  # noqa: E402
 from semnav_env.scripts import main as cli  # noqa: E402
 
 TINY = replace(
@@ -69,6 +70,18 @@ def test_learning_changes_the_policy_and_counts_decisions(tmp_path):
     assert not same(before, weights(trainer))
     trainer.close()
     assert any((tmp_path / "tensorboard").iterdir())
+
+
+def test_the_curves_are_of_the_measures_that_the_evaluation_has(tmp_path):
+    trainer = Trainer(replace(TINY, max_seconds=0.5), tmp_path, seed=0)
+    report = trainer.advance()
+    episodes = list(trainer.model.ep_info_buffer)
+    trainer.close()
+    assert episodes
+    assert report.contact_free == np.mean([episode["collisions"] == 0 for episode in episodes])
+    expected = [spl(e["is_success"], e["path_length"], e["route_length"]) for e in episodes]
+    assert report.spl == np.mean(expected)
+    assert all(episode["route_length"] > 1.0 for episode in episodes)
 
 
 def test_the_same_seed_learns_the_same(tmp_path):

@@ -13,6 +13,7 @@ from semnav_env.grounding import GroundingError
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.verifier import Motion, Verdict, Verifier
+from semnav_env.verifier.verdict import verdicts
 
 PLAN = load_floor_plan("office_cross")
 GEODESIC = Geodesic(PLAN)
@@ -113,3 +114,16 @@ def test_the_way_that_remains_shrinks_on_the_way_and_is_zero_at_the_end() -> Non
     judge.update(Motion((3.4, 7.9, 0.0), 1.0, 0.0, False, 1.0))
     assert judge.success
     assert judge.remaining == 0.0
+
+
+def test_a_failure_shows_even_if_the_last_clause_was_done_in_that_step() -> None:
+    assert verdicts(2, 2, Verdict.WRONG_DOOR) == (Verdict.DONE, Verdict.WRONG_DOOR)
+    assert verdicts(2, 2, None) == (Verdict.DONE, Verdict.DONE)
+    assert verdicts(2, 1, Verdict.WRONG_TURN) == (Verdict.DONE, Verdict.WRONG_TURN)
+    assert verdicts(2, 0, None) == (Verdict.ACTIVE, Verdict.PENDING)
+
+
+def test_the_verdict_on_the_whole_is_that_of_the_clause_that_decides() -> None:
+    judge = verifier("go through the second door on the right")
+    assert judge.verdict is Verdict.ACTIVE
+    assert walk(judge, (3.4, 9.0), (3.4, 7.0)).verdict is Verdict.WRONG_DOOR

@@ -26,6 +26,10 @@ from semnav_env.agents.learning.policy import Policy
 from semnav_env.agents.learning.practice import Practice
 from semnav_env.agents.learning.presets import Preset
 from semnav_env.agents.learning.state import read_state, write_state
+from semnav_env.metrics import spl
+
+OUTCOME = ("is_success", "collisions", "path_length", "route_length")
+"""What of an episode's last `info` the curves are made of."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +41,7 @@ class Report:
         rate: decisions per second lately.
         success: share of episodes in which the command was carried out.
         contact_free: share of episodes without any contact.
+        spl: mean success weighted by path length, as the evaluation measures it.
         reward: mean sum of rewards of an episode.
     """
 
@@ -44,6 +49,7 @@ class Report:
     rate: float
     success: float
     contact_free: float
+    spl: float
     reward: float
 
 
@@ -62,7 +68,7 @@ class Trainer:
         torch.set_num_threads(1)  # so small a network only loses by more
         self.preset, self.folder, self.seed = preset, folder, seed
         self._envs = VecMonitor(
-            DummyVecEnv([partial(Practice, preset)] * preset.envs), info_keywords=("collisions",)
+            DummyVecEnv([partial(Practice, preset)] * preset.envs), info_keywords=OUTCOME
         )
         self.model = _model(preset, self._envs, _seed_from(seed, steps))
         self.model.set_logger(configure(str(folder / "tensorboard"), ["tensorboard"]))
@@ -101,10 +107,12 @@ class Trainer:
             rate=(self.steps - before) / (time.perf_counter() - start),
             success=_mean(list(self.model.ep_success_buffer or ())),
             contact_free=_mean([episode["collisions"] == 0 for episode in episodes]),
+            spl=_mean([_spl(episode) for episode in episodes]),
             reward=_mean([episode["r"] for episode in episodes]),
         )
         if episodes:
             self.model.logger.record("rollout/contact_free", report.contact_free)
+            self.model.logger.record("rollout/spl", report.spl)
         self.model.dump_logs()
         return report
 
@@ -186,6 +194,10 @@ def _check_same(preset: Preset, description: Description, folder: Path) -> None:
                 f"{folder} was trained with another preset: {name} was {then.get(name)!r:.60}, "
                 f"{preset.name!r} has {value!r:.60}; start anew with another --out"
             )
+
+
+def _spl(episode: dict[str, Any]) -> float:
+    return spl(episode["is_success"], episode["path_length"], episode["route_length"])
 
 
 def _mean(values: list[Any]) -> float:

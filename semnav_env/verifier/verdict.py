@@ -23,7 +23,12 @@ FAILURES = (Verdict.WRONG_DOOR, Verdict.WRONG_TURN, Verdict.STOPPED_SHORT, Verdi
 
 @lru_cache(maxsize=256)
 def verdicts(clauses: int, active: int, failure: Verdict | None) -> tuple[Verdict, ...]:
-    """Done, then what became of the active clause, then pending."""
+    """Done, then what became of the active clause, then pending.
+
+    A failure in the very step that carries out the last clause is that clause's.
+    """
+    if failure is not None:
+        active = min(active, clauses - 1)
     rest = clauses - active - 1
     done = (Verdict.DONE,) * active
     return done if rest < 0 else (*done, failure or Verdict.ACTIVE, *(Verdict.PENDING,) * rest)

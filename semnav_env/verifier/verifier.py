@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from semnav_env.commands import Clause, Command, encode
+from semnav_env.commands import Command, encode
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
@@ -160,11 +160,6 @@ class Verifier:
     def _scene(self) -> Scene:
         return self.floor_plan.scene
 
-    @property
-    def _clause(self) -> Clause:
-        clauses = self.command.clauses
-        return clauses[min(self.follower.active, len(clauses) - 1)]
-
     def _judge(self, goal: Goal, completed: bool, pose: Pose) -> None:
         crossed = self._crossed_door(pose)
         if crossed is not None:
@@ -172,10 +167,13 @@ class Verifier:
         if (self.failure is None and not self.follower.done) or completed:
             if crossed is not None and not _is_door_of(goal, crossed):
                 self.failure = Verdict.WRONG_DOOR
-            elif not completed and went_astray(self._clause, goal, pose):
+            elif not completed and self._went_astray(goal, pose):
                 self.failure = Verdict.WRONG_TURN
             elif not self.follower.done and self._still > STILL_FOR:
                 self.failure = Verdict.STOPPED_SHORT
+
+    def _went_astray(self, goal: Goal, pose: Pose) -> bool:
+        return went_astray(self.command.clauses[self.follower.active], goal, pose)
 
     def _crossed_door(self, pose: Pose) -> PlanDoor | None:
         index = first_crossed(self._door_ends, *self._last[:2], *pose[:2])
