@@ -93,6 +93,7 @@ class Arguments:
             return
         console = Console()
         console.print(_commands_table([*summaries, everything]))
+        console.print()
         console.print(_measures_table(everything))
         for row in summaries:
             for failure in row.failures:
@@ -113,17 +114,25 @@ class Arguments:
 
 
 def _commands_table(summaries: list[Summary]) -> Table:
-    table = Table("command", "episodes")
+    """The numbers first, so that narrow windows wrap the words of the commands only."""
+    table = Table("n", box=None, padding=(0, 1, 0, 0))
     for heading in SHOWN.values():
-        table.add_column(heading, no_wrap=True, justify="right")
+        table.add_column(heading, width=7, justify="right")
+    table.add_column("command")
     for row in summaries:
-        table.add_row(row.name, str(row.episodes), *(_written(row.means[name]) for name in SHOWN))
+        table.add_row(str(row.episodes), *(_written(row.means[name]) for name in SHOWN), row.name)
     return table
 
 
 def _measures_table(everything: Summary) -> Table:
     """Every measure over all episodes: its mean, and its mean over its worst episodes."""
-    table = Table("all episodes", "mean", *(f"worst {share:.0%}" for share in SHARES))
+    table = Table(
+        "all episodes",
+        "mean",
+        *(f"worst {share:.0%}" for share in SHARES),
+        box=None,
+        padding=(0, 2, 0, 0),
+    )
     for name, mean in everything.means.items():
         worst = (_written(row[name]) for row in everything.worst)
         table.add_row(name.replace("_", " "), _written(mean), *worst)

@@ -8,7 +8,15 @@ from dataclasses import asdict, dataclass
 from semnav_env.metrics.risk import cvar
 
 HIGH_IS_BAD = frozenset(
-    ("goal_distance", "path_length", "collisions", "collisions_per_100m", "jerk", "seconds")
+    (
+        "collisions",
+        "collisions_per_100m",
+        "goal_distance",
+        "jerk",
+        "path_length",
+        "route_length",
+        "seconds",
+    )
 )
 """Columns whose worst episodes are those with high values."""
 
