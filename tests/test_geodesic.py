@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.floor_plan import FloorPlan, Surface
-from semnav_env.maps.geodesic import CLEARANCE, SPACING, Geodesic
+from semnav_env.maps.geodesic import CLEARANCE, KEPT, SPACING, Geodesic
 
 PLAN = load_floor_plan("office_cross")
 GEODESIC = Geodesic(PLAN)
@@ -64,3 +64,13 @@ def test_a_cell_is_free_where_everything_solid_is_far_enough(
     inside = shapely.contains(plan.boundary, places)
     clear = np.abs(distance - CLEARANCE) > 1e-6
     assert (Geodesic(plan).free == (inside & (distance > CLEARANCE)))[clear].all()
+
+
+def test_only_so_many_goals_are_kept_and_the_latest_stay() -> None:
+    geodesic = Geodesic(PLAN)
+    first = geodesic.to((1.0, 9.0)).distances
+    for step in range(KEPT + 10):
+        geodesic.to((2.0 + 0.1 * step, 9.0))
+        assert geodesic.to((1.0, 9.0)).distances is first
+    assert len(geodesic._known) == KEPT
+    assert geodesic.to((2.0, 9.0)).length((1.0, 9.0)) == pytest.approx(1.0, abs=SPACING)

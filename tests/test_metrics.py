@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import cache
 
 import numpy as np
@@ -317,8 +317,17 @@ def test_the_mean_of_all_is_the_mean_and_the_worst_are_worse() -> None:
     assert set(average) == set(COLUMNS) == set(asdict(good))
     for name in COLUMNS:
         a, b = float(getattr(good, name)), float(getattr(bad, name))
-        assert average[name] == pytest.approx((a + b) / 2)
+        if name != "collisions_per_100m":
+            assert average[name] == pytest.approx((a + b) / 2)
         assert tail[name] == pytest.approx(max(a, b) if name in HIGH_IS_BAD else min(a, b))
+
+
+def test_mean_collisions_per_100m_are_those_of_the_whole_way() -> None:
+    """One of 1 m with a collision, one of 99 m without: 1 per 100 m, not 50."""
+    _, found = glided("go through the first door on the right", (3.4, 8.6), (3.4, 7.0))
+    short = replace(found, collisions=1, path_length=1.0, collisions_per_100m=100.0)
+    far = replace(found, collisions=0, path_length=99.0, collisions_per_100m=0.0)
+    assert means([short, far])["collisions_per_100m"] == pytest.approx(1.0)
 
 
 def test_a_recording_survives_a_file(tmp_path) -> None:  # type: ignore[no-untyped-def]

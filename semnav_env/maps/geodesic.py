@@ -22,6 +22,10 @@ CLEARANCE = 0.2
 """The way of the robot's centre keeps this far from everything solid, metres."""
 
 
+KEPT = 64
+"""Goals whose distances are kept: doors come up again and again, but memory has an end."""
+
+
 class Geodesic:
     """Shortest ways of a robot's centre in one floor plan.
 
@@ -41,11 +45,15 @@ class Geodesic:
         self._known: dict[tuple[int, int], FloatArray] = {}
 
     def to(self, goal: Point) -> WaysTo:
-        """The shortest ways to a point; computed once per grid cell."""
+        """The shortest ways to a point; the last `KEPT` goals' are kept."""
         row, column = self._cell(goal)
-        if (row, column) not in self._known:
-            self._known[row, column] = self._distances(row * self._shape[1] + column)
-        return WaysTo(goal, self._known[row, column], self._origin)
+        known = self._known.pop((row, column), None)
+        if known is None:
+            known = self._distances(row * self._shape[1] + column)
+        self._known[row, column] = known  # the latest one is the last to go
+        if len(self._known) > KEPT:
+            del self._known[next(iter(self._known))]
+        return WaysTo(goal, known, self._origin)
 
     def _cell(self, point: Point) -> tuple[int, int]:
         """The nearest free cell (row, column)."""
