@@ -110,7 +110,7 @@ def _drive(env: gym.Env[Any, Any], actions: np.ndarray) -> float:
 def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], float]]]:
     """The parts of a step by themselves, at the environment's present pose."""
     perception, pose = Perception(env.perception.lidar, env.extractor), env.world.pose
-    perception.begin(env.task.verifier.command)
+    perception.begin(env.task.verifier.command, env.task.verifier.ways, env.task.verifier.start)
     lidar_pose = compose(pose, env.robot.lidar_mount)
     velocity = (0.3, 0.0, 0.2)
     perception.sense(pose, pose, velocity, (0, 0, 0))

@@ -154,7 +154,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         start = self.task.begin(options, self.np_random)
         self.world.reset(start)
         self.odometry.reset(start, self.np_random)
-        self.perception.begin(self.task.verifier.command)
+        self.perception.begin(self.task.verifier.command, self.task.verifier.ways, start)
         self._noise_seed = int(self.np_random.integers(2**62))
         self._steps, self._started = 0, True
         self._sense(self.world.pose, self.world.velocity)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -14,6 +16,7 @@ from semnav_env.features.kernels.scratch import allocate_features, allocate_scra
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.ways import Told, Way
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.observations import ROW_SIZE, door_ends, write_state
 from semnav_env.senses import Senses, join_senses, observe
@@ -26,6 +29,9 @@ CHECK_DOORS, CHECK_WALLS = 5, 30
 
 FIRST_SCANS = 3
 """After so many scans the first features count, see `SceneMemory`."""
+
+NO_WAYS: Mapping[int, Way] = MappingProxyType({})
+ORIGIN: Pose = (0.0, 0.0, 0.0)
 
 
 class Perception:
@@ -76,10 +82,19 @@ class Perception:
         self.__dict__.update(state)
         self.senses = self._join()
 
-    def begin(self, command: Command) -> None:
-        """Start an episode: forget the last one."""
+    def begin(
+        self, command: Command, ways: Mapping[int, Way] = NO_WAYS, start: Pose = ORIGIN
+    ) -> None:
+        """Start an episode: forget the last one.
+
+        Args:
+            command: to follow.
+            ways: that are pointed out for clauses of it, world frame.
+            start: pose, world frame: the origin of the odometry frame.
+        """
         self.memory.clear()
-        self.follower = Follower(command, care=0.5, jamb_margin=0.3)
+        guide = Told({clause: way.seen_from(start) for clause, way in ways.items()})
+        self.follower = Follower(command, care=0.5, jamb_margin=0.3, guide=guide)
         self._started = False
         self._looked_from: Pose = (0.0, 0.0, 0.0)
         self._looked_at, self._looked_on = 0, (0, 0)
@@ -97,7 +112,8 @@ class Perception:
         """
         observe(self.senses, true_pose, odometry, key)
         self._think(odometry, math.hypot(velocity[0], velocity[1]), key[2])
-        follower, goal = self.follower, self.follower.goal
+        follower = self.follower
+        goal = follower.goal.towards(odometry)
         write_state(
             self.row,
             follower.active,
@@ -166,9 +182,11 @@ class TruePerception(Perception):
         super().__init__(lidar, settings)
         self._scene = scene
 
-    def begin(self, command: Command) -> None:
+    def begin(
+        self, command: Command, ways: Mapping[int, Way] = NO_WAYS, start: Pose = ORIGIN
+    ) -> None:
         """Start an episode."""
-        super().begin(command)
+        super().begin(command, ways)
         self.follower.complete = True
 
     def scene(self) -> Scene:

@@ -15,6 +15,7 @@ from lark.parsers.lalr_interactive_parser import InteractiveParser
 from semnav_env.commands.language import Language
 from semnav_env.commands.meanings import meanings_of
 from semnav_env.commands.parts import Found
+from semnav_env.commands.rooms import spoken_names
 from semnav_env.commands.words import FILLER, Lexicon, pieces
 
 PUNCTUATION, QUESTION, NAME = "_PUNCTUATION", "_QUESTION", "NAME"
@@ -56,7 +57,7 @@ def find_clauses(language: Language, text: str, rooms: tuple[str, ...] = ()) -> 
         lark.UnexpectedToken: the text is not a command.
         MeaninglessError: it is, but with a number or an order that nothing has.
     """
-    spoken = {_spoken(name): name for name in rooms}
+    spoken = spoken_names(rooms)
     tree = _tree(language, text, tuple(spoken))
     try:
         return _apart(meanings_of(tree, language, spoken), text)
@@ -104,11 +105,6 @@ def _feed(parser: InteractiveParser, token: Token) -> Any:
     except UnexpectedToken as unexpected:
         unexpected.interactive_parser = parser
         raise
-
-
-def _spoken(name: str) -> str:
-    """How a room's name is spoken: "room_west_1" as "west 1"."""
-    return " ".join(name.replace("_", " ").split()).removeprefix("room ")
 
 
 @lru_cache(maxsize=32)

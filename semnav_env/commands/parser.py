@@ -11,6 +11,7 @@ from semnav_env.commands.command import MAX_CLAUSES, Command
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.language import Language, language_of
 from semnav_env.commands.normalise import NormalisedText, normalise
+from semnav_env.commands.rooms import plain_name
 from semnav_env.commands.suggest import nearest
 
 if TYPE_CHECKING:
@@ -108,8 +109,9 @@ def check_rooms(command: Command, text: str, rooms: Sequence[str]) -> None:
     Raises:
         CommandError: it does; says which there are.
     """
+    names = [plain_name(room) for room in rooms]
     for clause in command.clauses:
-        if isinstance(clause, GoToRoom) and rooms and clause.name not in rooms:
+        if isinstance(clause, GoToRoom) and rooms and clause.name not in names:
             problem = f'there is no room "{clause.name}"'
             raise CommandError(f"{problem}; there are: {', '.join(rooms)}", _beginning(text))
 

@@ -36,6 +36,7 @@ from semnav_env.commands.references import (
     Side,
     Unit,
 )
+from semnav_env.commands.rooms import plain_name
 
 IntArray: TypeAlias = NDArray[np.int64]
 Row: TypeAlias = tuple[int, ...]
@@ -161,10 +162,11 @@ def _row(clause: Clause, rooms: Sequence[str]) -> Row:
 
 
 def _room_number(name: str, rooms: Sequence[str]) -> int:
-    if name not in rooms[:MAX_NUMBER]:
+    names = [plain_name(room) for room in rooms[:MAX_NUMBER]]
+    if name not in names:
         known = ", ".join(rooms) or "none"
         raise ValueError(f"there is no room {name!r} to be numbered; there are: {known}")
-    return 1 + list(rooms).index(name)
+    return 1 + names.index(name)
 
 
 def _reference_row(reference: PlaceReference | DoorReference | Distance | None) -> Row:
@@ -212,7 +214,7 @@ def _clause_of(row: Row, rooms: Sequence[str]) -> Clause | None:
     if Verb(verb) is Verb.GO_TO_ROOM:
         if not 1 <= number <= len(rooms):
             raise ValueError(f"there are {len(rooms)} rooms")
-        return GoToRoom(rooms[number - 1])
+        return GoToRoom(plain_name(rooms[number - 1]))
     if REFERENTS[referent] == SECONDS:
         return Stop(number)
     reference = _reference(referent, number, side)

@@ -6,15 +6,19 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from semnav_env.commands import Command
-from semnav_env.commands.clauses import Follow, GoToDoor, Turn, Turning
+from semnav_env.commands.clauses import Follow, GoBack, GoToDoor, Stop, Turn, Turning
 from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.ground import ground
 from semnav_env.grounding.situation import GroundingError
+from semnav_env.grounding.ways import Guide, Told, Trail, Way
 
 STANDSTILL = 0.05
 """Slower than this is standing still, m/s."""
+
+PERIOD = 1.0 / 15.0
+"""Between two scans, seconds."""
 
 
 @dataclass
@@ -31,6 +35,7 @@ class Follower:
             inside what the verifier accepts.
         jamb_margin: how far beside a jamb a crossing still counts, and how far behind it the
             robot must be, metres; perceived jambs are not exact.
+        guide: points out the ways to rooms.
         active: index of the clause under way; the number of clauses when all are done.
         begin: where that clause began.
         goal: where it leads.
@@ -41,6 +46,7 @@ class Follower:
     complete: bool = False
     care: float = 1.0
     jamb_margin: float = 0.0
+    guide: Guide = field(default_factory=lambda: Told({}), repr=False)
     active: int = field(default=0, init=False)
     begin: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     goal: Goal = field(default=Goal(GoalKind.STOP, (0.0, 0.0, 0.0)), init=False)
@@ -48,10 +54,13 @@ class Follower:
     _last: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     _farthest: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     _farthest_along: float = field(default=0.0, init=False)
+    _still: float = field(default=0.0, init=False)
+    _way: Way | None = field(default=None, init=False, repr=False)
+    _trail: Trail = field(default_factory=lambda: Trail((0.0, 0.0, 0.0)), init=False, repr=False)
 
     def start(self, scene: Scene, pose: Pose) -> None:
         """Begin with the first clause."""
-        self.active, self._last = 0, pose
+        self.active, self._last, self._trail = 0, pose, Trail(pose)
         self._begin_clause(scene, pose, pose)
 
     @property
@@ -59,19 +68,24 @@ class Follower:
         """Whether every clause has been carried out."""
         return self.active >= len(self.command.clauses)
 
-    def advance(self, scene: Callable[[], Scene], pose: Pose, speed: float) -> bool:
+    def advance(
+        self, scene: Callable[[], Scene], pose: Pose, speed: float, seconds: float = PERIOD
+    ) -> bool:
         """Note where the robot is now; begin the next clause if this one is done.
 
         Args:
             scene: called for the scene when a new clause must be grounded.
             pose: of the robot's centre, in the scene's frame.
             speed: m/s.
+            seconds: since the last call.
 
         Returns:
             Whether a clause was completed.
         """
-        completed = not self.done and self._completed(pose, speed)
+        self._still = self._still + seconds if speed < STANDSTILL else 0.0
+        completed = not self.done and self._completed(pose)
         self._last = pose
+        self._trail.note(pose)
         along = to_local(self.begin, (pose[0], pose[1]))[0]
         if along > self._farthest_along:
             self._farthest, self._farthest_along = pose, along
@@ -89,9 +103,10 @@ class Follower:
                 self.command.clauses[self.active],
                 scene,
                 self.begin,
-                self._farthest,  # what was looked at stays so when the robot comes back
+                pose if self._way else self._farthest,  # what was looked at stays so on coming back
                 complete=self.complete,
                 after_hallway=self._after_hallway,
+                way=self._way,
             )
             self.impossible = None
         except GroundingError as error:
@@ -110,9 +125,15 @@ class Follower:
     def _begin_clause(self, scene: Scene, begin: Pose, pose: Pose) -> None:
         while not self.done and self._is_only_a_direction(self.active):
             self.active += 1
-        self.begin, self._farthest = begin, pose
+        self.begin, self._farthest, self._still = begin, pose, 0.0
         self._farthest_along = to_local(begin, (pose[0], pose[1]))[0]
+        self._way = None if self.done else self._way_from(begin, pose)
         self.look(scene, pose)
+
+    def _way_from(self, begin: Pose, pose: Pose) -> Way | None:
+        if isinstance(self.command.clauses[self.active], GoBack):
+            return self._trail.back(pose)
+        return self.guide(self.active, begin)
 
     def _is_only_a_direction(self, index: int) -> bool:
         """Whether a clause is "go down the hallway" and the next one says how far."""
@@ -124,6 +145,12 @@ class Follower:
         return isinstance(following, Follow | Turn | GoToDoor) and not on_the_spot
 
     @property
+    def wait(self) -> float:
+        """How long the robot is to stand still now, seconds."""
+        clause = None if self.done else self.command.clauses[self.active]
+        return float(clause.seconds) if isinstance(clause, Stop) else 0.0
+
+    @property
     def _after_hallway(self) -> bool:
         """Whether a bare turn means the next place that offers it, not here."""
         if self.active == 0:
@@ -133,11 +160,11 @@ class Follower:
         passed = isinstance(before, Follow) and before.past and aside
         return passed or self._is_only_a_direction(self.active - 1)
 
-    def _completed(self, pose: Pose, speed: float) -> bool:
+    def _completed(self, pose: Pose) -> bool:
         if self.goal.kind is GoalKind.PASS:
             return self.goal.crossed_between(self._last, pose, self.jamb_margin)
         if self.goal.kind is GoalKind.REACH:
             return self.goal.reached_by(pose, self.care)
         if self.goal.kind is GoalKind.STOP:
-            return self.impossible is None and speed < STANDSTILL
+            return self.impossible is None and self._still > self.wait
         return False

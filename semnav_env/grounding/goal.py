@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 
 from numba import njit
 
-from semnav_env.features.frames import FloatArray, Pose, wrap_angle
+from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
 from semnav_env.features.hallway import Hallway, Junction
 from semnav_env.features.scene import Door
+
+PLACES_AHEAD = 2
+"""A robot on a way that it knows heads for so many places farther on."""
+
+BESIDE = 1.5
+"""So far beside the end of such a way is still there, metres."""
+
+STRAIGHT = 0.6
+"""A way that turns by less leads straight on, radians."""
 
 
 class GoalKind(IntEnum):
@@ -43,6 +52,7 @@ class Goal:
         junction: the junction at which to turn.
         onward: where the next clause begins; None for `pose`. The middle of the doorway that was
             crossed, or the mouth of the arm that was turned into.
+        places: of the way there, from its begin on, if it is known; (x, y) in metres.
     """
 
     kind: GoalKind
@@ -54,9 +64,38 @@ class Goal:
     hallway: Hallway | None = field(default=None, compare=False, repr=False)
     junction: Junction | None = field(default=None, compare=False, repr=False)
     onward: Pose | None = None
+    places: tuple[Point, ...] = field(default=(), compare=False, repr=False)
+
+    def towards(self, pose: Pose) -> Goal:
+        """The goal, or while the way there is long the next place on it."""
+        if not self.places:
+            return self
+        apart = [math.dist(place, pose[:2]) for place in self.places]
+        here = apart.index(min(apart))
+        ahead = here + PLACES_AHEAD
+        there = self._on_way(ahead)
+        if ahead >= len(self.places) - 1:
+            if self.kind is GoalKind.PASS:
+                return self
+            there = self.pose
+        if abs(wrap_angle(self._on_way(here)[2] - there[2])) < STRAIGHT:
+            there = _abreast(there, pose)
+        return replace(self, kind=GoalKind.SEEK, pose=there, door=None)
+
+    def _on_way(self, index: int) -> Pose:
+        """A place of the known way, or the one before the last, and the way's direction there."""
+        index = min(index, len(self.places) - 2)
+        (x, y), (bx, by) = self.places[index : index + 2]
+        return x, y, math.atan2(by - y, bx - x)
 
     def reached_by(self, pose: Pose, share: float = 1.0) -> bool:
-        """Whether `pose` lies within the tolerances, or within a `share` of them."""
+        """Whether `pose` lies within the tolerances, or within a `share` of them.
+
+        At the end of a known way it is enough to be beside the goal: odometry may have drifted.
+        """
+        if self.places:
+            along, beside = to_local(self.pose, pose[:2])
+            return abs(along) <= share * self.distance_tolerance and abs(beside) <= BESIDE
         distance = math.hypot(pose[0] - self.pose[0], pose[1] - self.pose[1])
         turn = abs(wrap_angle(pose[2] - self.pose[2]))
         return distance <= share * self.distance_tolerance and (
@@ -85,6 +124,16 @@ class Goal:
         forward = dx * c + dy * s > 0
         slack = margin / self.door.width
         return forward and -slack <= share <= 1 + slack
+
+
+def _abreast(there: Pose, pose: Pose) -> Pose:
+    """The place beside one on a straight way that lies as far to its side as the robot does.
+
+    So a hallway is driven down where it is, however far odometry has drifted to a side.
+    """
+    beside = to_local(there, pose[:2])[1]
+    x, y = to_parent(there, (0.0, beside if abs(beside) < BESIDE else 0.0))
+    return x, y, there[2]
 
 
 @njit(cache=True)

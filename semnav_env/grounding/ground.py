@@ -17,14 +17,9 @@ from semnav_env.features.scene import Scene
 from semnav_env.grounding.doors import ground_door, ground_leave
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.junctions import ground_follow, ground_turn
-from semnav_env.grounding.situation import GroundingError, Situation
-
-NOT_YET: dict[type[Clause], str] = {
-    Stop: 'how long is not minded yet; say "stop"',
-    GoToRoom: 'names cannot be seen; name a door, for example "the second door on the left"',
-    GoBack: 'the way back is not found yet; say "turn around" and what to do then',
-}
-"""What is understood but not carried out, and what would be."""
+from semnav_env.grounding.rooms import ground_way
+from semnav_env.grounding.situation import Situation
+from semnav_env.grounding.ways import Way
 
 
 def ground(
@@ -35,6 +30,7 @@ def ground(
     *,
     complete: bool = False,
     after_hallway: bool = False,
+    way: Way | None = None,
 ) -> Goal:
     """Find what a clause refers to.
 
@@ -46,6 +42,7 @@ def ground(
         complete: the scene holds everything there is, so there is nothing to look for.
         after_hallway: the clause follows "go down the hallway", so a bare turn means the next
             place that offers it.
+        way: to the room that the clause names, or back, in the scene's frame.
 
     Returns:
         The goal in the scene's frame. Its kind is SEEK while the referent is not seen yet.
@@ -53,7 +50,8 @@ def ground(
     Raises:
         GroundingError: the referent cannot be there; the message says what is.
     """
-    situation = Situation(scene, begin, begin if pose is None else pose, complete, after_hallway)
+    here = begin if pose is None else pose
+    situation = Situation(scene, begin, here, complete, after_hallway, way)
     match clause:
         case GoToDoor():
             return ground_door(clause, situation)
@@ -63,8 +61,8 @@ def ground(
             return ground_follow(clause, situation)
         case Leave():
             return ground_leave(situation)
-        case Stop(0):
-            return Goal(GoalKind.STOP, situation.pose, because="stop here")
-        case Stop() | GoToRoom() | GoBack():
-            raise GroundingError(f"{clause}: {NOT_YET[type(clause)]}")
+        case GoToRoom() | GoBack():
+            return ground_way(clause, situation)
+        case Stop():
+            return Goal(GoalKind.STOP, situation.pose, because=str(clause))
     raise TypeError(f"{clause!r} is no clause")

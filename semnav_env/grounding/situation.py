@@ -10,6 +10,7 @@ from semnav_env.features.frames import Pose
 from semnav_env.features.hallway import Hallway, hallway
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.ways import Way
 
 LOOK_AHEAD = 4.0
 """How far ahead of the robot the goal of a search lies, metres."""
@@ -35,6 +36,7 @@ class Situation:
         pose: how far the robot has come since then, in the scene's frame.
         complete: the scene holds everything there is.
         after_hallway: the clause before was "go down the hallway".
+        way: that was pointed out or driven, for a clause that needs one.
     """
 
     scene: Scene
@@ -42,6 +44,7 @@ class Situation:
     pose: Pose
     complete: bool = False
     after_hallway: bool = False
+    way: Way | None = None
 
     @cached_property
     def hallway(self) -> Hallway:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from semnav_env.commands import Command, parse
+from semnav_env.directory import Directory
 from semnav_env.features.frames import Pose, wrap_angle
 from semnav_env.features.hallway import hallway
 from semnav_env.grounding import GroundingError
@@ -109,7 +110,8 @@ class CommandTask:
 
     def _is_feasible(self, command: Command, start: Pose) -> bool:
         try:
-            plan_goals(self.floor_plan, command, start)
+            guide = Directory(self.floor_plan, command, self.geodesic)
+            plan_goals(self.floor_plan, command, start, guide)
         except GroundingError:
             return False
         return True

@@ -3,20 +3,31 @@
 from __future__ import annotations
 
 from semnav_env.commands import Command
+from semnav_env.directory import Directory
 from semnav_env.features.frames import Point, Pose
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import GroundingError
+from semnav_env.grounding.ways import Guide
 from semnav_env.maps.floor_plan import FloorPlan
 
 
-def plan_goals(floor_plan: FloorPlan, command: Command, start: Pose) -> tuple[Goal, ...]:
+def plan_goals(
+    floor_plan: FloorPlan, command: Command, start: Pose, guide: Guide | None = None
+) -> tuple[Goal, ...]:
     """The goals of a command on the true scene, each grounded where the one before ends.
+
+    Args:
+        floor_plan: the truth.
+        command: what to do.
+        start: from where.
+        guide: points out the ways to rooms; a `Directory` of the floor plan if not given.
 
     Raises:
         GroundingError: a clause cannot be carried out.
     """
-    follower = Follower(command, complete=True)
+    guide = Directory(floor_plan, command) if guide is None else guide
+    follower = Follower(command, complete=True, guide=guide)
     follower.start(floor_plan.scene, start)
     goals = []
     while not follower.done:

@@ -10,10 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from semnav_env.commands import Command, encode
+from semnav_env.directory import Directory
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, GoalKind, first_crossed
+from semnav_env.grounding.ways import Told
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor
 from semnav_env.maps.geodesic import Geodesic, WaysTo
 from semnav_env.verifier.astray import went_astray
@@ -67,9 +69,11 @@ class Verifier:
         self.floor_plan = floor_plan
         self.command = command
         self.start = start
-        self.planned_goals = plan_goals(floor_plan, command, start)
+        directory = Directory(floor_plan, command, geodesic)
+        self.planned_goals = plan_goals(floor_plan, command, start, directory)
+        self.ways = dict(directory.ways)
         self.tokens = encode(command, floor_plan.room_names)
-        self.follower = Follower(command, complete=True)
+        self.follower = Follower(command, complete=True, guide=Told(self.ways))
         self.follower.start(floor_plan.scene, start)
         self.failure: Verdict | None = None
         self.crossed: list[str] = []
@@ -94,10 +98,11 @@ class Verifier:
         still = speed < STILL and abs(turn_rate) < STILL
         self._still = self._still + seconds if still else 0.0
         goal = self.follower.goal
-        completed = self.follower.advance(self._scene, pose, speed)
+        allowed = STILL_FOR + self.follower.wait
+        completed = self.follower.advance(self._scene, pose, speed, seconds)
         if completed and not self.follower.done:
             self._ways = self._ways_to_goal()
-        self._judge(goal, completed, pose)
+        self._judge(goal, completed, pose, self._still > allowed)
         self._last = pose
         return completed
 
@@ -160,16 +165,16 @@ class Verifier:
     def _scene(self) -> Scene:
         return self.floor_plan.scene
 
-    def _judge(self, goal: Goal, completed: bool, pose: Pose) -> None:
+    def _judge(self, goal: Goal, completed: bool, pose: Pose, too_still: bool) -> None:
         crossed = self._crossed_door(pose)
         if crossed is not None:
             self.crossed.append(crossed.name)
         if (self.failure is None and not self.follower.done) or completed:
-            if crossed is not None and not _is_door_of(goal, crossed):
+            if crossed is not None and not _may_cross(goal, crossed):
                 self.failure = Verdict.WRONG_DOOR
             elif not completed and self._went_astray(goal, pose):
                 self.failure = Verdict.WRONG_TURN
-            elif not self.follower.done and self._still > STILL_FOR:
+            elif not self.follower.done and too_still:
                 self.failure = Verdict.STOPPED_SHORT
 
     def _went_astray(self, goal: Goal, pose: Pose) -> bool:
@@ -180,6 +185,9 @@ class Verifier:
         return None if index < 0 else self.floor_plan.doors[index]
 
 
-def _is_door_of(goal: Goal, crossed: PlanDoor) -> bool:
-    """Whether a goal is to pass that very door."""
-    return goal.kind is GoalKind.PASS and goal.door is not None and goal.door.name == crossed.name
+def _may_cross(goal: Goal, crossed: PlanDoor) -> bool:
+    """Whether a goal is to pass that very door, or is beyond it on the way that is known."""
+    if goal.kind is GoalKind.PASS and goal.door is not None and goal.door.name == crossed.name:
+        return True
+    line = np.array([(*crossed.start, *crossed.end)])
+    return any(first_crossed(line, *a, *b) == 0 for a, b in pairwise(goal.places))

@@ -1,0 +1,52 @@
+"""The names of rooms: how a plan writes them, a command holds them and people say them."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Sequence
+
+from semnav_env.commands.words import pieces
+
+MAX_NAME = 40
+"""The most characters of a name."""
+
+_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
+_NUMBERED = re.compile(r"(?:room|[a-z]*)[ _-]?(\d+)[ ._-](\d+[a-z]?)")
+
+
+def plain_name(name: str) -> str:
+    """A name as a command holds it: "Küche 2" as "kueche 2"; "" if it has no letter or digit.
+
+    Small letters a to z and digits, parted by single spaces, dots, hyphens or underscores.
+    """
+    folded = "".join(_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold())
+    kept = re.sub(r"[^a-z0-9._-]+", " ", folded)
+    single = re.sub(r"([ ._-])[ ._-]*", r"\1", kept)
+    return single[:MAX_NAME].strip(" ._-")
+
+
+def spoken_names(names: Sequence[str]) -> dict[str, str]:
+    """The plain name of a room by each way to say it, words parted by single spaces.
+
+    "room_west_1" is said "west 1"; "l3_508" also "3.508" and, where it is the only one, "508".
+    """
+    plain = [name for name in map(plain_name, names) if name]
+    short = [(said, name) for name in plain for said in _in_short(name)]
+    often = Counter(said for said, _ in short)
+    once = {said: name for said, name in short if often[said] == 1}
+    return once | {_said(name): name for name in plain} | {name: name for name in plain}
+
+
+def _said(name: str) -> str:
+    words = " ".join(piece.text for piece in pieces(re.sub("[_-]", " ", name)))
+    return words.removeprefix("room ")
+
+
+def _in_short(name: str) -> set[str]:
+    numbered = _NUMBERED.fullmatch(name)
+    if numbered is None:
+        return set()
+    floor, number = numbered.groups()
+    return {_said(said) for said in (f"{floor}.{number}", f"{floor} {number}", number)}

@@ -1,0 +1,128 @@
+"""Points out the ways to named rooms, as the directory in a building's entrance does."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import shapely
+
+from semnav_env.commands import Command, GoToRoom
+from semnav_env.commands.rooms import plain_name
+from semnav_env.features.frames import FloatArray, Point, Pose, wrap_angle
+from semnav_env.grounding.situation import GroundingError
+from semnav_env.grounding.ways import Way, paced
+from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
+from semnav_env.maps.geodesic import Geodesic
+
+BESIDE = 0.5
+"""So far on either side of a door one is in what it joins, metres."""
+
+ABOUT = 0.3
+"""Outlines of rooms are as exact as this, metres."""
+
+WIDE = 1.5
+"""A way leads down the middle of what is less than twice as wide, metres."""
+
+
+class Directory:
+    """Knows the floor plan and tells the ways to its rooms.
+
+    Args:
+        floor_plan: of the building.
+        command: of whose clauses it is asked.
+        geodesic: of the floor plan; made when it is needed if not given.
+    """
+
+    def __init__(
+        self, floor_plan: FloorPlan, command: Command, geodesic: Geodesic | None = None
+    ) -> None:
+        self._plan = floor_plan
+        self._command = command
+        self._geodesic = geodesic
+        self.ways: dict[int, Way] = {}
+
+    def __call__(self, clause: int, begin: Pose) -> Way | None:
+        """The way to the room that a clause names, world frame; None if it names none.
+
+        The ways asked for are kept in `ways` by the number of the clause.
+
+        Raises:
+            GroundingError: there is no such room, or no way into it.
+        """
+        named = self._command.clauses[clause]
+        if not isinstance(named, GoToRoom):
+            return None
+        room = next(
+            (room for room in self._plan.rooms if plain_name(room.name) == named.name), None
+        )
+        if room is None:
+            there = ", ".join(self._plan.room_names) or "no room with a name"
+            raise GroundingError(f"{named}: {self._plan.name} has {there}")
+        if self._geodesic is None:
+            self._geodesic = Geodesic(self._plan)
+        self.ways[clause] = self._into(room, begin[:2], str(named))
+        return self.ways[clause]
+
+    def _into(self, room: Region, begin: Point, named: str) -> Way:
+        """The shortest way into a room: through the door that it leads by, if there is one."""
+        assert self._geodesic is not None
+        if room.polygon.contains(shapely.Point(begin)):
+            return Way((begin, begin))
+        doors = [(door, *_inward(door, room)) for door in self._plan.doors if door.open]
+        entries = [(door, heading) for door, leads, heading in doors if leads]
+        inside = room.polygon.representative_point()
+        ends: list[Point] = [door.midpoint for door, _ in entries] or [(inside.x, inside.y)]
+        lengths = [self._geodesic.to(end).length(begin) for end in ends]
+        best = min(range(len(ends)), key=lambda k: lengths[k])
+        way = self._geodesic.to(ends[best]).way(begin)
+        if math.isinf(lengths[best]) or not (entries or self._ends_in(room, way[-2])):
+            raise GroundingError(f"{named}: no open door leads there")
+        if not entries:
+            (ax, ay), (bx, by) = way[-3:-1].tolist()
+            return Way(self._amid(way[:-1]), heading=math.atan2(by - ay, bx - ax))
+        door, heading = entries[best]
+        return Way(self._amid(way), door.as_door(), heading)
+
+    def _amid(self, way: FloatArray) -> tuple[Point, ...]:
+        """The places of a way, each moved into the middle between what is left and right of it."""
+        places = np.array(paced(way))
+        ahead = np.gradient(places, axis=0)
+        across = np.column_stack((-ahead[:, 1], ahead[:, 0]))
+        across /= np.hypot(*across.T)[:, None]
+        doors = [(*door.start, *door.end) for door in self._plan.doors if door.open]
+        sides = np.vstack((self._plan.segments, np.reshape(doors, (-1, 4))))
+        left, right = (_room(sides, places, sign * across) for sign in (1.0, -1.0))
+        inner = np.s_[1:-1]
+        places[inner] += 0.5 * (left - right)[inner, None] * across[inner]
+        return tuple(zip(*places.T.tolist(), strict=True))
+
+    @staticmethod
+    def _ends_in(room: Region, point: Point) -> bool:
+        return bool(room.polygon.distance(shapely.Point(point)) < ABOUT)
+
+
+def _room(segments: FloatArray, places: FloatArray, directions: FloatArray) -> FloatArray:
+    """How far one can go from each place in its direction, at most `WIDE`, metres."""
+    start, run = segments[:, :2], segments[:, 2:] - segments[:, :2]
+    free = np.full(len(places), WIDE)
+    for k, (place, (dx, dy)) in enumerate(zip(places, directions, strict=True)):
+        x, y = (start - place).T
+        turned = dx * run[:, 1] - dy * run[:, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            reach, share = (x * run[:, 1] - y * run[:, 0]) / turned, (x * dy - y * dx) / turned
+        met = reach[(reach > 0.0) & (share >= 0.0) & (share <= 1.0)]
+        free[k] = min(WIDE, met.min(initial=WIDE))
+    return free
+
+
+def _inward(door: PlanDoor, room: Region) -> tuple[bool, float]:
+    """Whether a door leads into a room, and the heading that leads in."""
+    (ax, ay), (bx, by) = door.start, door.end
+    heading = math.atan2(by - ay, bx - ax) + math.pi / 2
+    x, y = door.midpoint
+    dx, dy = BESIDE * math.cos(heading), BESIDE * math.sin(heading)
+    left = room.polygon.distance(shapely.Point(x + dx, y + dy))
+    right = room.polygon.distance(shapely.Point(x - dx, y - dy))
+    leads = min(left, right) < ABOUT and abs(left - right) > BESIDE / 2
+    return leads, wrap_angle(heading if left < right else heading + math.pi)

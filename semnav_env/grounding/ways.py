@@ -1,0 +1,125 @@
+"""The way to a place that cannot be seen from where it is named: pointed out, or driven before."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_angle
+from semnav_env.features.scene import Door, Scene
+
+PACE = 1.5
+"""Distance between the places of a way, metres."""
+
+MISPLACED = (1.5, 1.0)
+"""A door may be seen so far from where it was pointed out, through it and beside it, metres; beside
+it less than from door to door."""
+
+CROSSED = 0.5
+"""A robot that is farther behind a door faces another one, metres: less than half a hallway."""
+
+ACROSS = math.radians(30.0)
+"""And so far it may be turned."""
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """The way to a place, as one who knows the building would point it out.
+
+    Attributes:
+        places: (x, y) in metres, `PACE` apart: from where it begins to where it leads.
+        door: the doorway that leads in; None where there is none to pass.
+        heading: through that door, or else of the robot at the last place, radians.
+    """
+
+    places: tuple[Point, ...]
+    door: Door | None = None
+    heading: float = 0.0
+
+    def seen_from(self, frame: Pose) -> Way:
+        """The same in another frame."""
+        places = tuple(to_local(frame, place) for place in self.places)
+        door = self.door
+        if door is not None:
+            door = Door(to_local(frame, door.start), to_local(frame, door.end))
+        return Way(places, door, wrap_angle(self.heading - frame[2]))
+
+
+class Guide(Protocol):
+    """Points out ways."""
+
+    def __call__(self, clause: int, begin: Pose) -> Way | None:
+        """The way to the room that a clause of the command names, from where it begins."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """A guide that has pointed out all ways beforehand, by the number of their clause."""
+
+    ways: Mapping[int, Way]
+
+    def __call__(self, clause: int, begin: Pose) -> Way | None:
+        """The way that was pointed out for a clause, if one was."""
+        return self.ways.get(clause)
+
+
+def door_near(scene: Scene, way: Way, pose: Pose) -> Door | None:
+    """The door of a scene that is the way's, for a robot before it; None if it is not seen."""
+    if way.door is None:
+        return None
+    pointed_out = (*way.door.midpoint, way.heading)
+    before = (*pose[:2], way.heading)
+    near = [
+        door
+        for door in scene.doors
+        if _is_near(door, pointed_out) and _apart(door, before)[0] > -CROSSED
+    ]
+    return min(near, key=lambda door: abs(_apart(door, pointed_out)[1]), default=None)
+
+
+def _is_near(door: Door, pointed_out: Pose) -> bool:
+    """Whether a door may be the one that was pointed out, by its middle and the heading through."""
+    through, beside = _apart(door, pointed_out)
+    run = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0])
+    turned = abs(math.cos(run - pointed_out[2])) >= math.sin(ACROSS)
+    return abs(through) < MISPLACED[0] and abs(beside) < MISPLACED[1] and not turned
+
+
+def _apart(door: Door, pointed_out: Pose) -> Point:
+    return to_local(pointed_out, door.midpoint)
+
+
+def paced(points: FloatArray | Sequence[Point]) -> tuple[Point, ...]:
+    """Places `PACE` apart along a line, shape (k, 2); its ends included."""
+    line = np.asarray(points, dtype=np.float64)
+    along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))))
+    stops = np.append(np.arange(0.0, along[-1], PACE), along[-1])
+    x, y = (np.interp(stops, along, line[:, axis]) for axis in (0, 1))
+    return tuple(zip(x.tolist(), y.tolist(), strict=True))
+
+
+class Trail:
+    """Where the robot has been: places `PACE` apart, without the loops that it drove."""
+
+    def __init__(self, start: Pose) -> None:
+        self._places = [start[:2]]
+        self._heading = start[2]
+
+    def note(self, pose: Pose) -> None:
+        """Add the place where the robot is now; call it often."""
+        here = pose[:2]
+        if math.dist(here, self._places[-1]) < PACE:
+            return
+        met = (k for k, place in enumerate(self._places[:-1]) if math.dist(here, place) < PACE / 2)
+        if (first := next(met, None)) is not None:
+            del self._places[first + 1 :]
+        else:
+            self._places.append(here)
+
+    def back(self, pose: Pose) -> Way:
+        """The way back to the pose where it began."""
+        return Way((pose[:2], *reversed(self._places)), heading=self._heading)
