@@ -17,6 +17,7 @@ COMMANDS = {
     "map": ("map", "list, show, build and import floor plans"),
     "demo": ("demo", "let a robot carry out a command"),
     "ground": ("ground", "say what a command refers to in a floor plan"),
+    "describe": ("describe", "say the command that leads to a door or a room"),
     "evaluate": ("evaluate", "measure an agent on a suite of commands"),
     "evaluate features": ("evaluate_features", "measure the feature extractor against truth"),
     "evaluate lines": ("evaluate_lines", "measure lines on real scans, walls on simulated ones"),

@@ -21,6 +21,7 @@ from semnav_env.commands.interpreters import (
     ModelInterpreter,
     TemplateInterpreter,
 )
+from semnav_env.commands.paraphrases import paraphrases
 from semnav_env.commands.parser import parse, readings
 from semnav_env.commands.program import from_program, to_program
 from semnav_env.commands.references import (
@@ -72,6 +73,7 @@ __all__ = [
     "decode",
     "encode",
     "from_program",
+    "paraphrases",
     "parse",
     "readings",
     "sample_clause",

@@ -36,6 +36,8 @@ class Language:
         names: what to call a terminal in an error, where its first word does not do.
         hints: advice for words that are often tried and not understood.
         phrases: how commands are said, as format strings; "door:to" is a form of "door".
+        wordings: other ways to say phrases; those of "1" are other words for the first, and those
+            of "command" say a whole one.
     """
 
     name: str
@@ -52,6 +54,7 @@ class Language:
     names: dict[str, str]
     hints: dict[str, str]
     phrases: dict[str, str]
+    wordings: dict[str, tuple[str, ...]]
 
     def lark(self) -> str:
         """The whole grammar in Lark's notation."""
@@ -94,7 +97,10 @@ class Language:
 
         Parts that are references are said in the form that the phrase asks for: "{door:to}".
         """
-        template = self.phrases.get(f"{phrase}:{form}") or self.phrases[phrase]
+        return self.fill(self.phrases.get(f"{phrase}:{form}") or self.phrases[phrase], parts)
+
+    def fill(self, template: str, parts: dict[str, Any]) -> str:
+        """Say the parts in a format string, each in the form that it asks for."""
         return template.format(**{key: _Part(part, self) for key, part in parts.items()})
 
 
@@ -138,6 +144,7 @@ def load(name: str) -> Language:
         names=table["names"],
         hints={fold(w, same_as): hint["say"] for hint in table["hints"] for w in hint["words"]},
         phrases=table["phrases"],
+        wordings={key: tuple(words) for key, words in table["wordings"].items()},
     )
 
 
@@ -161,13 +168,14 @@ def languages() -> dict[str, Language]:
 
 
 def language_of(language: str | Language) -> Language:
-    """The language of a code, such as "en".
+    """The language of a code or name, such as "en" or "english".
 
     Raises:
         ValueError: there is no such language; lists those there are.
     """
     if isinstance(language, Language):
         return language
-    if language not in languages():
-        raise ValueError(f"no language {language!r}; there are: {', '.join(sorted(languages()))}")
-    return languages()[language]
+    for known in languages().values():
+        if language in (known.code, known.name):
+            return known
+    raise ValueError(f"no language {language!r}; there are: {', '.join(sorted(languages()))}")

@@ -52,7 +52,7 @@ def readings(
     from lark import UnexpectedToken  # here, because Lark is slow to import
 
     from semnav_env.commands.grammar import MeaninglessError, find_clauses
-    from semnav_env.commands.readings import NoDoorSpokenOfError, TooAmbiguousError, commands_of
+    from semnav_env.commands.combine import NoDoorSpokenOfError, TooAmbiguousError, commands_of
 
     language = language_of(language)
     normalised = normalise(text, language)

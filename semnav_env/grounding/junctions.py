@@ -165,9 +165,9 @@ def _find_junction(
     """
     place = None if reference is None else reference.place
     ordinal = 1 if reference is None else reference.ordinal
-    junctions = _junctions(place, turning, situation.hallway)
+    junctions = junctions_ahead(situation.hallway, place, turning)
     if not junctions and situation.seen_to_end and not situation.complete:
-        junctions = _junctions(None, turning, situation.hallway)
+        junctions = junctions_ahead(situation.hallway, None, turning)
     counted = ordinal > 0 or situation.seen_to_end
     if counted and len(junctions) >= abs(ordinal):
         return junctions[ordinal - 1 if ordinal > 0 else ordinal]
@@ -177,8 +177,10 @@ def _find_junction(
     return situation.seek(name)
 
 
-def _junctions(place: Place | None, turning: Turning | None, hallway: Hallway) -> list[Junction]:
-    """The junctions ahead that are such a place and open to the side of the turn."""
+def junctions_ahead(
+    hallway: Hallway, place: Place | None = None, turning: Turning | None = None
+) -> list[Junction]:
+    """The junctions ahead that are such a place and open to the side of the turn, in order."""
     return [
         junction
         for junction in hallway.junctions

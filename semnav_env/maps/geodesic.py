@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
 from numba import njit
 from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
@@ -21,31 +23,39 @@ SPACING = 0.1
 CLEARANCE = 0.2
 """The way of the robot's centre keeps this far from everything solid, metres."""
 
+DISCOMFORT = 3.0
+"""How much longer than it is a way counts right beside something solid, for who likes comfort."""
 
 KEPT = 64
 """Goals whose distances are kept: doors come up again and again, but memory has an end."""
 
 
 class Geodesic:
-    """Shortest ways of a robot's centre in one floor plan.
+    """Shortest ways of a robot's centre in one floor plan, each computed when it is asked for.
 
-    Attributes:
-        free: which cells of the grid the centre may cross, shape (rows, columns).
+    Args:
+        floor_plan: where.
+        comfort: how far from everything solid ways would rather keep, metres. Nearer to it they
+            count for more, so that they run in the middle of hallways; 0 for the shortest ways.
     """
 
-    def __init__(self, floor_plan: FloorPlan) -> None:
+    def __init__(self, floor_plan: FloorPlan, comfort: float = 0.0) -> None:
         west, south, east, north = floor_plan.boundary.bounds
-        self._origin = (west, south)
+        self.origin = (west, south)
+        self._floor_plan = floor_plan
+        self._comfort = comfort
         self._shape = (
             math.ceil((north - south) / SPACING) + 1,
             math.ceil((east - west) / SPACING) + 1,
         )
-        self.free = self._free_cells(floor_plan)
-        self._graph = self._build_graph()
         self._known: dict[tuple[int, int], FloatArray] = {}
 
     def to(self, goal: Point) -> WaysTo:
-        """The shortest ways to a point; the last `KEPT` goals' are kept."""
+        """The shortest ways to a point."""
+        return WaysTo(goal, self)
+
+    def distances_to(self, goal: Point) -> FloatArray:
+        """Of every cell of the grid, metres; those to the last `KEPT` goals are kept."""
         row, column = self._cell(goal)
         known = self._known.pop((row, column), None)
         if known is None:
@@ -53,36 +63,49 @@ class Geodesic:
         self._known[row, column] = known  # the latest one is the last to go
         if len(self._known) > KEPT:
             del self._known[next(iter(self._known))]
-        return WaysTo(goal, known, self._origin)
+        return known
 
     def _cell(self, point: Point) -> tuple[int, int]:
         """The nearest free cell (row, column)."""
         rows, columns = np.nonzero(self.free)
-        dx = self._origin[0] + SPACING * columns - point[0]
-        dy = self._origin[1] + SPACING * rows - point[1]
+        dx = self.origin[0] + SPACING * columns - point[0]
+        dy = self.origin[1] + SPACING * rows - point[1]
         nearest = int(np.argmin(dx * dx + dy * dy))
         return int(rows[nearest]), int(columns[nearest])
 
-    def _free_cells(self, floor_plan: FloorPlan) -> NDArray[np.bool_]:
+    @cached_property
+    def free(self) -> NDArray[np.bool_]:
+        """Where the robot's centre may be, one value per cell (row, column) of the grid."""
+        floor_plan = self._floor_plan
         rows, columns = np.indices(self._shape)
-        x = self._origin[0] + SPACING * columns
-        y = self._origin[1] + SPACING * rows
+        x = self.origin[0] + SPACING * columns
+        y = self.origin[1] + SPACING * rows
         free = np.asarray(shapely.contains_xy(floor_plan.boundary, x, y), dtype=bool)
-        _block(free, floor_plan.segments, *self._origin)
+        _block(free, floor_plan.segments, *self.origin)
         return free
 
-    def _build_graph(self) -> coo_matrix:
+    @cached_property
+    def _graph(self) -> coo_matrix:
         index = np.arange(self.free.size).reshape(self._shape)
-        parts = []
+        parts, weight = [], self._weight
         for dr, dc in ((0, 1), (1, 0), (1, 1), (1, -1)):
             a = np.s_[: self._shape[0] - dr, max(0, -dc) : self._shape[1] - max(0, dc)]
             b = np.s_[dr:, max(0, dc) : self._shape[1] + min(0, dc)]
             both = self.free[a] & self.free[b]
-            length = np.full(both.sum(), SPACING * math.hypot(dr, dc))
+            length = SPACING * math.hypot(dr, dc) * (weight[a][both] + weight[b][both]) / 2
             parts.append((index[a][both], index[b][both], length))
             parts.append((index[b][both], index[a][both], length))
         i, j, length = (np.concatenate(column) for column in zip(*parts, strict=True))
         return coo_matrix((length, (i, j)), shape=(self.free.size,) * 2).tocsr()
+
+    @property
+    def _weight(self) -> FloatArray:
+        """How many times longer than it is a way through each cell counts."""
+        if not self._comfort:
+            return np.ones(self._shape)
+        room = CLEARANCE + SPACING * distance_transform_edt(self.free)
+        weight = 1.0 + DISCOMFORT * np.clip(1.0 - room / self._comfort, 0.0, 1.0)
+        return np.asarray(weight, dtype=np.float64)
 
     def _distances(self, source: int) -> FloatArray:
         distances = dijkstra(self._graph, indices=source)
@@ -95,24 +118,28 @@ class WaysTo:
 
     Attributes:
         goal: (x, y) in metres.
-        distances: of every cell of the grid, metres.
-        origin: of the grid.
+        geodesic: of the floor plan.
     """
 
     goal: Point
-    distances: FloatArray
-    origin: Point
+    geodesic: Geodesic
+
+    @cached_property
+    def distances(self) -> FloatArray:
+        """Of every cell of the grid from the goal, metres."""
+        return self.geodesic.distances_to(self.goal)
 
     def length(self, start: Point) -> float:
         """Length of the shortest way from `start`, metres; infinite if there is none."""
-        return float(_read(self.distances, *self.origin, SPACING, *start))
+        return float(_read(self.distances, *self.geodesic.origin, SPACING, *start))
 
     def way(self, start: Point) -> FloatArray:
         """The shortest way from `start` as points, shape (k, 2)."""
-        row = round((start[1] - self.origin[1]) / SPACING)
-        column = round((start[0] - self.origin[0]) / SPACING)
+        west, south = self.geodesic.origin
+        row = round((start[1] - south) / SPACING)
+        column = round((start[0] - west) / SPACING)
         cells = _descend(self.distances, *_nearest_reached(self.distances, row, column))
-        inner = np.array(self.origin) + SPACING * cells[:, ::-1]
+        inner = np.array((west, south)) + SPACING * cells[:, ::-1]
         return np.vstack((start, inner[1:-1], self.goal))
 
 

@@ -1,0 +1,84 @@
+"""The same command in other words, made from the wordings in the language's file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from semnav_env.commands.command import Command
+from semnav_env.commands.errors import CommandError
+from semnav_env.commands.language import Language, language_of
+from semnav_env.commands.parser import readings
+
+TRIES = 20
+"""Texts made for each one that is asked for, before a command is taken to have no more."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Varied(Language):
+    """A language that says each phrase in any of its wordings.
+
+    Attributes:
+        rng: chooses them.
+    """
+
+    rng: np.random.Generator
+
+    def say(self, phrase: str, form: str = "", **parts: Any) -> str:
+        """Fill the parts into a wording of the phrase, or of a form of it if it has that."""
+        formed = f"{phrase}:{form}"
+        key = formed if formed in self.phrases or formed in self.wordings else phrase
+        return self.fill(self._any_of(self.phrases.get(key) or self.phrases[phrase], key), parts)
+
+    def ordinal(self, number: int) -> str:
+        """Any word of an ordinal that fits into the phrases."""
+        return self._any_of(super().ordinal(number), str(number))
+
+    def command(self, command: Command) -> str:
+        """A command, politely or not."""
+        return self._any_of("{command}", "command").format(command=command.say(self))
+
+    def _any_of(self, usual: str, key: str) -> str:
+        choices = (usual, *self.wordings.get(key, ()))
+        return choices[int(self.rng.integers(len(choices)))]
+
+
+def paraphrases(
+    command: Command, rng: np.random.Generator, n: int, language: str | Language = "en"
+) -> tuple[str, ...]:
+    """Differently worded texts of a command: `parse(text, language) == command` for each.
+
+    Args:
+        command: what to say.
+        rng: chooses the words.
+        n: how many texts, all different, and none of them `command.say(language)`.
+        language: "en", "de" or a loaded one.
+
+    Returns:
+        The texts; fewer than `n` where the language has not so many wordings.
+
+    Raises:
+        ValueError: `n` is negative, or there is no such language.
+    """
+    if n < 0:
+        raise ValueError(f"n is {n}; it must be 0 or more")
+    spoken = language_of(language)
+    values = {field.name: getattr(spoken, field.name) for field in fields(spoken)}
+    varied, usual = _Varied(**values, rng=rng), command.say(spoken)
+    found: dict[str, None] = {}
+    for _ in range(TRIES * n):
+        if len(found) == n:
+            break
+        text = varied.command(command)
+        if text != usual and text not in found and _means(text, command, spoken):
+            found[text] = None
+    return tuple(found)
+
+
+def _means(text: str, command: Command, language: Language) -> bool:
+    try:
+        return readings(text, language) == (command,)
+    except CommandError:
+        return False

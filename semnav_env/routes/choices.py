@@ -1,0 +1,135 @@
+"""The clauses that may come next on a route."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from semnav_env.commands import (
+    Approach,
+    Clause,
+    Distance,
+    DoorReference,
+    Follow,
+    GoToDoor,
+    Leave,
+    Place,
+    PlaceReference,
+    Turn,
+    Turning,
+)
+from semnav_env.features.frames import FloatArray, Pose, points_to_local
+from semnav_env.features.hallway import Hallway, hallway
+from semnav_env.features.scene import Scene
+from semnav_env.grounding.doors import CountedDoor, doors_along
+from semnav_env.grounding.junctions import junctions_ahead
+from semnav_env.routes.naming import names_of_door, names_of_junction
+
+END = PlaceReference(Place.END)
+
+LONGEST = 50.0
+"""Of a distance that is told, metres."""
+
+ASIDE = (Turning.LEFT, Turning.RIGHT)
+DEGREES = (45, 135)
+
+LEFT_BY = 0.9
+"""A route leaves the hallway where it points so far away from the hallway's axis, radians."""
+
+BESIDE = 0.3
+"""It leaves the hallway as well where it goes so far beyond its side, metres."""
+
+NEAR_END = 1.5
+"""A route that ends so near to a door may lead to it, metres."""
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What may be said to a robot that begins a clause at a pose.
+
+    Attributes:
+        scene: the true scene.
+        begin: where the clause begins.
+        way: poses of the route from there on, shape (n, 3), up to the next door that it crosses.
+        door: the name of that door; None if it crosses no more.
+    """
+
+    scene: Scene
+    begin: Pose
+    way: FloatArray
+    door: str | None
+
+    def groups(self) -> Iterator[Sequence[Clause]]:
+        """The clauses that may lead along the route.
+
+        Those of a group mean the same, the shortest first; not all of them need be unambiguous.
+        """
+        seen = hallway(self.scene, self.begin)
+        doors = doors_along(self.scene, seen)
+        for group in (
+            *self._doors(doors),
+            *_turns(seen),
+            *self._along(seen, doors),
+            [Leave()],
+        ):
+            yield sorted(group, key=words_of)
+
+    def _doors(self, doors: Sequence[CountedDoor]) -> Iterator[Sequence[Clause]]:
+        """Through the next door, or to the one before which the route ends."""
+        for door in doors:
+            names = names_of_door(door, doors)
+            if self.door is not None and door.door.name == self.door:
+                yield [GoToDoor(name) for name in names]
+            elif self.door is None and self._ends_near(door):
+                yield [GoToDoor(name, Approach.TO) for name in names]
+
+    def _along(self, seen: Hallway, doors: Sequence[CountedDoor]) -> Iterator[Sequence[Clause]]:
+        """As far as the route follows the hallway: to its end, or to or past what is near there."""
+        yield from ([Follow()], [Follow(END)])
+        stop = self._follows(seen)
+        for names in self._near(stop, seen, doors):
+            yield [Follow(name) for name in names]
+            yield [Follow(name, past=True) for name in names if name != END]
+        if 0.5 <= stop <= LONGEST:
+            yield [Follow(Distance(round(2.0 * stop) / 2.0))]
+
+    def _near(
+        self, stop: float, seen: Hallway, doors: Sequence[CountedDoor]
+    ) -> list[list[DoorReference | PlaceReference]]:
+        """The names of the last door or junction before a place in the hallway, and the next."""
+        marks: list[tuple[float, list[DoorReference | PlaceReference]]] = []
+        marks += ((door.along, [*names_of_door(door, doors)]) for door in doors)
+        marks += ((one.centre, [*names_of_junction(one, seen)]) for one in junctions_ahead(seen))
+        marks.sort(key=lambda mark: mark[0])
+        first = max(0, sum(along < stop for along, _ in marks) - 1)
+        return [names for _, names in marks[first : first + 2]]
+
+    def _follows(self, seen: Hallway) -> float:
+        """How far along the hallway the route follows it, metres."""
+        local = points_to_local(seen.frame, self.way[:, :2])
+        aside = np.abs(local[:, 1]) > seen.half_width + BESIDE
+        away = np.cos(self.way[:, 2] - seen.frame[2]) < math.cos(LEFT_BY)
+        left = np.flatnonzero((aside | away) & (local[:, 0] > BESIDE))
+        return float(local[left[0] if len(left) else -1, 0])
+
+    def _ends_near(self, door: CountedDoor) -> bool:
+        return math.dist(self.way[-1, :2], door.door.midpoint) <= NEAR_END
+
+
+def _turns(seen: Hallway) -> Iterator[Sequence[Clause]]:
+    """At every junction that leads aside, and here."""
+    for turning in ASIDE:
+        for junction in junctions_ahead(seen, None, turning):
+            yield [Turn(turning, name) for name in names_of_junction(junction, seen, turning)]
+        yield from ([Turn(turning, degrees=degrees)] for degrees in DEGREES)
+    yield from ([Turn(turning)] for turning in Turning)
+
+
+@lru_cache(maxsize=4096)
+def words_of(clause: Clause) -> int:
+    """How many words a clause has."""
+    return str(clause).count(" ") + 1

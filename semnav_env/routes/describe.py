@@ -1,0 +1,223 @@
+"""The shortest command that leads along a route."""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import count
+
+import numpy as np
+
+from semnav_env.commands import MAX_CLAUSES, Approach, Clause, Command, Follow, Turn, Turning
+from semnav_env.commands.command import may_count_on
+from semnav_env.features.frames import Pose, wrap_angle
+from semnav_env.grounding import Goal, GoalKind, GroundingError, ground
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.routes.choices import Choices, words_of
+from semnav_env.routes.follow import check_route, crossings, destination, follows, with_rest
+from semnav_env.routes.route import Route
+from semnav_env.verifier import place
+
+AT_END = 1.0
+"""Another one ends where its command does, within so much, metres."""
+
+REST_OF_WAY = 3.0
+"""So little of a route is left when its command is done, metres."""
+
+DETOUR = 2.0
+"""A clause leads along a part of a route that is at most so many times as long as straight on, and
+`REST_OF_WAY` more."""
+
+FACING = 0.3
+"""And the command ends facing so nearly where a route does that says where, radians."""
+
+MOST_STATES = 1000
+"""Places from which the next clause is looked for, before a route is given up."""
+
+
+class UndescribableError(ValueError):
+    """No command leads along a route; the message says why."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """A part of a route that has been put in words.
+
+    Attributes:
+        clauses: the words so far.
+        begin: where the next clause begins.
+        index: of the pose of the route at which the last clause is done.
+        words: how many.
+    """
+
+    clauses: tuple[Clause, ...]
+    begin: Pose
+    index: int
+    words: int
+
+    def key(self) -> tuple[object, ...]:
+        """What the rest of the route can be told from, to 5 cm and 3 degrees."""
+        x, y, heading = self.begin
+        past = bool(self.clauses) and _is_past(self.clauses[-1])
+        turned = round(math.cos(heading) * 20), round(math.sin(heading) * 20)
+        return round(x * 20), round(y * 20), turned, self.index, past
+
+
+def describe(floor_plan: FloorPlan, route: Route) -> Command:
+    """The shortest command that leads along a route: of the fewest clauses, then the fewest words.
+
+    The verifier accepts the route for it. If the route ends behind a door that it has crossed, or
+    facing one, the command ends with going through that very door, or to it; else where the route
+    ends, within `AT_END`.
+
+    Args:
+        floor_plan: where.
+        route: in its world frame.
+
+    Raises:
+        RouteError: the route leads through something solid, or nowhere.
+        UndescribableError: no command of up to eight clauses leads along the route; says how far
+            one can be told.
+    """
+    check_route(floor_plan, route)
+    return _Search(floor_plan, route).best()
+
+
+class _Search:
+    """Best-first search over what can be told, cheapest first."""
+
+    def __init__(self, floor_plan: FloorPlan, route: Route) -> None:
+        self._plan = floor_plan
+        self._route = route
+        self._poses = with_rest(route)
+        self._crossings = crossings(floor_plan, self._poses)
+        self._destination = destination(floor_plan, route)
+        self._farthest = Told((), route.start, 0, 0)
+
+    def best(self) -> Command:
+        """The cheapest command that the verifier accepts."""
+        order: Iterator[int] = count()
+        seen: set[tuple[object, ...]] = set()
+        queue = [(0, 0, next(order), self._farthest, False)]
+        while queue and len(seen) < MOST_STATES:
+            least, _, _, told, there = heapq.heappop(queue)
+            if there and follows(self._plan, Command(told.clauses), self._route):
+                return Command(told.clauses)
+            if told.key() in seen or least > MAX_CLAUSES or told.clauses[-1:] == (Follow(),):
+                continue
+            seen.add(told.key())
+            for further, ends in self._further(told):
+                least = len(further.clauses) + self._still_to_tell(further, ends)
+                heapq.heappush(queue, (least, further.words, next(order), further, ends))
+        raise self._undescribable()
+
+    def _still_to_tell(self, told: Told, ends: bool) -> int:
+        """The fewest clauses that can tell the rest: one for each door that is still to cross."""
+        doors = sum(k > told.index for k, _ in self._crossings)
+        return doors if ends else max(1, doors)
+
+    def _further(self, told: Told) -> Iterator[tuple[Told, bool]]:
+        """All that one more clause can tell, and whether it is the whole route."""
+        crossing = next((c for c in self._crossings if c[0] > told.index), None)
+        stop, door = crossing or (len(self._poses), None)
+        way = self._poses[told.index : stop + 1]
+        for group in Choices(self._plan.scene, told.begin, way, door).groups():
+            for clause in group:
+                if _is_on_the_spot(clause) and _is_on_the_spot(*told.clauses[-1:]):
+                    continue  # two turns on one spot are one turn
+                goal = self._goal(clause, told)
+                if goal is None:
+                    continue
+                done = self._done(goal, told.index, stop, door)
+                if done is not None and self._is_direct(goal, told.index, done):
+                    yield self._told(told, clause, goal, done), self._is_end(goal, done)
+                break
+
+    def _goal(self, clause: Clause, told: Told) -> Goal | None:
+        before = told.clauses[-1] if told.clauses else None
+        aside = isinstance(clause, Turn) and clause.turning is not Turning.AROUND
+        try:
+            return ground(
+                clause,
+                self._plan.scene,
+                told.begin,
+                complete=True,
+                after_hallway=aside and before is not None and _is_past(before),
+            )
+        except GroundingError:
+            return None
+
+    def _done(self, goal: Goal, index: int, stop: int, door: str | None) -> int | None:
+        """At which pose of the route a goal is attained, before or by crossing the next door."""
+        if goal.kind is GoalKind.PASS:
+            named = goal.door is not None and goal.door.name == door
+            return stop if named and self._crosses(goal, stop) else None
+        x, y, heading = (self._poses[index + 1 : stop] - goal.pose).T
+        there = np.hypot(x, y) <= goal.distance_tolerance
+        if goal.heading_tolerance < math.pi:
+            there &= np.cos(heading) >= math.cos(goal.heading_tolerance)
+        return index + 1 + int(np.argmax(there)) if there.any() else None
+
+    def _is_direct(self, goal: Goal, index: int, done: int) -> bool:
+        """Whether a clause leads along its part of the route, which wanders nowhere else."""
+        most = DETOUR * math.dist(place(goal), self._poses[index, :2]) + REST_OF_WAY
+        return self._length(index, done) <= most
+
+    def _length(self, start: int, stop: int) -> float:
+        """Of the route between two poses, metres."""
+        steps = np.diff(self._poses[start : stop + 1, :2], axis=0)
+        return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
+
+    def _crosses(self, goal: Goal, stop: int) -> bool:
+        before, after = (tuple(pose.tolist()) for pose in self._poses[stop - 1 : stop + 1])
+        return goal.crossed_between(before, after)
+
+    def _told(self, told: Told, clause: Clause, goal: Goal, done: int) -> Told:
+        anew = 2 if told.clauses and may_count_on(told.clauses[-1], clause) else 0
+        words = told.words + words_of(clause) + anew
+        further = Told((*told.clauses, clause), goal.onward or goal.pose, done, words)
+        if done > self._farthest.index:
+            self._farthest = further
+        return further
+
+    def _is_end(self, goal: Goal, done: int) -> bool:
+        """Whether a goal is where the route leads."""
+        if self._destination is not None:
+            name, approach = self._destination
+            kind = GoalKind.PASS if approach is Approach.THROUGH else GoalKind.REACH
+            door = goal.door is not None and goal.door.name == name
+            return door and goal.kind is kind and self._is_late(done)
+        near = math.dist(place(goal), self._poses[-1, :2]) <= AT_END
+        return near and self._faces(goal) and self._is_late(done)
+
+    def _faces(self, goal: Goal) -> bool:
+        facing = self._route.facing
+        return facing is None or abs(wrap_angle(goal.pose[2] - facing)) <= FACING
+
+    def _is_late(self, done: int) -> bool:
+        """Whether next to nothing of the route is left at a pose."""
+        crossed = all(k <= done for k, _ in self._crossings)
+        return crossed and self._length(done, len(self._poses)) <= REST_OF_WAY
+
+    def _undescribable(self) -> UndescribableError:
+        told = self._farthest
+        x, y, _ = self._poses[told.index].tolist()
+        crossing = next((name for k, name in self._crossings if k > told.index), None)
+        where = f"({x:.1f}, {y:.1f})" + (
+            f' by "{Command(told.clauses)}"' if told.clauses else ", its start"
+        )
+        rest = f"through door {crossing}" if crossing else "to its end"
+        return UndescribableError(
+            f"no command of up to {MAX_CLAUSES} clauses leads along this route: it can be told as "
+            f"far as {where}, but not from there {rest}"
+        )
+
+
+def _is_past(clause: Clause) -> bool:
+    return isinstance(clause, Follow) and clause.past
+
+
+def _is_on_the_spot(clause: Clause | None = None) -> bool:
+    return isinstance(clause, Turn) and clause.at is None

@@ -1,0 +1,97 @@
+"""A robot that follows a route exactly: which doors it crosses, and what the verifier says."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import shapely
+
+from semnav_env.commands import Approach, Command
+from semnav_env.features.frames import FloatArray, to_parent
+from semnav_env.grounding.doors import STAND_OFF
+from semnav_env.grounding.goal import first_crossed
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.geodesic import Geodesic
+from semnav_env.routes.route import Route, RouteError
+from semnav_env.verifier import Motion, Verifier
+
+BEHIND_DOOR = 2.0
+"""A route that ends so near behind a door leads through that door, metres."""
+
+BEFORE_DOOR = 0.2
+"""A route leads up to a door if it ends `STAND_OFF` before its middle, give or take so much."""
+
+SHORTEST = 0.5
+"""A shorter route that turns nowhere leads nowhere, metres."""
+
+REST = 2
+"""Poses at rest, after the end of a route."""
+
+SECONDS = 0.1
+"""From one pose of a route to the next."""
+
+
+def follows(floor_plan: FloorPlan, command: Command, route: Route) -> bool:
+    """Whether the verifier takes a command for carried out by a robot that follows a route.
+
+    Raises:
+        GroundingError: the command cannot be carried out from the start of the route.
+    """
+    verifier = Verifier(floor_plan, Geodesic(floor_plan), command, route.start)
+    poses = with_rest(route).tolist()
+    for k, (x, y, heading) in enumerate(poses[1:], 1):
+        speed = 1.0 if k < len(poses) - REST else 0.0
+        verifier.update(Motion((x, y, heading), speed, 0.0, in_contact=False, seconds=SECONDS))
+    return verifier.success
+
+
+def with_rest(route: Route) -> FloatArray:
+    """The poses of a route and of a short rest at its end, shape (n, 3)."""
+    return np.vstack((route.poses, *(route.poses[-1:],) * REST))
+
+
+def crossings(floor_plan: FloorPlan, poses: FloatArray) -> list[tuple[int, str]]:
+    """The doors that poses lead through: at which pose, and the name."""
+    doors = floor_plan.doors
+    ends = np.array([(*d.start, *d.end) for d in doors], dtype=np.float64).reshape(-1, 4)
+    steps = np.hstack((poses[:-1, :2], poses[1:, :2])).tolist()
+    hits = ((k, first_crossed(ends, *step)) for k, step in enumerate(steps, 1))
+    return [(k, doors[hit].name) for k, hit in hits if hit >= 0]
+
+
+def destination(floor_plan: FloorPlan, route: Route) -> tuple[str, Approach] | None:
+    """The door that a route leads through at its end, or up to; None if it ends elsewhere."""
+    poses = route.poses
+    crossed = crossings(floor_plan, poses)
+    if crossed:
+        index, name = crossed[-1]
+        steps = np.diff(poses[index:, :2], axis=0)
+        if float(np.hypot(steps[:, 0], steps[:, 1]).sum()) <= BEHIND_DOOR:
+            return name, Approach.THROUGH
+    if route.facing is not None:
+        x, y, heading = poses[-1].tolist()
+        middle = to_parent((x, y, heading), (STAND_OFF, 0.0))
+        for door in floor_plan.doors:
+            if door.open and math.dist(door.midpoint, middle) <= BEFORE_DOOR:
+                return door.name, Approach.TO
+    return None
+
+
+def check_route(floor_plan: FloorPlan, route: Route) -> None:
+    """Refuse a route that no robot can follow.
+
+    Raises:
+        RouteError: it leads through something solid, or nowhere.
+    """
+    closed = {door.name for door in floor_plan.doors if not door.open}
+    for _, name in crossings(floor_plan, route.poses):
+        if name in closed:
+            raise RouteError(f"the route leads through door {name}, which is closed")
+    way = shapely.LineString(route.points)
+    rows = floor_plan.solids.query(way, predicate="intersects")
+    if len(rows):
+        at = floor_plan.solids.geometries[int(rows.min())].intersection(way).centroid
+        raise RouteError(f"the route leads through something solid at ({at.x:.2f}, {at.y:.2f})")
+    if route.length < SHORTEST and route.facing is None:
+        raise RouteError(f"the route is {route.length:.2f} m long; there is nothing to describe")

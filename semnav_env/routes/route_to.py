@@ -1,0 +1,134 @@
+"""A route from where a robot stands to a door, a room or a place."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import shapely
+
+from semnav_env.commands import Approach
+from semnav_env.features.frames import FloatArray, Point, Pose
+from semnav_env.grounding.doors import STAND_OFF
+from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
+from semnav_env.maps.geodesic import Geodesic
+from semnav_env.routes.follow import crossings
+from semnav_env.routes.route import Route, RouteError
+
+AT_ROOM = 0.5
+"""A door so near to a room is one of its doors, metres."""
+
+
+COMFORT = 0.8
+"""Routes would rather keep so far from everything solid, metres."""
+
+SMOOTH = 7
+"""Points of a way, 0.1 m apart, that each one is averaged over."""
+
+
+def comfortable(floor_plan: FloorPlan) -> Geodesic:
+    """The ways that routes take: short ones in the middle of hallways."""
+    return Geodesic(floor_plan, COMFORT)
+
+
+def route_to(
+    floor_plan: FloorPlan,
+    start: Pose,
+    goal: str | Point,
+    approach: Approach = Approach.THROUGH,
+    geodesic: Geodesic | None = None,
+) -> Route:
+    """A route of a robot's centre to a door, a room or a place.
+
+    Args:
+        floor_plan: where.
+        start: pose of the robot's centre, world frame.
+        goal: name of a door, a room, a corridor or an intersection, or a point.
+        approach: whether to go through a door that is named, or up to it.
+        geodesic: of the floor plan, as `comfortable` makes it; give it where many routes are made.
+
+    Raises:
+        RouteError: there is no such goal, which lists those there are, or no way there.
+    """
+    geodesic = geodesic or comfortable(floor_plan)
+    if not isinstance(goal, str):
+        return Route(start, _way(geodesic, start, goal, "that place"))
+    door = next((door for door in floor_plan.doors if door.name == goal), None)
+    if door is None:
+        region = _region(floor_plan, goal)
+        centre = region.polygon.representative_point()
+        way = _way(geodesic, start, (centre.x, centre.y), goal)
+        door = _door_into(floor_plan, region, way)
+        if door is None:
+            return Route(start, way)
+    if not door.open:
+        raise RouteError(f"door {door.name} is closed")
+    way = _way(geodesic, start, door.midpoint, goal)
+    return _to_door(start, way, door, approach)
+
+
+def _to_door(start: Pose, way: FloatArray, door: PlanDoor, approach: Approach) -> Route:
+    """Straight through the doorway, or up to a place before it."""
+    middle = np.array(door.midpoint)
+    along = (np.array(door.end) - np.array(door.start)) / door.width
+    outward = np.array((along[1], -along[0]))
+    if outward @ (middle - _before(way, middle)) < 0:
+        outward = -outward
+    if approach is Approach.THROUGH:
+        apart = np.hypot(*(way - middle).T) > STAND_OFF / 2
+        apart[0] = True
+        inside = middle + np.outer((-STAND_OFF / 2, STAND_OFF), outward)
+        return Route(start, np.vstack((way[apart], inside)))
+    apart = np.hypot(*(way - middle).T) > STAND_OFF
+    apart[0] = True
+    heading = math.atan2(outward[1], outward[0])
+    return Route(start, np.vstack((way[apart], middle - STAND_OFF * outward)), heading)
+
+
+def _before(way: FloatArray, middle: FloatArray) -> FloatArray:
+    """The last point of a way that is clearly before the doorway that it leads to."""
+    apart = np.flatnonzero(np.hypot(*(way - middle).T) > STAND_OFF / 2)
+    return np.asarray(way[apart[-1] if len(apart) else 0])
+
+
+def _way(geodesic: Geodesic, start: Pose, goal: Point, name: str) -> FloatArray:
+    ways = geodesic.to(goal)
+    if math.isinf(ways.length(start[:2])):
+        x, y, _ = start
+        raise RouteError(f"there is no way from ({x:.2f}, {y:.2f}) to {name}")
+    return _smooth(ways.way(start[:2]))
+
+
+def _smooth(way: FloatArray) -> FloatArray:
+    """A way along a grid without its steps; the ends stay."""
+    reach = min(SMOOTH // 2, (len(way) - 1) // 2)
+    smooth = way.copy()
+    for k in range(1, len(way) - 1):
+        near = min(reach, k, len(way) - 1 - k)
+        smooth[k] = way[k - near : k + near + 1].mean(axis=0)
+    return smooth
+
+
+def _region(floor_plan: FloorPlan, name: str) -> Region:
+    try:
+        return floor_plan.region(name)
+    except KeyError:
+        doors = ", ".join(door.name for door in floor_plan.doors)
+        regions = ", ".join(region.name for region in floor_plan.regions)
+        raise RouteError(
+            f"{floor_plan.name} has no door, room or place {name!r}; "
+            f"there are: {', '.join(filter(None, (doors, regions)))}"
+        ) from None
+
+
+def _door_into(floor_plan: FloorPlan, region: Region, way: FloatArray) -> PlanDoor | None:
+    """The door through which a way comes into a room at last."""
+    if region not in floor_plan.rooms:
+        return None
+    x, y = way[0].tolist()
+    crossed = crossings(floor_plan, Route((x, y, 0.0), way).poses)
+    if not crossed:
+        return None
+    door = floor_plan.door(crossed[-1][1])
+    near = region.polygon.distance(shapely.Point(door.midpoint)) <= AT_ROOM
+    return door if near else None
