@@ -51,8 +51,8 @@ def readings(
     """Everything that a text can mean; as `parse`, but more than one reading is no error."""
     from lark import UnexpectedToken  # here, because Lark is slow to import
 
-    from semnav_env.commands.grammar import MeaninglessError, find_clauses
     from semnav_env.commands.combine import NoDoorSpokenOfError, TooAmbiguousError, commands_of
+    from semnav_env.commands.grammar import MeaninglessError, find_clauses
 
     language = language_of(language)
     normalised = normalise(text, language)

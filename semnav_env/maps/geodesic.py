@@ -24,7 +24,7 @@ CLEARANCE = 0.2
 """The way of the robot's centre keeps this far from everything solid, metres."""
 
 DISCOMFORT = 3.0
-"""How much longer than it is a way counts right beside something solid, for who likes comfort."""
+"""Right beside something solid a comfortable way counts so many times its length more."""
 
 KEPT = 64
 """Goals whose distances are kept: doors come up again and again, but memory has an end."""
