@@ -91,10 +91,25 @@ def observe(
         key: (seed, episode, step) of the noise.
     """
     ranges, features, row = senses.ranges, senses.features, senses.row
-    grid, starts, ends, directions, sensor = senses.lidar
+    grid, starts, ends, directions, sensor, discs, leaves = senses.lidar
     x, y, heading = _mounted(robot_world, senses.mount)
     seed, episode, step = key
-    sense(x, y, heading, grid, starts, ends, directions, sensor, seed, episode, step, ranges)
+    sense(
+        x,
+        y,
+        heading,
+        grid,
+        starts,
+        ends,
+        directions,
+        sensor,
+        discs,
+        leaves,
+        seed,
+        episode,
+        step,
+        ranges,
+    )
     limits = sensor[0]
     extract_features(senses)
     write_features(row, features, senses.mount)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Pose, compose
 from semnav_env.features.scan import Scan
 from semnav_env.lidar.culling import Culling
+from semnav_env.lidar.moving import NOTHING, cast_moving
 from semnav_env.lidar.noise import corrupt
 from semnav_env.lidar.raster import cast
 from semnav_env.lidar.spec import LidarSpec, lidar_spec
@@ -30,13 +31,17 @@ def sense(
     ends: FloatArray,
     directions: FloatArray,
     sensor: np.ndarray,
+    discs: FloatArray,
+    leaves: FloatArray,
     seed: int,
     episode: int,
     step: int,
     out: FloatArray,
 ) -> None:
-    """Write measured ranges: `cast`, then `corrupt`; the arguments are theirs."""
+    """Write measured ranges: `cast`, `cast_moving`, `corrupt`; the arguments are theirs."""
     cast(x, y, heading, grid, starts, ends, directions, sensor, out)
+    if len(discs) + len(leaves) > 0:
+        cast_moving(x, y, heading, discs, leaves, directions, sensor[0].range_max, out)
     corrupt(out, sensor, seed, episode, step)
 
 
@@ -47,9 +52,12 @@ class Lidar:
         floor_plan: whose opaque segments the beams meet.
         spec: a lidar's name or its spec.
         mount: pose of the lidar in the robot frame.
+        moving: what is seen besides: discs, shape (n, 3), and segments, shape (m, 4); read anew at
+            every scan.
 
     Attributes:
-        arrays: (grid, starts, ends, directions, sensor), as `cast` and `sense` take them.
+        arrays: (grid, starts, ends, directions, sensor, discs, segments), as `sense` takes them;
+            `cast` takes the first five.
     """
 
     def __init__(
@@ -57,12 +65,13 @@ class Lidar:
         floor_plan: FloorPlan,
         spec: str | LidarSpec = "tim561",
         mount: Pose = (0.0, 0.0, 0.0),
+        moving: tuple[FloatArray, FloatArray] = NOTHING,
     ) -> None:
         self.spec = lidar_spec(spec)
         self.mount = mount
         culling = Culling.of(floor_plan.opaque_segments, self.spec.range_max)
         tables = (self.spec.directions, self.spec.sensor)
-        self.arrays = (culling.grid, culling.starts, culling.ends, *tables)
+        self.arrays = (culling.grid, culling.starts, culling.ends, *tables, *moving)
 
     def ranges(self, robot_pose: Pose, key: Key, out: FloatArray | None = None) -> FloatArray:
         """What each beam measures from `robot_pose` in the world: metres, shape (beams,).
@@ -78,7 +87,9 @@ class Lidar:
         """The ranges without any error: metres, shape (beams,), +inf for no return."""
         out = np.empty(self.spec.beams)
         x, y, heading = compose(robot_pose, self.mount)
-        cast(x, y, heading, *self.arrays, out)
+        grid, starts, ends, directions, sensor, discs, leaves = self.arrays
+        cast(x, y, heading, grid, starts, ends, directions, sensor, out)
+        cast_moving(x, y, heading, discs, leaves, directions, self.spec.range_max, out)
         return out
 
     def scan(self, robot_pose: Pose, key: Key) -> Scan:
