@@ -37,13 +37,16 @@ class Geodesic:
         floor_plan: where.
         comfort: how far from everything solid ways would rather keep, metres. Nearer to it they
             count for more, so that they run in the middle of hallways; 0 for the shortest ways.
+        clearance: from everything solid that every way keeps, metres.
     """
 
-    def __init__(self, floor_plan: FloorPlan, comfort: float = 0.0) -> None:
+    def __init__(
+        self, floor_plan: FloorPlan, comfort: float = 0.0, clearance: float = CLEARANCE
+    ) -> None:
         west, south, east, north = floor_plan.boundary.bounds
         self.origin = (west, south)
         self._floor_plan = floor_plan
-        self._comfort = comfort
+        self._comfort, self._clearance = comfort, clearance
         self._shape = (
             math.ceil((north - south) / SPACING) + 1,
             math.ceil((east - west) / SPACING) + 1,
@@ -81,7 +84,7 @@ class Geodesic:
         x = self.origin[0] + SPACING * columns
         y = self.origin[1] + SPACING * rows
         free = np.asarray(shapely.contains_xy(floor_plan.boundary, x, y), dtype=bool)
-        _block(free, floor_plan.segments, *self.origin)
+        _block(free, floor_plan.segments, *self.origin, self._clearance)
         return free
 
     @cached_property
@@ -103,7 +106,7 @@ class Geodesic:
         """How many times longer than it is a way through each cell counts."""
         if not self._comfort:
             return np.ones(self._shape)
-        room = CLEARANCE + SPACING * distance_transform_edt(self.free)
+        room = self._clearance + SPACING * distance_transform_edt(self.free)
         weight = 1.0 + DISCOMFORT * np.clip(1.0 - room / self._comfort, 0.0, 1.0)
         return np.asarray(weight, dtype=np.float64)
 
@@ -144,15 +147,17 @@ class WaysTo:
 
 
 @njit(cache=True, error_model="numpy")
-def _block(free: NDArray[np.bool_], segments: FloatArray, west: float, south: float) -> None:
-    """Clear the cells that lie nearer than `CLEARANCE` to a segment, within a rounding error."""
-    reach = CLEARANCE - 1e-9
+def _block(
+    free: NDArray[np.bool_], segments: FloatArray, west: float, south: float, clearance: float
+) -> None:
+    """Clear the cells that lie nearer than `clearance` to a segment, within a rounding error."""
+    reach = clearance - 1e-9
     for k in range(len(segments)):
         x1, y1, x2, y2 = segments[k]
-        first_row = max(0, math.floor((min(y1, y2) - CLEARANCE - south) / SPACING))
-        last_row = min(free.shape[0] - 1, math.ceil((max(y1, y2) + CLEARANCE - south) / SPACING))
-        first = max(0, math.floor((min(x1, x2) - CLEARANCE - west) / SPACING))
-        last = min(free.shape[1] - 1, math.ceil((max(x1, x2) + CLEARANCE - west) / SPACING))
+        first_row = max(0, math.floor((min(y1, y2) - clearance - south) / SPACING))
+        last_row = min(free.shape[0] - 1, math.ceil((max(y1, y2) + clearance - south) / SPACING))
+        first = max(0, math.floor((min(x1, x2) - clearance - west) / SPACING))
+        last = min(free.shape[1] - 1, math.ceil((max(x1, x2) + clearance - west) / SPACING))
         dx, dy = x2 - x1, y2 - y1
         squared = dx * dx + dy * dy
         for row in range(first_row, last_row + 1):
