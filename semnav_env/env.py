@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from semnav_env.actions import Actions
+from semnav_env.dynamics import OFF, Dynamics, Stage
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Pose
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.lidar.spec import LidarSpec, lidar_spec
-from semnav_env.maps import FloorPlan, load_floor_plan
+from semnav_env.maps import FloorPlan
 from semnav_env.observations import Observer
 from semnav_env.odometry import Odometry, OdometrySettings
 from semnav_env.perception import Perception, TruePerception
@@ -85,8 +86,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     ## Arguments
     robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a bundled name, a path or a
     `FloorPlan`. observation: see above. lidar: "tim561", "barbret" or a `LidarSpec`. odometry:
-    drift. extractor: limits of the feature extractor. rewards: weights. max_seconds: of simulated
-    time. render_mode: "rgb_array" or "human" (extra `render`).
+    drift. extractor: limits of the feature extractor. rewards: weights. dynamics: what else
+    moves. max_seconds: of simulated time. render_mode: "rgb_array" or "human" (extra `render`).
 
     ## Version History
     v0: first version.
@@ -109,6 +110,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         odometry: OdometrySettings = OdometrySettings(),
         extractor: ExtractorSettings = ExtractorSettings(),
         rewards: RewardWeights = RewardWeights(),
+        dynamics: Dynamics = OFF,
         max_seconds: float = 120.0,
         render_mode: str | None = None,
     ) -> None:
@@ -124,8 +126,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self.render_mode = render_mode
         self.odometry = Odometry(odometry)
         self._observer = Observer(observation, self.lidar_spec.beams, self.lidar_spec.range_max)
-        self._default_plan = floor_plan
-        self._enter(load_floor_plan(floor_plan))
+        self._stage = Stage(floor_plan, dynamics, self.robot)
+        self._enter(self._stage.plan())
         self._actions = Actions(self.robot)
         self.action_space = self._actions.space
         self.observation_space = self._observer.space
@@ -145,14 +147,13 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         if not isinstance(options, dict | None):
             raise ValueError(f"options are a dict with {', '.join(OPTIONS)}, not {options!r}")
         options = dict(options or {})
-        unknown = [name for name in options if name not in OPTIONS]
-        if unknown:
-            raise ValueError(f"no option {unknown[0]!r}; there are: {', '.join(OPTIONS)}")
-        floor_plan = load_floor_plan(options.get("floor_plan") or self._default_plan)
+        for unknown in options.keys() - set(OPTIONS):
+            raise ValueError(f"no option {unknown!r}; there are: {', '.join(OPTIONS)}")
+        floor_plan = self._stage.plan(options, self.np_random)
         if floor_plan is not self.floor_plan:
             self._enter(floor_plan)
         start = self.task.begin(options, self.np_random)
-        self.world.reset(start)
+        self.world.reset(start, self.np_random)
         self.odometry.reset(start, self.np_random)
         self.perception.begin(self.task.verifier.command, self.task.verifier.ways, start)
         self._noise_seed = int(self.np_random.integers(2**62))
@@ -215,21 +216,20 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     def _enter(self, floor_plan: FloorPlan) -> None:
         """Set everything up that belongs to one floor plan."""
         self.floor_plan = floor_plan
-        self.world = World(floor_plan, self.robot, CONTROL_HZ)
+        self.world = World(floor_plan, self.robot, CONTROL_HZ, dynamics=self._stage.dynamics)
         self.task = CommandTask(floor_plan, self.robot, self.rewards)
-        self._scribe = Scribe(floor_plan)
+        self._scribe = Scribe(self.world.still)
         self._truth = self._observer.mode == "truth"
+        exact = replace(self.lidar_spec, sigma=0.0, dropout=0.0, systematic=0.0)
+        spec = exact if self._truth else self.lidar_spec
+        lidar = Lidar(self.world.still, spec, self.robot.lidar_mount, self.world.moving_shapes)
+        self.perception: Perception = Perception(lidar, self.extractor)
         if self._truth:
-            exact = replace(self.lidar_spec, sigma=0.0, dropout=0.0, systematic=0.0)
-            lidar = Lidar(floor_plan, exact, self.robot.lidar_mount)
-            self.perception: Perception = TruePerception(lidar, self.extractor, floor_plan.scene)
-        else:
-            lidar = Lidar(floor_plan, self.lidar_spec, self.robot.lidar_mount)
-            self.perception = Perception(lidar, self.extractor)
+            self.perception = TruePerception(lidar, self.extractor, floor_plan.scene)
 
     def _sense(self, pose: Pose, velocity: Pose) -> None:
-        believed = pose if self._truth else self.odometry.pose
-        self.perception.sense(pose, believed, velocity, (self._noise_seed, 0, self._steps))
+        key = self._noise_seed, 0, self._steps
+        self.perception.sense(pose, self.believed_pose, velocity, key)
 
     def _observation(self) -> dict[str, NDArray[Any]]:
         return self._observer.pack(self.perception.row, self.task.verifier.tokens)
@@ -256,6 +256,6 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             "pose": pose,
         }
         if over:
-            info |= verifier.outcome()
+            info |= verifier.outcome() | self.world.social()
             info["impossible"] = self.perception.follower.impossible
         return info

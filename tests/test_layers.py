@@ -132,7 +132,7 @@ def test_reading_bags_costs_nothing_until_one_is_opened():
 
 
 def test_the_simulator_and_the_pictures_each_have_one_door():
-    assert importers("pymunk") == {"semnav_env/world/bodies.py", "semnav_env/world/world.py"}
+    assert {place.rpartition("/")[0] for place in importers("pymunk")} == {"semnav_env/world"}
     assert importers("pygame") == {"semnav_env/rendering/backend.py"}
 
 

@@ -20,7 +20,7 @@ class Frame:
     """One moment of an episode, all in the world frame, metres and radians.
 
     Attributes:
-        floor_plan: where it happens.
+        floor_plan: where it happens, without what moves.
         robot: the body.
         pose: of the footprint's centre.
         lidar: where the beams start; None draws no beams, only hits.
@@ -34,6 +34,8 @@ class Frame:
         command: the text of each clause.
         active_clause: index into `command`; those before are done. len(command): all are done.
         status: lines of text below the command, such as "t = 12.4 s".
+        people: x, y and radius of everybody, shape (n, 3).
+        leaves: hinge and tip of the leaves that can move, shape (m, 4).
         in_contact: the body touches something.
         failed: the active clause has failed.
 
@@ -56,6 +58,8 @@ class Frame:
     command: tuple[str, ...] = ()
     active_clause: int = 0
     status: tuple[str, ...] = ()
+    people: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    leaves: FloatArray = field(default_factory=lambda: np.zeros((0, 4)))
     in_contact: bool = False
     failed: bool = False
 

@@ -28,11 +28,15 @@ def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
         if frame.goal is not None and frame.goal.door is not None:
             door = frame.goal.door
             canvas.stroke(camera.pixels([door.start, door.end]), palette.GOAL_DOORWAY, 24.0)
+    for hinge_x, hinge_y, tip_x, tip_y in frame.leaves:
+        marks.leaf(canvas, camera.pixels([(hinge_x, hinge_y), (tip_x, tip_y)]), camera.scale)
     _draw_lines(canvas, camera, frame)
     _draw_remembered(canvas, camera, frame.remembered)
     if frame.hits is not None:
         marks.hits(canvas, camera.pixels(_thinned(frame.hits, DRAWN_HITS)))
     _draw_seen(canvas, camera, frame.scene)
+    for x, y, radius in frame.people:
+        marks.person(canvas, camera.pixel((x, y)), radius * camera.scale)
     draw_body(canvas, camera, frame.robot, frame.pose, frame.in_contact)
     if frame.goal is not None:
         _draw_goal(canvas, camera, frame.goal, frame.pose[:2])

@@ -86,6 +86,18 @@ def hits(sheet: Sheet, points: ArrayLike) -> None:
     sheet.discs(points, 1.3, palette.HIT)
 
 
+def leaf(sheet: Sheet, line: ArrayLike, scale: float) -> None:
+    """The leaf of a door that can swing; `scale` is in units of the page per metre."""
+    sheet.stroke(line, palette.LEAF, max(2.2, 0.07 * scale))
+
+
+def person(sheet: Sheet, at: Point, radius: float) -> None:
+    """Somebody seen from above."""
+    sheet.discs([at], radius + 1.5, palette.WHITE)
+    sheet.discs([at], radius, palette.PERSON)
+    sheet.discs([at], 0.5 * radius, palette.PERSON_HEAD)
+
+
 def flag(sheet: Sheet, at: Point, height: float = 24.0) -> None:
     """A goal to stand at; `at` is the foot of its pole."""
     x, y = at

@@ -53,6 +53,10 @@ SPOT_BACK: Final[Colour] = (252, 220, 112)
 TYRE: Final[Colour] = (30, 36, 46)
 CONTACT: Final[Colour] = (216, 32, 40)
 
+# Other people.
+PERSON: Final[Colour] = (122, 92, 158)
+PERSON_HEAD: Final[Colour] = (226, 206, 186)
+
 # The panel.
 PANEL: Final[Colour] = (255, 255, 255)
 ACTIVE: Final[Colour] = (255, 240, 204)

@@ -28,7 +28,6 @@ from semnav_env.world import World
 class Stage(Protocol):
     """What of an environment is shown."""
 
-    floor_plan: FloorPlan
     robot: RobotSpec
     world: World
     perception: Perception
@@ -87,8 +86,9 @@ class Scribe:
         odometry_frame = compose(pose, relative(believed, (0.0, 0.0, 0.0)))
         lidar = compose(pose, perception.lidar.mount)
         remembered = perception.scene()
+        people, leaves = env.world.moving_shapes
         return Frame(
-            floor_plan=env.floor_plan,
+            floor_plan=env.world.still,
             robot=env.robot,
             pose=pose,
             lidar=lidar[:2],
@@ -102,6 +102,8 @@ class Scribe:
             command=tuple(str(clause) for clause in verifier.command.clauses),
             active_clause=verifier.follower.active,
             status=_status(env.seconds, verifier),
+            people=people.copy(),
+            leaves=leaves.copy(),
             in_contact=env.world.in_contact,
             failed=verifier.failure is not None,
         )

@@ -7,13 +7,21 @@ from array import array
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import pymunk
 
-from semnav_env.features.frames import Pose, wrap_angle
+from semnav_env.dynamics import OFF, Dynamics, Moving
+from semnav_env.features.frames import FloatArray, Pose, wrap_angle
+from semnav_env.lidar.moving import NOTHING
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 from semnav_env.world.bodies import driving_joints, robot_body, solid_space
+from semnav_env.world.movers import Movers
 from semnav_env.world.standing import clearance, standing_error
+
+FINE = 20
+"""Substeps where something else moves: a robot's corner then gets less than a centimetre into
+somebody before the contact is felt."""
 
 
 @dataclass(frozen=True)
@@ -44,35 +52,58 @@ class World:
         floor_plan: all of its segments are solid, glass too.
         robot: body and limits.
         control_hz: commands per second.
-        substeps: of the physics for each command.
+        substeps: of the physics for each command; `FINE` at least where something else moves.
+        dynamics: what else moves.
+
+    Attributes:
+        moving: people and leaves; None where only the robot moves.
+        still: the floor plan without what can move.
     """
 
     def __init__(
-        self, floor_plan: FloorPlan, robot: RobotSpec, control_hz: float = 15.0, substeps: int = 4
+        self,
+        floor_plan: FloorPlan,
+        robot: RobotSpec,
+        control_hz: float = 15.0,
+        substeps: int = 4,
+        dynamics: Dynamics = OFF,
     ) -> None:
         if not 0 < control_hz < math.inf or substeps < 1:
             raise ValueError(
                 f"control_hz is {control_hz} and substeps {substeps}; both must be positive"
             )
         self.floor_plan, self.robot = floor_plan, robot
-        self.control_hz, self.substeps = control_hz, substeps
         self._period = 1.0 / control_hz
+        self.moving = Moving(floor_plan, robot, dynamics, self._period) if dynamics.moves else None
+        self.still = floor_plan if self.moving is None else self.moving.still
+        substeps = substeps if self.moving is None else max(substeps, FINE)
+        self.control_hz, self.substeps = control_hz, substeps
         self._dt = self._period / substeps
         self._start: Pose | None = None
         self._journal = array("d")
+        self._seed = 0
 
-    def reset(self, pose: Pose) -> None:
+    def reset(self, pose: Pose, rng: np.random.Generator | None = None) -> None:
         """Put the robot at rest with its centre at `pose`, world frame, in an untouched world.
+
+        Args:
+            pose: of the robot.
+            rng: of what people and doors do; the same every time without it. Nothing is drawn
+                from it where only the robot moves.
 
         Raises:
             ValueError: the pose is not three finite numbers, lies outside the boundary, or the
-                footprint would touch something solid.
+                footprint would touch something solid; or people find no room.
         """
+        drawn = self.moving is not None and rng is not None
+        self._begin(pose, int(rng.integers(2**62)) if drawn and rng is not None else 0)
+
+    def _begin(self, pose: Pose, seed: int) -> None:
         start = _finite(pose, "pose", "(x, y, heading)")
         problem = standing_error(self.floor_plan, self.robot, start)
         if problem is not None:
             raise ValueError(problem)
-        self._start, self._journal = start, array("d")
+        self._start, self._seed, self._journal = start, seed, array("d")
         self._impulses: list[float] = []
         self._build(start)
         self._settle()
@@ -93,8 +124,20 @@ class World:
         self._require_reset()
         self._journal.extend(command)
         self._impulses = []
+        if self.moving is None:
+            self._drive(command)
+            self._settle()
+        else:
+            self._step_among(self.moving, command)
+
+    def _step_among(self, moving: Moving, command: tuple[float, float, float]) -> None:
+        """`step` where others move: they choose their steps, then all go at once."""
+        moving.step(self._pose, self.velocity)
+        self._movers.go()
         self._drive(command)
+        self._movers.arrive()
         self._settle()
+        moving.note(self._pose, self.velocity)
 
     @property
     def pose(self) -> Pose:
@@ -121,12 +164,22 @@ class World:
         self._require_reset()
         return bool(self._impulses)
 
+    @property
+    def moving_shapes(self) -> tuple[FloatArray, FloatArray]:
+        """Discs of people, shape (n, 3), and leaves, shape (m, 4), as a lidar takes them."""
+        return NOTHING if self.moving is None else self.moving.shapes
+
+    def social(self) -> dict[str, Any]:
+        """How near people and robot came since the reset; empty where only the robot moves."""
+        return {} if self.moving is None else self.moving.record.outcome()
+
     def clearance(self) -> float:
-        """Distance between the footprint and the nearest solid segment, metres; 0 if they touch.
+        """Distance between the footprint and what is solid and nearest, metres; 0 if they touch.
 
         Infinite in a plan without segments. Takes some 50 us: for evaluation.
         """
-        return clearance(self.floor_plan, self.robot, self.pose)
+        still = clearance(self.still, self.robot, self.pose)
+        return still if self.moving is None else min(still, self.moving.clearance(self.pose))
 
     def fits(self, pose: Pose) -> bool:
         """Whether the robot could stand at `pose`: inside the boundary, touching nothing."""
@@ -138,12 +191,15 @@ class World:
 
     def _build(self, start: Pose) -> None:
         """A new space: episodes cannot influence each other."""
-        self._space = solid_space(self.floor_plan.segments)
+        self._space = solid_space(self.still.segments)
         self._body, shape = robot_body(self.robot, start)
         self._control = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         joints = driving_joints(self.robot, self._control, self._body)
         self._space.add(self._body, shape, self._control, *joints)
         self._space.on_collision(post_solve=self._touch)
+        if self.moving is not None:
+            self.moving.begin(start, self._seed)
+            self._movers = Movers(self._space, self.moving, self._period)
 
     def _touch(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         self._impulses.append(arbiter.total_impulse.length)
@@ -192,15 +248,24 @@ class World:
         self._axle_velocity = c * vx + s * vy, c * vy - s * vx, turn
 
     def __getstate__(self) -> dict[str, Any]:
-        kept = ("floor_plan", "robot", "control_hz", "substeps", "_period", "_dt")
-        return {name: getattr(self, name) for name in (*kept, "_start", "_journal")}
+        kept = (
+            "floor_plan",
+            "robot",
+            "control_hz",
+            "substeps",
+            "moving",
+            "still",
+            "_period",
+            "_dt",
+        )
+        return {name: getattr(self, name) for name in (*kept, "_start", "_seed", "_journal")}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         commands, start = state["_journal"], state["_start"]
         self._journal = array("d")
         if start is not None:
-            self.reset(start)
+            self._begin(start, state["_seed"])
             for i in range(0, len(commands), 3):
                 self.step(tuple(commands[i : i + 3]))
 

@@ -1,0 +1,151 @@
+"""People who walk about in a floor plan."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import shapely
+
+from semnav_env.dynamics.nearby import walls_of
+from semnav_env.dynamics.orca import orca
+from semnav_env.dynamics.routes import Routes, look_ahead
+from semnav_env.dynamics.settings import Dynamics
+from semnav_env.dynamics.social_force import social_force
+from semnav_env.dynamics.walking import walk
+from semnav_env.features.frames import FloatArray, Point, Pose
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.geodesic import WaysTo
+
+TRIES = 400
+"""Places drawn for somebody before it is found that there is no room."""
+
+ROBOT_ROOM = 1.5
+"""Nobody begins nearer than this to the robot's centre, metres."""
+
+ARRIVED = 0.5
+"""Somebody this near to where they want to go chooses another place, metres."""
+
+PROGRESS = 0.2
+"""Somebody who gets this much nearer is getting on, metres."""
+
+
+class Crowd:
+    """People, each on the way to some room, corridor or crossing, and then to another.
+
+    Args:
+        plan: as drawn: ways lead through the doors that are open there.
+        still: what of it never moves.
+        dynamics: how many people and how they walk.
+
+    Attributes:
+        places: metres, shape (n, 2); always the same array.
+        velocities: as they really move, m/s, shape (n, 2).
+    """
+
+    def __init__(self, plan: FloorPlan, still: FloorPlan, dynamics: Dynamics) -> None:
+        self._plan, self._dynamics = plan, dynamics
+        self.places = np.zeros((dynamics.pedestrians, 2))
+        self.velocities = np.zeros((dynamics.pedestrians, 2))
+        self._wishes = np.zeros((dynamics.pedestrians, 2))
+        self._walls = walls_of(still.segments)
+        self._model = orca if dynamics.model == "orca" else social_force
+        self._routes = Routes(plan)
+
+    def begin(self, start: Pose, rng: np.random.Generator) -> None:
+        """Put everybody somewhere, with somewhere to go.
+
+        Args:
+            start: of the robot, whom nobody stands near.
+            rng: of everything that is drawn during the episode.
+
+        Raises:
+            ValueError: there is no room for so many.
+        """
+        walking, count = self._dynamics.walking, len(self.places)
+        self._rng = rng
+        spread = np.clip(rng.standard_normal(count), -2.0, 2.0) * walking.spread
+        self._speeds = walking.speed + spread
+        self._ways: list[WaysTo] = []
+        for i in range(count):
+            self.places[i], ways = self._free_place(i, start)
+            self._ways.append(ways)
+        self.velocities[:] = 0.0
+        self._best = np.full(count, np.inf)
+        self._waited = np.zeros(count)
+
+    def step(self, body: FloatArray, leaves: FloatArray, guard: float, seconds: float) -> None:
+        """Let everybody walk for a time step.
+
+        Args:
+            body: of the robot, see `on_body`.
+            leaves: segments that move, shape (m, 4).
+            guard: see `walk`.
+            seconds: of the step.
+        """
+        if len(self.places) == 0:
+            return
+        walking = self._dynamics.walking
+        self._wish(seconds)
+        wanted = np.empty_like(self.velocities)
+        around = walking.radius, self._walls, leaves, body
+        self._model(
+            self.places, self.velocities, self._wishes, *around, walking.see_robot, seconds, wanted
+        )
+        self.velocities[:] = wanted
+        walk(self.places, self.velocities, *around, guard, seconds)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the ways, which are large; `begin` finds them again."""
+        return {key: value for key, value in self.__dict__.items() if key != "_ways"}
+
+    def _wish(self, seconds: float) -> None:
+        """Where everybody would go next if nothing were in the way."""
+        for i, ways in enumerate(self._ways):
+            x, y = self.places[i]
+            ahead, aside, left = look_ahead(ways.distances, *ways.origin, x, y)
+            self._wishes[i] = self._speeds[i] * ahead, self._speeds[i] * aside
+            nearer = left < self._best[i] - PROGRESS
+            self._best[i] = left if nearer else self._best[i]
+            self._waited[i] = 0.0 if nearer else self._waited[i] + seconds
+            if left < ARRIVED or self._waited[i] > self._dynamics.walking.patience:
+                self._ways[i] = self._somewhere((x, y)) or ways
+                self._best[i], self._waited[i] = math.inf, 0.0
+
+    def _somewhere(self, place: Point) -> WaysTo | None:
+        """The ways to a place that can be reached from there; None if none was found."""
+        for index in self._rng.permutation(len(self._routes.places))[:8]:
+            ways = self._routes.to(int(index))
+            if ARRIVED < look_ahead(ways.distances, *ways.origin, *place)[2] < math.inf:
+                return ways
+        return None
+
+    def _free_place(self, i: int, start: Pose) -> tuple[Point, WaysTo]:
+        for _ in range(TRIES):
+            place = self._anywhere()
+            if self._is_free(place, i, start):
+                ways = self._somewhere(place)
+                if ways is not None:
+                    return place, ways
+        raise ValueError(
+            f"{self._plan.name} has room for {i} people beside the robot, not for "
+            f"{len(self.places)}; ask for fewer pedestrians"
+        )
+
+    def _anywhere(self) -> Point:
+        """Uniform over the rectangle around a random region, or around the boundary."""
+        regions = self._plan.regions
+        area = regions[self._rng.integers(len(regions))].polygon if regions else self._plan.boundary
+        west, south, east, north = area.bounds
+        x, y = self._rng.uniform((west, south), (east, north))
+        return float(x), float(y)
+
+    def _is_free(self, place: Point, i: int, start: Pose) -> bool:
+        if math.dist(place, start[:2]) < ROBOT_ROOM:
+            return False
+        radius, point = self._dynamics.walking.radius, shapely.Point(place)
+        apart = np.hypot(*(self.places[:i] - place).T)
+        if (apart < 2.5 * radius).any() or not self._plan.boundary.contains(point):
+            return False
+        return len(self._plan.solids.query(point, "dwithin", radius + 0.05)) == 0

@@ -1,0 +1,111 @@
+"""Doors that open and close: when, and how far they get."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from semnav_env.dynamics.leaves import Leaf
+from semnav_env.dynamics.nearby import on_body, on_segment
+from semnav_env.dynamics.settings import Dynamics
+from semnav_env.features.frames import FloatArray
+
+
+class SwingingDoors:
+    """The leaves of a plan's doors.
+
+    All of them stand at first as the plan draws them. Those that change in an episode close and
+    open again and again, each after a random time. A leaf that would come too near to somebody or
+    to the robot stops, and goes on once there is room.
+
+    Args:
+        leaves: of the doors that can change.
+        dynamics: how many do, and how.
+
+    Attributes:
+        leaves: as given.
+        angles: how far each stands open, radians of the sign of its swing, shape (m,).
+        segments: hinge and tip of each, metres, shape (m, 4); always the same array.
+    """
+
+    def __init__(self, leaves: tuple[Leaf, ...], dynamics: Dynamics) -> None:
+        self.leaves, self._dynamics = leaves, dynamics
+        self.angles = np.zeros(len(leaves))
+        self.segments = np.zeros((len(leaves), 4))
+        self.begin(np.random.default_rng(0))
+
+    def begin(self, rng: np.random.Generator) -> None:
+        """Open all of them and draw which ones will change, and when first."""
+        self._rng = rng
+        chosen = rng.random(len(self.leaves)) < self._dynamics.changing_doors
+        self._closing = np.zeros(len(self.leaves), dtype=bool)
+        self._wait = np.full(len(self.leaves), np.inf)
+        self._wait[chosen] = rng.uniform(0.0, self._dynamics.swinging.open_for[1], chosen.sum())
+        for i, leaf in enumerate(self.leaves):
+            self._turn(i, leaf.swing)
+
+    @property
+    def closed(self) -> tuple[str, ...]:
+        """Names of the doors that are shut."""
+        pairs = zip(self.leaves, self.angles, strict=True)
+        return tuple(leaf.door for leaf, angle in pairs if angle == 0.0)
+
+    def step(
+        self, seconds: float, places: FloatArray, radius: float, body: FloatArray, guard: float
+    ) -> None:
+        """Let leaves swing for a time step.
+
+        Args:
+            seconds: of the step.
+            places: where people stand, metres, shape (n, 2).
+            radius: of a person, metres.
+            body: of the robot, see `on_body`.
+            guard: metres that stay free between a leaf that moves and the robot.
+        """
+        swinging = self._dynamics.swinging
+        for i, leaf in enumerate(self.leaves):
+            self._wait[i] -= seconds
+            if self._wait[i] > 0.0:
+                continue
+            goal = 0.0 if self._closing[i] else leaf.swing
+            if self.angles[i] == goal:
+                self._closing[i] = not self._closing[i]
+                times = swinging.open_for if goal else swinging.closed_for
+                self._wait[i] = self._rng.uniform(*times)
+                continue
+            most = swinging.rate * seconds
+            angle = self.angles[i] + min(max(goal - self.angles[i], -most), most)
+            if _has_way(leaf.hinge, leaf.tip(angle), places, radius, body, guard):
+                self._turn(i, angle)
+
+    def _turn(self, i: int, angle: float) -> None:
+        leaf = self.leaves[i]
+        self.angles[i] = angle
+        self.segments[i] = (*leaf.hinge, *leaf.tip(angle))
+
+
+@njit(cache=True, error_model="numpy")
+def _has_way(
+    hinge: tuple[float, float],
+    tip: tuple[float, float],
+    places: FloatArray,
+    radius: float,
+    body: FloatArray,
+    guard: float,
+) -> bool:
+    """Whether a leaf there leaves everybody their room."""
+    for k in range(len(places)):
+        x, y = places[k]
+        near_x, near_y = on_segment(x, y, hinge[0], hinge[1], tip[0], tip[1])
+        if math.hypot(x - near_x, y - near_y) < radius + 0.02:
+            return False
+    pieces = math.ceil(math.hypot(tip[0] - hinge[0], tip[1] - hinge[1]) / 0.05)
+    for k in range(pieces + 1):
+        share = k / pieces
+        x, y = hinge[0] + share * (tip[0] - hinge[0]), hinge[1] + share * (tip[1] - hinge[1])
+        near_x, near_y = on_body(x, y, body)
+        if math.hypot(x - near_x, y - near_y) < guard + 0.05:
+            return False
+    return True

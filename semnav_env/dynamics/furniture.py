@@ -1,0 +1,156 @@
+"""Furniture that is found elsewhere than the plan says, and boxes that it does not know of."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import shapely
+from shapely import Polygon
+from shapely.affinity import rotate, translate
+
+from semnav_env.dynamics.settings import Dynamics
+from semnav_env.features.frames import Point
+from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
+from semnav_env.robots import RobotSpec
+
+SHIFT, TURN = 0.6, math.radians(20.0)
+"""Standard deviation of how far a piece was moved along x and y, metres, and turned, radians."""
+
+SIDES = (0.3, 0.8)
+"""Shortest and longest side of an added box, metres."""
+
+DOOR_ROOM = 1.0
+"""Nothing is put this near to the middle of a doorway, metres."""
+
+LANE = 1.0
+"""Wide ways that are free stay in one piece, and so do ways of the robot's width; metres."""
+
+SLACK = 0.1
+"""Added to the robot's width for the narrow ways, metres."""
+
+APART = 0.05
+"""Between furniture and everything else, metres."""
+
+LEAST_PART, CRUMB = 0.2, 0.01
+"""Free areas that count as a part of the ways, and as a part of one, m^2."""
+
+TRIES = 30
+"""Places drawn for a piece before it stays where it is or is left out."""
+
+
+def furnished(
+    plan: FloorPlan,
+    dynamics: Dynamics,
+    robot: RobotSpec,
+    rng: np.random.Generator,
+    keep: Point | None,
+) -> FloorPlan:
+    """The plan as somebody left it: pieces moved and boxes added, no way blocked.
+
+    Args:
+        plan: as drawn.
+        dynamics: what share of the furniture moves, and how many boxes come.
+        robot: which must still get everywhere.
+        rng: of what is drawn.
+        keep: where the robot will stand; nothing is put near it.
+    """
+    room = Rearranged(plan, robot, keep)
+    for index, surface in enumerate(plan.surfaces):
+        if _is_piece(surface) and rng.random() < dynamics.moved_furniture:
+            room.move(index, rng)
+    for _ in range(dynamics.added_boxes):
+        room.add(rng)
+    return room.plan
+
+
+class Rearranged:
+    """A plan whose furniture is being moved.
+
+    Args:
+        plan: as drawn.
+        robot: which must still get everywhere.
+        keep: where nothing is put.
+
+    Attributes:
+        plan: as it is now.
+    """
+
+    def __init__(self, plan: FloorPlan, robot: RobotSpec, keep: Point | None) -> None:
+        self.plan = plan
+        around = [(door.midpoint, DOOR_ROOM) for door in plan.doors]
+        around += [(keep, DOOR_ROOM + robot.length / 2)] if keep is not None else []
+        discs = [shapely.Point(point).buffer(reach) for point, reach in around]
+        self._kept_free = shapely.union_all(discs)
+        self._lanes = LANE, robot.width + SLACK
+
+    def move(self, index: int, rng: np.random.Generator) -> None:
+        """Put a piece elsewhere, if it finds a place."""
+        surfaces = self.plan.surfaces
+        others = (*surfaces[:index], *surfaces[index + 1 :])
+        outline = Polygon(surfaces[index].points)
+
+        def draw() -> Polygon:
+            turned = rotate(outline, rng.normal(0.0, TURN), use_radians=True)
+            return translate(turned, *rng.normal(0.0, SHIFT, 2))
+
+        piece = self._placed(draw, replace(self.plan, surfaces=others))
+        if piece is not None:
+            self.plan = replace(self.plan, surfaces=(*others[:index], piece, *others[index:]))
+
+    def add(self, rng: np.random.Generator) -> None:
+        """Put a new box somewhere, if it finds a place."""
+        west, south, east, north = self.plan.boundary.bounds
+
+        def draw() -> Polygon:
+            x, y = rng.uniform((west, south), (east, north))
+            half_x, half_y = rng.uniform(*SIDES, 2) / 2
+            upright = shapely.box(x - half_x, y - half_y, x + half_x, y + half_y)
+            return rotate(upright, rng.uniform(0.0, 180.0))
+
+        piece = self._placed(draw, self.plan)
+        if piece is not None:
+            self.plan = replace(self.plan, surfaces=(*self.plan.surfaces, piece))
+
+    def _placed(self, draw: Callable[[], Polygon], plan: FloorPlan) -> Surface | None:
+        """The first drawn piece that stands free, at no door, and parts no way in two."""
+        inside = shapely.union_all([Polygon(s.points) for s in plan.surfaces if _is_piece(s)])
+        ways: list[tuple[float, list[Polygon]]] = []
+        for _ in range(TRIES):
+            piece = draw()
+            if piece.intersects(self._kept_free) or piece.intersects(inside):
+                continue
+            if not plan.boundary.contains(piece) or len(plan.solids.query(piece, "dwithin", APART)):
+                continue
+            ways = ways or [(lane / 2, _free_ways(plan, lane / 2)) for lane in self._lanes]
+            if all(_stay_whole(parts, piece.buffer(half)) for half, parts in ways):
+                return _outline(piece)
+        return None
+
+
+def _free_ways(plan: FloorPlan, half: float) -> list[Polygon]:
+    """Where the middle of a lane of that half width may lie, in connected parts."""
+    lines = shapely.multilinestrings(plan.segments.reshape(-1, 2, 2))
+    return list(shapely.get_parts(plan.boundary.difference(lines.buffer(half))))
+
+
+def _stay_whole(parts: list[Polygon], piece: Polygon) -> bool:
+    """Whether each part is still one after a piece was put there."""
+    for part in parts:
+        if part.area > LEAST_PART and part.intersects(piece):
+            rest = shapely.get_parts(part.difference(piece))
+            if sum(each.area > CRUMB for each in rest) != 1:
+                return False
+    return True
+
+
+def _is_piece(surface: Surface) -> bool:
+    closed = len(surface.points) > 3 and surface.points[0] == surface.points[-1]
+    return closed and surface.material is Material.FURNITURE
+
+
+def _outline(piece: Polygon) -> Surface:
+    points = tuple((float(x), float(y)) for x, y in piece.exterior.coords)
+    return Surface(points, Material.FURNITURE)

@@ -1,0 +1,142 @@
+"""The leaves of the doors that can open and close, and the room that they need."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from shapely import Polygon
+
+from semnav_env.features.frames import Point
+from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
+
+TOUCH = 0.05
+"""A leaf that begins so near to a jamb hangs on it, metres."""
+
+OPEN = math.radians(85.0)
+"""How far a leaf that the plan does not draw stands open."""
+
+SPARE = math.radians(1.5)
+"""Angle at the closed and the open leaf in which walls may lie."""
+
+AXLE = 0.06
+"""Around the hinge walls may lie within this, metres."""
+
+
+@dataclass(frozen=True)
+class Leaf:
+    """A leaf that swings about one jamb of a door.
+
+    Attributes:
+        door: name.
+        hinge: (x, y) in metres.
+        length: metres.
+        closed: direction in which it fills the opening, radians.
+        swing: angle from there to where the plan draws it, radians in (-pi, pi).
+    """
+
+    door: str
+    hinge: Point
+    length: float
+    closed: float
+    swing: float
+
+    def tip(self, angle: float) -> Point:
+        """Where it ends after opening by `angle`, of the sign of `swing`."""
+        direction = self.closed + angle
+        x, y = self.hinge
+        return x + self.length * math.cos(direction), y + self.length * math.sin(direction)
+
+
+def with_leaves(plan: FloorPlan) -> FloorPlan:
+    """The plan with an open leaf at every door that has none and has room for one.
+
+    It is hung into the room rather than into the corridor.
+    """
+    hung = []
+    for door in plan.doors:
+        if door.open and not any(_hangs(surface, door) for surface in plan.surfaces):
+            choices = [leaf for leaf in _new_leaves(door, plan) if _has_room(leaf, plan)]
+            hung += [
+                Surface((leaf.hinge, leaf.tip(leaf.swing)), Material.LEAF) for leaf in choices[:1]
+            ]
+    return replace(plan, surfaces=(*plan.surfaces, *hung)) if hung else plan
+
+
+def swinging_leaves(plan: FloorPlan) -> tuple[tuple[Leaf, ...], FloorPlan]:
+    """The leaves that can close, as drawn, and the plan without them.
+
+    Those of open doors with one leaf as wide as the opening that has room to swing.
+    """
+    leaves: list[Leaf] = []
+    drawn: list[Surface] = []
+    for door in plan.doors:
+        hanging = [surface for surface in plan.surfaces if _hangs(surface, door)]
+        leaf = _as_leaf(hanging[0], door) if door.open and len(hanging) == 1 else None
+        if leaf is not None and _has_room(leaf, plan, hanging[0]):
+            leaves.append(leaf)
+            drawn.append(hanging[0])
+    if not leaves:
+        return (), plan
+    rest = tuple(s for s in plan.surfaces if not any(s is each for each in drawn))
+    return tuple(leaves), replace(plan, surfaces=rest)
+
+
+def _hangs(surface: Surface, door: PlanDoor) -> bool:
+    if surface.material is not Material.LEAF:
+        return False
+    ends = surface.points[0], surface.points[-1]
+    return any(math.dist(end, jamb) < TOUCH for end in ends for jamb in (door.start, door.end))
+
+
+def _as_leaf(surface: Surface, door: PlanDoor) -> Leaf | None:
+    """A straight leaf that can close the door; None if it is another kind of leaf."""
+    if len(surface.points) != 2:
+        return None
+    for hinge, tip in (surface.points, surface.points[::-1]):
+        for jamb, other in ((door.start, door.end), (door.end, door.start)):
+            length = math.dist(hinge, tip)
+            if math.dist(hinge, jamb) < TOUCH and abs(length - door.width) < 2 * TOUCH:
+                closed = math.atan2(other[1] - hinge[1], other[0] - hinge[0])
+                drawn = math.atan2(tip[1] - hinge[1], tip[0] - hinge[0])
+                return Leaf(
+                    door.name, hinge, length, closed, math.remainder(drawn - closed, math.tau)
+                )
+    return None
+
+
+def _new_leaves(door: PlanDoor, plan: FloorPlan) -> list[Leaf]:
+    """On either jamb and to either side, those that open into a corridor last."""
+    leaves = []
+    for jamb, other in ((door.start, door.end), (door.end, door.start)):
+        closed = math.atan2(other[1] - jamb[1], other[0] - jamb[0])
+        leaves += [Leaf(door.name, jamb, door.width, closed, swing) for swing in (OPEN, -OPEN)]
+    return sorted(leaves, key=lambda leaf: _in_corridor(leaf, plan))
+
+
+def _in_corridor(leaf: Leaf, plan: FloorPlan) -> bool:
+    swept = _swept(leaf)
+    return any(region.polygon.intersection(swept).area > 0.1 for region in plan.corridors)
+
+
+def _swept(leaf: Leaf) -> Polygon:
+    """What the leaf sweeps, a little less at the hinge and at both ends of the way."""
+    sign = math.copysign(1.0, leaf.swing)
+    angles = np.linspace(sign * SPARE, leaf.swing - sign * SPARE, 16)
+    x, y = leaf.hinge
+    rim = [leaf.tip(angle) for angle in angles]
+    share = AXLE / leaf.length
+    inner = [(x + share * (px - x), y + share * (py - y)) for px, py in rim]
+    return Polygon([*rim, *inner[::-1]])
+
+
+def _has_room(leaf: Leaf, plan: FloorPlan, own: Surface | None = None) -> bool:
+    """Whether nothing stands where the leaf swings."""
+    if abs(leaf.swing) < 4 * SPARE:
+        return False
+    swept = _swept(leaf)
+    if not plan.boundary.covers(swept):
+        return False
+    rows = plan.solids.query(swept, predicate="intersects").tolist()
+    return all(plan.surfaces[int(plan.owners[row])] is own for row in rows)

@@ -1,0 +1,111 @@
+"""All that moves beside the robot."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import shapely
+from shapely.affinity import rotate, translate
+
+from semnav_env.dynamics.crowd import Crowd
+from semnav_env.dynamics.doors import SwingingDoors
+from semnav_env.dynamics.leaves import swinging_leaves
+from semnav_env.dynamics.settings import Dynamics
+from semnav_env.dynamics.social import SocialRecord, gaps
+from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.robots import RobotSpec
+
+
+class Moving:
+    """People and leaves in a floor plan.
+
+    Their motion follows from seed, start and the robot's motion alone.
+
+    Args:
+        plan: with its doors as they stand at first.
+        robot: which they keep away from.
+        dynamics: what moves.
+        seconds: of a time step.
+
+    Attributes:
+        still: the plan without what can move.
+        crowd: the people.
+        doors: the leaves.
+        discs: x, y and radius of everybody, metres, shape (n, 3); always the same array.
+        record: how near people and robot came.
+    """
+
+    def __init__(
+        self, plan: FloorPlan, robot: RobotSpec, dynamics: Dynamics, seconds: float
+    ) -> None:
+        leaves, self.still = swinging_leaves(plan) if dynamics.changing_doors else ((), plan)
+        self.crowd = Crowd(plan, self.still, dynamics)
+        self.doors = SwingingDoors(leaves, dynamics)
+        self.discs = np.full((dynamics.pedestrians, 3), dynamics.walking.radius)
+        self.record = SocialRecord()
+        self._robot, self._seconds = robot, seconds
+        self._radius = dynamics.walking.radius
+        fastest = dynamics.walking.speed + 2.0 * dynamics.walking.spread
+        self._guard = seconds * (_fastest_corner(robot) + 1.3 * fastest) + 0.05
+
+    @property
+    def shapes(self) -> tuple[FloatArray, FloatArray]:
+        """Discs, shape (n, 3), and leaves, shape (m, 4), as a lidar takes them."""
+        return self.discs, self.doors.segments
+
+    def begin(self, start: Pose, seed: int) -> None:
+        """Begin an episode with the robot at `start`."""
+        people, doors = np.random.default_rng(seed).spawn(2)
+        self.doors.begin(doors)
+        self.crowd.begin(start, people)
+        self.discs[:, :2] = self.crowd.places
+        self.record.begin()
+
+    def step(self, pose: Pose, velocity: Pose) -> None:
+        """Move on by a time step.
+
+        Args:
+            pose: of the robot's centre, world frame.
+            velocity: forward, left (m/s) and turning (rad/s), robot frame.
+        """
+        body = as_body(self._robot, pose, velocity)
+        self.crowd.step(body, self.doors.segments, self._guard, self._seconds)
+        self.doors.step(
+            self._seconds, self.crowd.places, self._radius, body, _reach(self._robot, self._seconds)
+        )
+        self.discs[:, :2] = self.crowd.places
+
+    def note(self, pose: Pose, velocity: Pose) -> None:
+        """Write down how near people and robot are now."""
+        body = as_body(self._robot, pose, velocity)
+        self.record.note(body, self.discs, self.crowd.velocities, self._seconds)
+
+    def clearance(self, pose: Pose) -> float:
+        """Distance from the footprint at `pose` to the nearest person or leaf, metres."""
+        body = as_body(self._robot, pose, (0.0, 0.0, 0.0))
+        people = gaps(body, self.discs).min(initial=math.inf)
+        outline = shapely.box(-body[3], -body[4], body[3], body[4])
+        turned = translate(rotate(outline, pose[2], (0.0, 0.0), use_radians=True), *pose[:2])
+        leaves = shapely.linestrings(self.doors.segments.reshape(-1, 2, 2))
+        return float(min(people, shapely.distance(turned, leaves).min(initial=math.inf)))
+
+
+def as_body(robot: RobotSpec, pose: Pose, velocity: Pose) -> FloatArray:
+    """The robot as kernels take it, see `on_body`."""
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    forward, left, turn = velocity
+    moved = c * forward - s * left, s * forward + c * left
+    return np.array([*pose, robot.length / 2, robot.width / 2, *moved, turn])
+
+
+def _fastest_corner(robot: RobotSpec) -> float:
+    """No point of the body moves faster than this, m/s."""
+    arm = math.hypot(robot.length / 2 + abs(robot.axle), robot.width / 2)
+    return math.hypot(robot.max_speed, robot.max_sideways_speed) + robot.max_turn_rate * arm
+
+
+def _reach(robot: RobotSpec, seconds: float) -> float:
+    """How far a point of the body gets in a time step, metres."""
+    return seconds * _fastest_corner(robot)

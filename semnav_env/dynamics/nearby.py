@@ -1,0 +1,107 @@
+"""Nearest points: what people and leaves need to know of what stands around them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.lidar.culling import Culling, cell_of
+
+REACH = 2.0
+"""Walls beyond this do not matter to somebody, metres."""
+
+MOST = 128
+"""Pieces of wall around somebody that are avoided; no step leads into others either."""
+
+
+@njit(cache=True, error_model="numpy")
+def on_segment(
+    x: float, y: float, x1: float, y1: float, x2: float, y2: float
+) -> tuple[float, float]:
+    """The point of a segment that is nearest to (x, y)."""
+    dx, dy = x2 - x1, y2 - y1
+    squared = dx * dx + dy * dy
+    along = ((x - x1) * dx + (y - y1) * dy) / squared if squared > 0.0 else 0.0
+    along = min(max(along, 0.0), 1.0)
+    return x1 + along * dx, y1 + along * dy
+
+
+@njit(cache=True, error_model="numpy")
+def on_body(x: float, y: float, body: FloatArray) -> tuple[float, float]:
+    """The point of a robot's footprint that is nearest to (x, y), which may be (x, y) itself.
+
+    Args:
+        x: metres.
+        y: metres.
+        body: x, y, heading, half the length, half the width, velocity x, velocity y and turn rate
+            of the robot in the world, shape (8,).
+    """
+    c, s = math.cos(body[2]), math.sin(body[2])
+    dx, dy = x - body[0], y - body[1]
+    ahead = min(max(c * dx + s * dy, -body[3]), body[3])
+    left = min(max(c * dy - s * dx, -body[4]), body[4])
+    return body[0] + c * ahead - s * left, body[1] + s * ahead + c * left
+
+
+@njit(cache=True, error_model="numpy")
+def walls_near(x: float, y: float, walls: Any, leaves: FloatArray, out: FloatArray) -> int:
+    """Write the nearest points of the walls and leaves within `REACH` of (x, y).
+
+    Args:
+        x: metres.
+        y: metres.
+        walls: `Culling` as (grid, starts, ends).
+        leaves: x1, y1, x2, y2 of segments that move, shape (m, 4).
+        out: rows x, y; shape (MOST, 2).
+
+    Returns:
+        How many there are; beyond `MOST` the later ones are left out.
+    """
+    grid, starts, ends = walls
+    cell = cell_of(grid, x, y)
+    count = 0
+    for i in range(len(leaves)):
+        leaf = leaves[i]
+        count = _keep(x, y, leaf[0], leaf[1], leaf[2], leaf[3], out, count)
+    for k in range(starts[cell], starts[cell + 1]):
+        count = _keep(x, y, ends[0, k], ends[1, k], ends[2, k], ends[3, k], out, count)
+    return count
+
+
+@njit(cache=True, error_model="numpy")
+def _keep(
+    x: float, y: float, x1: float, y1: float, x2: float, y2: float, out: FloatArray, count: int
+) -> int:
+    near_x, near_y = on_segment(x, y, x1, y1, x2, y2)
+    if (x - near_x) ** 2 + (y - near_y) ** 2 > REACH * REACH or count == len(out):
+        return count
+    out[count, 0], out[count, 1] = near_x, near_y
+    return count + 1
+
+
+@njit(cache=True, error_model="numpy")
+def nearest_wall(x: float, y: float, walls: Any, leaves: FloatArray) -> tuple[float, float]:
+    """The nearest point of all walls and leaves within `REACH`; far away if there is none."""
+    grid, starts, ends = walls
+    cell = cell_of(grid, x, y)
+    best, best_x, best_y = np.inf, x + 10.0 * REACH, y
+    for k in range(starts[cell] - len(leaves), starts[cell + 1]):
+        i = k - starts[cell] + len(leaves)
+        if i < len(leaves):
+            px, py = on_segment(x, y, leaves[i, 0], leaves[i, 1], leaves[i, 2], leaves[i, 3])
+        else:
+            px, py = on_segment(x, y, ends[0, k], ends[1, k], ends[2, k], ends[3, k])
+        squared = (x - px) ** 2 + (y - py) ** 2
+        if squared < best:
+            best, best_x, best_y = squared, px, py
+    return best_x, best_y
+
+
+def walls_of(segments: FloatArray) -> tuple[np.ndarray, np.ndarray, FloatArray]:
+    """Segments as `walls_near` takes them."""
+    culling = Culling.of(segments, REACH)
+    return culling.grid, culling.starts, culling.ends

@@ -1,0 +1,198 @@
+"""Optimal reciprocal collision avoidance: each takes half the trouble to miss the other.
+
+J. van den Berg, S. J. Guy, M. Lin and D. Manocha, Reciprocal n-body collision avoidance, Robotics
+Research, Springer Tracts in Advanced Robotics 70 (2011) 3. A half-plane of velocities is kept as
+(normal_x, normal_y, offset): allowed is normal . v >= offset.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from semnav_env.dynamics.nearby import MOST, on_body, walls_near
+from semnav_env.features.frames import FloatArray
+
+HORIZON = 2.5
+"""Time for which nobody will meet anybody, tau, s."""
+
+WALL_HORIZON = 0.5
+"""The same for walls, s: shorter, or nobody would walk through a door."""
+
+FASTEST = 1.3
+"""Largest speed as a multiple of the desired one."""
+
+HALVINGS = 16
+"""Bisections that find how far the half-planes must be moved where they leave no velocity."""
+
+
+@njit(cache=True, error_model="numpy")
+def orca(
+    places: FloatArray,
+    velocities: FloatArray,
+    wishes: FloatArray,
+    radius: float,
+    walls: Any,
+    leaves: FloatArray,
+    body: FloatArray,
+    sees_robot: bool,
+    seconds: float,
+    out: FloatArray,
+) -> None:
+    """Write the velocities for a time step: the allowed ones nearest to those desired (5.1).
+
+    The robot does not take its half of the trouble: people take the whole. A wall allows, at its
+    nearest point, to come no nearer than a radius within `WALL_HORIZON`. Where nothing is left,
+    people's and the robot's half-planes, not the walls', are moved back evenly until something is
+    (5.3).
+
+    Args:
+        places: of people, metres, shape (n, 2).
+        velocities: now, m/s, shape (n, 2).
+        wishes: desired velocities, m/s, shape (n, 2).
+        radius: of a person, metres.
+        walls: as `walls_near` takes them.
+        leaves: shape (m, 4).
+        body: of the robot, see `on_body`.
+        sees_robot: whether the robot counts.
+        seconds: length of the step.
+        out: shape (n, 2).
+    """
+    points = np.empty((MOST, 2))
+    planes = np.empty((MOST + len(places) + 1, 3))
+    for i in range(len(places)):
+        x, y = places[i]
+        hard = count = walls_near(x, y, walls, leaves, points)
+        for k in range(hard):
+            _stay_off(x - points[k, 0], y - points[k, 1], radius, WALL_HORIZON, planes[k])
+        if sees_robot:
+            near_x, near_y = on_body(x, y, body)
+            _stay_off(x - near_x, y - near_y, radius, HORIZON, planes[count])
+            planes[count, 2] += planes[count, 0] * body[5] + planes[count, 1] * body[6]
+            count += 1
+        for j in range(len(places)):
+            if j != i:
+                between = places[j] - places[i]
+                relative = velocities[i] - velocities[j]
+                _share(between, relative, velocities[i], 2.0 * radius, seconds, planes[count])
+                count += 1
+        limit = FASTEST * math.hypot(wishes[i, 0], wishes[i, 1])
+        _least_bad(planes[:count], hard, wishes[i], limit, out[i])
+
+
+@njit(cache=True, error_model="numpy")
+def _stay_off(dx: float, dy: float, radius: float, horizon: float, plane: FloatArray) -> None:
+    """The half-plane of a thing at rest whose nearest point is at -d."""
+    distance = max(math.hypot(dx, dy), 1e-9)
+    plane[0], plane[1] = dx / distance, dy / distance
+    plane[2] = -max(distance - radius, 0.0) / horizon
+
+
+@njit(cache=True, error_model="numpy")
+def _share(
+    between: FloatArray,
+    relative: FloatArray,
+    velocity: FloatArray,
+    reach: float,
+    seconds: float,
+    plane: FloatArray,
+) -> None:
+    """The half-plane ORCA of A and B (section 4): half of u, the least change out of VO.
+
+    VO (section 3) is the cone of the disc at x = p_B - p_A with the sum of the radii, cut off by
+    the disc shrunk by the horizon; u leads from the relative velocity to the nearest point of its
+    border, where the outward normal is n.
+    """
+    px, py, vx, vy = between[0], between[1], relative[0], relative[1]
+    distance = math.hypot(px, py)
+    horizon = HORIZON if distance > reach else seconds
+    wx, wy = vx - px / horizon, vy - py / horizon
+    w = math.hypot(wx, wy)
+    towards = wx * px + wy * py
+    if distance <= reach or (towards < 0.0 and towards * towards > reach * reach * w * w):
+        w = max(w, 1e-9)
+        nx, ny = wx / w, wy / w
+        gap = reach / horizon - w
+    else:
+        sine = reach / distance
+        cosine = math.sqrt(1.0 - sine * sine)
+        side = 1.0 if px * wy - py * wx > 0.0 else -1.0
+        leg_x = (px * cosine - side * py * sine) / distance
+        leg_y = (py * cosine + side * px * sine) / distance
+        nx, ny = -side * leg_y, side * leg_x
+        gap = -(vx * nx + vy * ny)
+    plane[0], plane[1] = nx, ny
+    plane[2] = nx * velocity[0] + ny * velocity[1] + 0.5 * gap
+
+
+@njit(cache=True, error_model="numpy")
+def _least_bad(
+    planes: FloatArray, hard: int, wish: FloatArray, limit: float, out: FloatArray
+) -> None:
+    """The allowed velocity nearest to the wish, or the one that breaks the least (5.3)."""
+    if nearest_allowed(planes, hard, 0.0, wish, limit, out):
+        return
+    low, high = 0.0, max(planes[:, 2].max(), 0.0) + limit
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if nearest_allowed(planes, hard, middle, wish, limit, out):
+            high = middle
+        else:
+            low = middle
+    if not nearest_allowed(planes, hard, high, wish, limit, out):
+        out[0] = out[1] = 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def nearest_allowed(
+    planes: FloatArray, hard: int, slack: float, wish: FloatArray, limit: float, out: FloatArray
+) -> bool:
+    """The velocity within half-planes and speed limit that is nearest to the wish.
+
+    One half-plane after the other is taken in; where it rules the best velocity out, the new best
+    lies on its border (the incremental algorithm of de Berg et al., Computational Geometry,
+    section 4.3, for a quadratic goal).
+
+    Args:
+        planes: shape (k, 3).
+        hard: the first so many are not moved.
+        slack: by which the others are moved back, m/s.
+        wish: m/s.
+        limit: of the speed, m/s.
+        out: the velocity; of no meaning if there is none.
+
+    Returns:
+        Whether there is one.
+    """
+    speed = math.hypot(wish[0], wish[1])
+    share = limit / speed if speed > limit else 1.0
+    out[0], out[1] = share * wish[0], share * wish[1]
+    for i in range(len(planes)):
+        nx, ny = planes[i, 0], planes[i, 1]
+        offset = planes[i, 2] - (slack if i >= hard else 0.0)
+        if nx * out[0] + ny * out[1] >= offset - 1e-9:
+            continue
+        squared = limit * limit - offset * offset
+        if squared < 0.0:
+            return False
+        high = math.sqrt(squared)
+        low = -high
+        for j in range(i):
+            slope = planes[j, 1] * nx - planes[j, 0] * ny
+            rest = planes[j, 2] - (slack if j >= hard else 0.0)
+            rest -= offset * (planes[j, 0] * nx + planes[j, 1] * ny)
+            if abs(slope) < 1e-12:
+                if rest > 1e-9:
+                    return False
+            elif slope > 0.0:
+                low = max(low, rest / slope)
+            else:
+                high = min(high, rest / slope)
+        if low > high:
+            return False
+        along = min(max(wish[1] * nx - wish[0] * ny, low), high)
+        out[0], out[1] = offset * nx - along * ny, offset * ny + along * nx
+    return True

@@ -1,0 +1,107 @@
+"""Where people want to go, and the way there."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from semnav_env.features.frames import FloatArray, Point
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.geodesic import SPACING, Geodesic, WaysTo
+
+KEPT_OFF = 0.3
+"""Ways of people keep this far from everything solid, metres."""
+
+LOOK_AHEAD = 8
+"""Cells of the grid down the way that somebody walks towards."""
+
+LOOK_AROUND = 4
+"""Cells around somebody in which the way is looked for."""
+
+
+class Routes:
+    """Shortest ways of people to the rooms, corridors and intersections of a plan.
+
+    Each is worked out when somebody first wants to go there, and kept.
+
+    Args:
+        floor_plan: with its doors as they stand at first.
+    """
+
+    def __init__(self, floor_plan: FloorPlan) -> None:
+        self._floor_plan = floor_plan
+        self.places = _places(floor_plan)
+
+    def to(self, index: int) -> WaysTo:
+        """The ways to a place."""
+        return self._geodesic.to(self.places[index])
+
+    @cached_property
+    def _geodesic(self) -> Geodesic:
+        return Geodesic(self._floor_plan, KEPT_OFF)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Ways are large and worked out anew after unpickling."""
+        return {key: value for key, value in self.__dict__.items() if key != "_geodesic"}
+
+
+def _places(floor_plan: FloorPlan) -> list[Point]:
+    """A point in every region; in a plan with fewer than two, four points of its boundary."""
+    points = [region.polygon.representative_point() for region in floor_plan.regions]
+    if len(points) >= 2:
+        return [(point.x, point.y) for point in points]
+    west, south, east, north = floor_plan.boundary.bounds
+    xs, ys = (west + 0.2 * (east - west), east - 0.2 * (east - west)), (0.25, 0.75)
+    return [(x, south + share * (north - south)) for x in xs for share in ys]
+
+
+@njit(cache=True, error_model="numpy")
+def look_ahead(
+    field: FloatArray, west: float, south: float, x: float, y: float
+) -> tuple[float, float, float]:
+    """The direction in which somebody at (x, y) goes on, and how far it is.
+
+    Args:
+        field: distances of the cells of a grid, metres.
+        west: x of its first column.
+        south: y of its first row.
+        x: metres.
+        y: metres.
+
+    Returns:
+        A unit vector, or zeros at the goal and where no way is near; the way left, metres, which
+        is then infinite.
+    """
+    row, column = _nearest_cell(field, (y - south) / SPACING, (x - west) / SPACING)
+    if row < 0:
+        return 0.0, 0.0, np.inf
+    left = field[row, column]
+    for _ in range(LOOK_AHEAD):
+        best_row, best_column = row, column
+        for r in range(max(row - 1, 0), min(row + 2, field.shape[0])):
+            for c in range(max(column - 1, 0), min(column + 2, field.shape[1])):
+                if field[r, c] < field[best_row, best_column]:
+                    best_row, best_column = r, c
+        row, column = best_row, best_column
+    dx, dy = west + SPACING * column - x, south + SPACING * row - y
+    length = math.hypot(dx, dy)
+    return (dx / length, dy / length, left) if length > 1e-6 else (0.0, 0.0, left)
+
+
+@njit(cache=True, error_model="numpy")
+def _nearest_cell(field: FloatArray, row: float, column: float) -> tuple[int, int]:
+    """The nearest cell from which there is a way; (-1, -1) if there is none near."""
+    best, found = np.inf, (-1, -1)
+    rows, columns = field.shape
+    middle_row, middle_column = round(row), round(column)
+    for r in range(middle_row - LOOK_AROUND, middle_row + LOOK_AROUND + 1):
+        for c in range(middle_column - LOOK_AROUND, middle_column + LOOK_AROUND + 1):
+            if 0 <= r < rows and 0 <= c < columns and field[r, c] < np.inf:
+                gap = (r - row) ** 2 + (c - column) ** 2
+                if gap < best:
+                    best, found = gap, (r, c)
+    return found

@@ -1,0 +1,150 @@
+"""How near a robot and people come: gaps, intrusions and times to collision."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.dynamics.nearby import on_body
+from semnav_env.features.frames import FloatArray
+
+PERSONAL_SPACE = 0.45
+"""A gap below this is an intrusion, metres: the intimate distance of E. T. Hall, The hidden
+dimension (1966), chapter 10, between the bodies."""
+
+
+@dataclass
+class SocialRecord:
+    """What an episode was like for the people in it.
+
+    Attributes:
+        intrusions: how often the robot's gap to somebody fell below `PERSONAL_SPACE`.
+        intruding_seconds: for how long it was so with anybody.
+        least_gap: smallest gap between footprint and body, metres.
+        least_seconds: smallest time to collision, s.
+    """
+
+    intrusions: int = 0
+    intruding_seconds: float = 0.0
+    least_gap: float = math.inf
+    least_seconds: float = math.inf
+    _near: NDArray[np.bool_] | None = field(init=False, repr=False, default=None)
+
+    def begin(self) -> None:
+        """Forget the last episode."""
+        self.intrusions, self.intruding_seconds = 0, 0.0
+        self.least_gap = self.least_seconds = math.inf
+        self._near = None
+
+    def note(
+        self, body: FloatArray, discs: FloatArray, velocities: FloatArray, seconds: float
+    ) -> None:
+        """Take in a step.
+
+        Args:
+            body: of the robot, see `on_body`.
+            discs: x, y and radius of people, metres, shape (n, 3).
+            velocities: of people, m/s, shape (n, 2).
+            seconds: length of the step.
+        """
+        if len(discs) == 0:
+            return
+        apart = gaps(body, discs)
+        near = apart < PERSONAL_SPACE
+        before = np.zeros_like(near) if self._near is None else self._near
+        self.intrusions += int((near & ~before).sum())
+        self.intruding_seconds += seconds * bool(near.any())
+        self.least_gap = min(self.least_gap, float(apart.min()))
+        soonest = float(times_to_collision(body, discs, velocities).min())
+        self.least_seconds = min(self.least_seconds, soonest)
+        self._near = near
+
+    def outcome(self) -> dict[str, Any]:
+        """As `info` has it at the end of an episode."""
+        return {
+            "personal_space_intrusions": self.intrusions,
+            "personal_space_seconds": self.intruding_seconds,
+            "least_gap_to_people": self.least_gap,
+            "least_time_to_collision": self.least_seconds,
+        }
+
+
+@njit(cache=True, error_model="numpy")
+def gaps(body: FloatArray, discs: FloatArray) -> FloatArray:
+    """Distance between the robot's footprint and each person's body, metres, shape (n,).
+
+    0 where they touch or overlap.
+
+    Args:
+        body: of the robot, see `on_body`.
+        discs: x, y and radius, metres, shape (n, 3).
+    """
+    found = np.empty(len(discs))
+    for i in range(len(discs)):
+        near_x, near_y = on_body(discs[i, 0], discs[i, 1], body)
+        distance = math.hypot(discs[i, 0] - near_x, discs[i, 1] - near_y)
+        found[i] = max(distance - discs[i, 2], 0.0)
+    return found
+
+
+@njit(cache=True, error_model="numpy")
+def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArray) -> FloatArray:
+    """When each person's body would meet the footprint if both went on as they move now, seconds.
+
+    Both move straight on; the robot's turning is left out. The footprint grown by the radius of
+    the disc is two rectangles and four discs; the first of them that the disc's centre enters
+    says when. 0 where they overlap, infinite where they never meet.
+
+    Args:
+        body: of the robot, see `on_body`.
+        discs: x, y and radius, metres, shape (n, 3).
+        velocities: of the people, m/s, shape (n, 2).
+    """
+    c, s = math.cos(body[2]), math.sin(body[2])
+    found = np.empty(len(discs))
+    for i in range(len(discs)):
+        dx, dy, radius = discs[i, 0] - body[0], discs[i, 1] - body[1], discs[i, 2]
+        vx, vy = velocities[i, 0] - body[5], velocities[i, 1] - body[6]
+        x, y, u, v = c * dx + s * dy, c * dy - s * dx, c * vx + s * vy, c * vy - s * vx
+        half_x, half_y = body[3], body[4]
+        best = min(
+            _into_box(x, y, u, v, half_x + radius, half_y),
+            _into_box(x, y, u, v, half_x, half_y + radius),
+        )
+        for k in range(4):
+            corner_x, corner_y = half_x * (1 - 2 * (k % 2)), half_y * (1 - 2 * (k // 2))
+            best = min(best, _into_disc(x - corner_x, y - corner_y, u, v, radius))
+        found[i] = best
+    return found
+
+
+@njit(cache=True, error_model="numpy")
+def _into_box(x: float, y: float, u: float, v: float, half_x: float, half_y: float) -> float:
+    """When a point moving with (u, v) enters |x| <= half_x, |y| <= half_y."""
+    first, last = 0.0, np.inf
+    for place, speed, half in ((x, u, half_x), (y, v, half_y)):
+        if abs(speed) < 1e-12:
+            if abs(place) > half:
+                return np.inf
+        else:
+            one, two = (-half - place) / speed, (half - place) / speed
+            first, last = max(first, min(one, two)), min(last, max(one, two))
+    return first if first <= last else np.inf
+
+
+@njit(cache=True, error_model="numpy")
+def _into_disc(x: float, y: float, u: float, v: float, radius: float) -> float:
+    """When a point moving with (u, v) enters the disc of that radius around the origin."""
+    outside = x * x + y * y - radius * radius
+    if outside <= 0.0:
+        return 0.0
+    squared, towards = u * u + v * v, -(x * u + y * v)
+    root = towards * towards - squared * outside
+    if towards <= 0.0 or root < 0.0:
+        return np.inf
+    return outside / (towards + math.sqrt(root))

@@ -1,0 +1,75 @@
+"""The floor plan of an episode: as drawn, or with leaves hung and furniture moved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from semnav_env.dynamics.furniture import furnished
+from semnav_env.dynamics.leaves import with_leaves
+from semnav_env.dynamics.settings import Dynamics
+from semnav_env.features.frames import Point
+from semnav_env.maps import FloorPlan, load_floor_plan
+from semnav_env.robots import RobotSpec
+
+
+class Stage:
+    """Makes the floor plans of episodes.
+
+    Args:
+        default: the plan where no other is asked for: a bundled name, a path or a plan.
+        dynamics: what changes.
+        robot: which must get everywhere.
+
+    Raises:
+        ValueError: `dynamics` is something else.
+    """
+
+    def __init__(
+        self, default: str | Path | FloorPlan, dynamics: Dynamics, robot: RobotSpec
+    ) -> None:
+        if not isinstance(dynamics, Dynamics):
+            raise ValueError(f"dynamics is {dynamics!r}; it must be a semnav_env.dynamics.Dynamics")
+        self.dynamics, self._default, self._robot = dynamics, default, robot
+        self._hung: tuple[FloorPlan, FloorPlan] | None = None
+
+    def plan(
+        self,
+        options: Mapping[str, Any] | None = None,
+        rng: np.random.Generator | None = None,
+    ) -> FloorPlan:
+        """The plan of an episode; the very plan that was loaded if nothing of it changes.
+
+        Args:
+            options: "floor_plan" (a bundled name, a path or a plan), and "pose" where the robot
+                is asked to start; each optional.
+            rng: of the furniture, which stays where it is without it.
+
+        Raises:
+            FloorPlanError: see `load_floor_plan`.
+        """
+        options = options or {}
+        plan = load_floor_plan(options.get("floor_plan") or self._default)
+        if self.dynamics.changing_doors:
+            plan = self._hung_with_leaves(plan)
+        if rng is None or not self.dynamics.furnishes:
+            return plan
+        return furnished(plan, self.dynamics, self._robot, rng, _point(options.get("pose")))
+
+    def _hung_with_leaves(self, plan: FloorPlan) -> FloorPlan:
+        """The same object for the same plan."""
+        if self._hung is None or plan is not self._hung[0]:
+            self._hung = plan, with_leaves(plan)
+        return self._hung[1]
+
+
+def _point(pose: Any) -> Point | None:
+    """The place of a pose that was asked for; others check it."""
+    try:
+        x, y, _ = (float(value) for value in pose)
+    except (TypeError, ValueError):
+        return None
+    return x, y
