@@ -53,7 +53,7 @@ def test_every_door_that_could_be_reached_still_can(seed: int) -> None:
     drawn, plan = load_floor_plan("office_cross"), rearranged(seed)
     half = WHEELCHAIR.width / 2
     hall = (15.0, 9.1)
-    before, after = Geodesic(drawn, half).to(hall), Geodesic(plan, half).to(hall)
+    before, after = (Geodesic(p, clearance=half).to(hall) for p in (drawn, plan))
     for door in drawn.doors:
         if math.isfinite(before.length(door.midpoint)):
             assert math.isfinite(after.length(door.midpoint)), door.name

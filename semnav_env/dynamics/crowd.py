@@ -104,7 +104,7 @@ class Crowd:
         """Where everybody would go next if nothing were in the way."""
         for i, ways in enumerate(self._ways):
             x, y = self.places[i]
-            ahead, aside, left = look_ahead(ways.distances, *ways.origin, x, y)
+            ahead, aside, left = look_ahead(ways.distances, *ways.geodesic.origin, x, y)
             self._wishes[i] = self._speeds[i] * ahead, self._speeds[i] * aside
             nearer = left < self._best[i] - PROGRESS
             self._best[i] = left if nearer else self._best[i]
@@ -117,7 +117,7 @@ class Crowd:
         """The ways to a place that can be reached from there; None if none was found."""
         for index in self._rng.permutation(len(self._routes.places))[:8]:
             ways = self._routes.to(int(index))
-            if ARRIVED < look_ahead(ways.distances, *ways.origin, *place)[2] < math.inf:
+            if ARRIVED < look_ahead(ways.distances, *ways.geodesic.origin, *place)[2] < math.inf:
                 return ways
         return None
 

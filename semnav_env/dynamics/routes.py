@@ -42,7 +42,7 @@ class Routes:
 
     @cached_property
     def _geodesic(self) -> Geodesic:
-        return Geodesic(self._floor_plan, KEPT_OFF)
+        return Geodesic(self._floor_plan, clearance=KEPT_OFF)
 
     def __getstate__(self) -> dict[str, Any]:
         """Ways are large and worked out anew after unpickling."""
