@@ -14,7 +14,7 @@ from importlib import import_module, metadata
 
 COMMANDS = {
     "extract": ("extract", "turn a log of lidar scans into walls, doors, corners and corridors"),
-    "map": ("map", "list, show, build and import floor plans"),
+    "map": ("map", "list, show, check, generate, build and import floor plans"),
     "demo": ("demo", "let a robot carry out a command"),
     "ground": ("ground", "say what a command refers to in a floor plan"),
     "describe": ("describe", "say the command that leads to a door or a room"),
@@ -25,6 +25,7 @@ COMMANDS = {
     "evaluate buildings": ("evaluate_buildings", "measure doors in scans of real floors"),
     "evaluate places": ("evaluate_places", "measure corridors told from other places"),
     "evaluate matching": ("evaluate_matching", "measure how exactly scans are matched"),
+    "evaluate offices": ("evaluate_offices", "check generated offices, and time them"),
     "train": ("train", "teach an agent, and keep what it learned"),
     "bench": ("bench", "time a step of the environment and its parts"),
     "doctor": ("doctor", "check the installation, and say how to mend it"),

@@ -1,4 +1,4 @@
-"""`semnav map`: list, show, build and import floor plans."""
+"""`semnav map`: list, show, check, generate, build and import floor plans."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from tyro.conf import Positional, subcommand
 
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
 from semnav_env.scripts.map_build import Build
+from semnav_env.scripts.map_check import Check
+from semnav_env.scripts.map_generate import Generate
 from semnav_env.scripts.map_import import Import
 
 
@@ -36,7 +38,7 @@ class Show:
     """Show what a floor plan holds.
 
     Attributes:
-        plan: name of a bundled plan, or path of a GeoJSON file.
+        plan: name of a bundled plan, of a generated one (office:medium:17), or path of a file.
         out: picture to write (.png, .pdf or .svg).
         json: print JSON.
     """
@@ -59,6 +61,8 @@ class Show:
 Arguments = (
     Annotated[List, subcommand("list")]
     | Annotated[Show, subcommand("show")]
+    | Annotated[Check, subcommand("check")]
+    | Annotated[Generate, subcommand("generate")]
     | Annotated[Build, subcommand("build")]
     | Annotated[Import, subcommand("import")]
 )

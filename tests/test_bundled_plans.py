@@ -11,9 +11,10 @@ from typing import Any
 import pytest
 import shapely
 from shapely import LineString, Point, Polygon, box
+from shapely.geometry.base import BaseGeometry
 
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Surface, bundled_names, load_floor_plan
-from semnav_env.maps.check import check, reachable
+from semnav_env.maps.check import check
 from semnav_env.maps.doorways import DoorState, clear_width, door_state
 from semnav_env.maps.draw import save_picture
 from semnav_env.maps.placement import footprint
@@ -39,6 +40,13 @@ def solid(plan: FloorPlan, assumed: bool = True) -> shapely.MultiLineString:
 def lane(start: tuple[float, float], heading: float, length: float, width: float) -> Polygon:
     end = start[0] + length * math.cos(heading), start[1] + length * math.sin(heading)
     return LineString((start, end)).buffer(width / 2, cap_style="flat")
+
+
+def reachable(plan: FloorPlan, width: float) -> BaseGeometry:
+    """Where the centre of a disc of that width can get to from the corridors."""
+    free = plan.boundary.difference(solid(plan).buffer(width / 2))
+    corridors = shapely.union_all([r.polygon for r in plan.corridors])
+    return max(shapely.get_parts(free), key=lambda part: part.intersection(corridors).area)
 
 
 def inward(door: PlanDoor) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -12,6 +13,7 @@ from matplotlib.path import Path as Outline
 from shapely import Polygon, union_all
 
 from semnav_env.maps.doorways import TOUCH
+from semnav_env.maps.finding import Finding
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
 
 COLOURS = {
@@ -20,9 +22,16 @@ COLOURS = {
     Material.LEAF: "saddlebrown",
     Material.FURNITURE: "grey",
 }
-TINTS = {"rooms": "oldlace", "corridors": "lightsteelblue", "intersections": "plum"}
+TINTS = {
+    "rooms": "oldlace",
+    "corridors": "lightsteelblue",
+    "intersections": "plum",
+    "areas": "honeydew",
+}
 LONGEST_SIDE = 12.0
 """Of a picture, inches."""
+MOST_LINES = 12
+"""Of findings below a picture."""
 NAME_BEHIND = 0.3
 """From a door to its name, metres."""
 
@@ -52,8 +61,16 @@ def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
     ax.set_ylabel("y, m")
 
 
-def save_picture(plan: FloorPlan, path: str | Path, dpi: int = 100) -> None:
+def save_picture(
+    plan: FloorPlan, path: str | Path, dpi: int = 100, findings: Sequence[Finding] = ()
+) -> None:
     """Write a picture of a plan; the suffix of `path` says the format (png, svg, pdf).
+
+    Args:
+        plan: the plan.
+        path: where to.
+        dpi: dots per inch; the longest side is 12 inches.
+        findings: what is wrong with it: numbered circles, and what they mean below.
 
     Raises:
         ValueError: a suffix that matplotlib does not know; it lists those it does.
@@ -67,7 +84,28 @@ def save_picture(plan: FloorPlan, path: str | Path, dpi: int = 100) -> None:
     ax = figure.add_subplot()
     draw_floor_plan(plan, ax)
     ax.set_title(plan.name)
+    _mark(findings, ax)
     figure.savefig(path, dpi=dpi)
+
+
+def _mark(findings: Sequence[Finding], ax: Axes) -> None:
+    for number, finding in enumerate(findings, 1):
+        if finding.where is not None:
+            ax.plot(*finding.where, "o", mec="red", mfc="none", markersize=22, mew=2.0, zorder=9)
+            ax.annotate(
+                str(number),
+                finding.where,
+                (12, 12),
+                textcoords="offset points",
+                color="red",
+                weight="bold",
+                zorder=9,
+            )
+    if findings:
+        lines = [f"{number}  {finding}" for number, finding in enumerate(findings, 1)]
+        more = [f"and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else []
+        below = "\n".join([*lines[:MOST_LINES], *more])
+        ax.set_xlabel(f"x, m\n\n{below}", loc="left", color="red", wrap=True)
 
 
 def _name_region(region: Region, plan: FloorPlan, ax: Axes) -> None:

@@ -71,7 +71,7 @@ class PlanDoor:
 
 @dataclass(frozen=True)
 class Region:
-    """A named area: a room, a corridor or an intersection.
+    """A named area: a room, a corridor, an intersection or an open area.
 
     Attributes:
         name: unique among the regions of the plan.
@@ -97,6 +97,7 @@ class FloorPlan:
         intersections: where corridors meet.
         boundary: the outline; a robot never leaves it.
         source: where the plan comes from.
+        areas: named areas that are open to a corridor, as a lounge without a front wall.
     """
 
     name: str
@@ -107,6 +108,7 @@ class FloorPlan:
     intersections: tuple[Region, ...]
     boundary: Polygon
     source: str = ""
+    areas: tuple[Region, ...] = ()
 
     @cached_property
     def segments(self) -> FloatArray:
@@ -133,8 +135,8 @@ class FloorPlan:
 
     @property
     def regions(self) -> tuple[Region, ...]:
-        """All rooms, corridors and intersections."""
-        return self.rooms + self.corridors + self.intersections
+        """All rooms, corridors, intersections and open areas."""
+        return self.rooms + self.corridors + self.intersections + self.areas
 
     @cached_property
     def scene(self) -> Scene:
@@ -160,7 +162,7 @@ class FloorPlan:
         raise KeyError(f"{self.name} has no door {name!r}; there are: {names}")
 
     def region(self, name: str) -> Region:
-        """The room, corridor or intersection of that name.
+        """The room, corridor, intersection or open area of that name.
 
         Raises:
             KeyError: no such region; lists those there are.

@@ -1,17 +1,21 @@
-"""The floor plans that come with the package, and any other by its path."""
+"""The floor plans that come with the package, generated ones, and any other by its path."""
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 from rapidfuzz import process
 
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.generator.naming import PREFIX, office_named
 from semnav_env.maps.reader import read_plan
 from semnav_env.maps.rules import FloorPlanError, check_plan
 
 LONGEST_PATH = 4096
+KEPT_OFFICES = 64
+"""So many generated offices are kept, those used last."""
+
 BUNDLED = Path(__file__).with_name("bundled")
 
 
@@ -21,7 +25,10 @@ def bundled_names() -> tuple[str, ...]:
 
 
 def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
-    """The floor plan of that bundled name or at that path; a `FloorPlan` is checked and returned.
+    """The floor plan of that name or at that path; a `FloorPlan` is checked and returned.
+
+    A name is a bundled one, or that of a generated office with its distribution and its seed, as
+    "office:medium:17": the same plan everywhere, in other processes too.
 
     Raises:
         FloorPlanError: no such plan, which lists those there are; or a file or plan that breaks
@@ -32,6 +39,8 @@ def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
         return plan
     if isinstance(plan, str) and plan in bundled_names():
         return _bundled(plan)
+    if isinstance(plan, str) and plan.split(":")[0] == PREFIX:
+        return _office(plan)
     if not isinstance(plan, str | Path):
         raise FloorPlanError(f"a floor plan is a name, a path or a FloorPlan, not {plan!r:.80}")
     if isinstance(plan, Path) or _is_path(plan):
@@ -42,6 +51,14 @@ def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
 @cache
 def _bundled(name: str) -> FloorPlan:
     return read_plan(BUNDLED / f"{name}.geojson")
+
+
+@lru_cache(maxsize=KEPT_OFFICES)
+def _office(name: str) -> FloorPlan:
+    try:
+        return office_named(name)
+    except ValueError as error:
+        raise FloorPlanError(str(error)) from None
 
 
 def _is_path(text: str) -> bool:
@@ -55,4 +72,5 @@ def _unknown(name: str) -> str:
     names = bundled_names()
     near = process.extractOne(name[:80], names, score_cutoff=60)
     hint = f"; did you mean {near[0]}?" if near else ""
-    return f"no floor plan named {name[:80]!r}; there are: {', '.join(names)}, or a path{hint}"
+    others = f"{PREFIX}:medium:17 (a generated one) or a path"
+    return f"no floor plan named {name[:80]!r}; there are: {', '.join(names)}, {others}{hint}"

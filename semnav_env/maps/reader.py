@@ -69,8 +69,10 @@ def _assemble(document: Document, parts: dict[str, list[Any]], name: str) -> Flo
         raise FloorPlanError(f"{len(outlines)} features of kind boundary; a plan has exactly one")
     if "solid" not in parts:
         raise FloorPlanError("nothing solid; a plan has features of kind wall")
-    groups = ("solid", "door", "room", "corridor", "intersection")
-    solids, doors, rooms, corridors, intersections = (tuple(parts.get(g, ())) for g in groups)
+    groups = ("solid", "door", "room", "corridor", "intersection", "area")
+    solids, doors, rooms, corridors, intersections, areas = (
+        tuple(parts.get(g, ())) for g in groups
+    )
     return FloorPlan(
         name=document.get("name", name),
         surfaces=solids,
@@ -80,6 +82,7 @@ def _assemble(document: Document, parts: dict[str, list[Any]], name: str) -> Flo
         intersections=intersections,
         boundary=outlines[0],
         source=document.get("source", ""),
+        areas=areas,
     )
 
 

@@ -46,7 +46,12 @@ def _features(plan: FloorPlan) -> Iterator[dict[str, Any]]:
     for door in plan.doors:
         line = {"type": "LineString", "coordinates": [door.start, door.end]}
         yield _feature(line, kind="door", name=door.name, state=door_state(door, plan).value)
-    groups = {"room": plan.rooms, "corridor": plan.corridors, "intersection": plan.intersections}
+    groups = {
+        "room": plan.rooms,
+        "corridor": plan.corridors,
+        "intersection": plan.intersections,
+        "area": plan.areas,
+    }
     for kind, regions in groups.items():
         for region in regions:
             yield _feature(

@@ -67,7 +67,7 @@ def draw_plan(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
     sheet.fill(palette.OUTSIDE)
     _draw_area(sheet, camera, plan.boundary, palette.FLOOR)
     tints = (
-        (plan.rooms, palette.ROOM),
+        ((*plan.rooms, *plan.areas), palette.ROOM),
         (plan.corridors, palette.CORRIDOR),
         (plan.intersections, palette.INTERSECTION),
     )
@@ -85,8 +85,8 @@ def draw_plan(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
 
 
 def draw_names(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
-    """The names of the rooms and corridors that are large enough to hold them."""
-    for region in (*plan.rooms, *plan.corridors):
+    """The names of the rooms, areas and corridors that are large enough to hold them."""
+    for region in (*plan.rooms, *plan.areas, *plan.corridors):
         name = region.name.replace("_", " ")
         x1, _, x2, _ = region.polygon.bounds
         if sheet.text_width(name, 10.5) < 0.8 * camera.scale * (x2 - x1):

@@ -1,0 +1,52 @@
+"""`semnav map check`: say what is wrong with a floor plan."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from tyro.conf import Positional
+
+from semnav_env.maps import load_floor_plan
+from semnav_env.maps.check import check
+from semnav_env.robots import robot_spec
+
+
+@dataclass(frozen=True)
+class Check:
+    """Say what is wrong with a floor plan; the exit code is 1 if anything is.
+
+    Attributes:
+        plan: name of a bundled plan, of a generated one (office:medium:17), or path of a file.
+        robot: wheelchair or spot, whose body has to reach open doors and rooms.
+        plot: picture to write (.png, .pdf or .svg), with the faults marked.
+        json: print JSON.
+    """
+
+    plan: Positional[str]
+    robot: str = "wheelchair"
+    plot: Path | None = None
+    json: bool = False
+
+    def run(self) -> int:
+        """Print one line for each fault."""
+        plan, robot = load_floor_plan(self.plan), robot_spec(self.robot)
+        findings = check(plan, robot)
+        if self.plot:
+            from semnav_env.maps.draw import save_picture
+
+            self.plot.parent.mkdir(parents=True, exist_ok=True)
+            save_picture(plan, self.plot, findings=findings)
+        if self.json:
+            faults = [asdict(finding) for finding in findings]
+            print(json.dumps({"plan": plan.name, "robot": robot.name, "faults": faults}))
+        else:
+            self._report(plan.name, [str(finding) for finding in findings])
+        return 1 if findings else 0
+
+    def _report(self, name: str, findings: list[str]) -> None:
+        rooms = f"a {self.robot} gets through every open door and into every room that has one"
+        print("\n".join(findings) if findings else f"{name}: nothing is wrong; {rooms}")
+        if self.plot:
+            print(f"wrote {self.plot}")

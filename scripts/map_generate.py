@@ -1,0 +1,49 @@
+"""`semnav map generate`: a generated office as a file."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from semnav_env.maps import generate_office, save_floor_plan
+
+
+@dataclass(frozen=True)
+class Generate:
+    """Generate an office; the same distribution and seed always give the same one.
+
+    Attributes:
+        distribution: small, medium, large or hard.
+        seed: 0 or more.
+        out: GeoJSON file to write; any command takes office:DISTRIBUTION:SEED without a file, too.
+        plot: picture to write (.png, .pdf or .svg).
+        json: print JSON.
+    """
+
+    distribution: str = "medium"
+    seed: int = 0
+    out: Path | None = None
+    plot: Path | None = None
+    json: bool = False
+
+    def run(self) -> int:
+        """Generate, write what was asked for, and say what there is."""
+        plan = generate_office(self.seed, self.distribution)
+        written = [path for path in (self.out, self.plot) if path is not None]
+        for path in written:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        if self.out:
+            save_floor_plan(plan, self.out)
+        if self.plot:
+            from semnav_env.maps.draw import save_picture
+
+            save_picture(plan, self.plot)
+        if self.json:
+            counts = {"rooms": len(plan.rooms), "doors": len(plan.doors)}
+            print(json.dumps({"name": plan.name, **counts, "files": list(map(str, written))}))
+            return 0
+        print(f"{plan.name}: {len(plan.rooms)} rooms, {len(plan.doors)} doors")
+        for path in written:
+            print(f"wrote {path}")
+        return 0

@@ -1,0 +1,105 @@
+"""Parts of a plan that stand in each other's way: rooms on rooms, things in doorways, odd doors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import shapely
+import shapely.ops
+from shapely import LineString, Point, Polygon, STRtree
+
+from semnav_env.maps.doorways import TOUCH
+from semnav_env.maps.finding import Finding, point_in, written
+from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
+
+LEAST_OVERLAP = 0.05
+"""Regions that share less than so many square metres only touch."""
+
+DOORSTEP = 0.3
+"""So far before and behind a doorway nothing may stand, metres."""
+
+WALLS = (Material.WALL, Material.GLASS)
+
+
+def faults(plan: FloorPlan) -> Iterator[Finding]:
+    """All of them."""
+    yield from _overlaps(plan)
+    for door in plan.doors:
+        yield from _unframed(door, plan)
+        yield from _obstructed(door, plan)
+        yield from _pointless(door, plan)
+    yield from _outside(plan)
+
+
+def _overlaps(plan: FloorPlan) -> Iterator[Finding]:
+    """Rooms share no floor with each other, with an area or with a corridor."""
+    regions = [*plan.rooms, *plan.areas, *plan.corridors]
+    enclosed = len(plan.rooms) + len(plan.areas)
+    tree = STRtree([region.polygon for region in regions])
+    for i, region in enumerate(regions[:enclosed]):
+        for j in sorted(tree.query(region.polygon, "intersects").tolist()):
+            shared = region.polygon.intersection(regions[j].polygon)
+            if j > i and shared.area > LEAST_OVERLAP:
+                problem = f"overlaps {regions[j].name} by {shared.area:.2f} m2; part the two"
+                yield Finding(region.name, problem, point_in(shared))
+
+
+def _unframed(door: PlanDoor, plan: FloorPlan) -> Iterator[Finding]:
+    """Each jamb is a wall's or a pane's, not a cabinet's."""
+    for jamb in (door.start, door.end):
+        owners = {s.material for s in _surfaces(plan, Point(jamb).buffer(TOUCH))}
+        if not owners & set(WALLS):
+            problem = f"this door does not lie in a wall at {written(jamb)}; draw one"
+            yield Finding(door.name, problem, jamb)
+
+
+def _obstructed(door: PlanDoor, plan: FloorPlan) -> Iterator[Finding]:
+    """Nothing but its leaf stands in a doorway or right before it."""
+    opening = LineString((door.start, door.end))
+    share = min(0.4, 2 * TOUCH / door.width)
+    clear = shapely.ops.substring(opening, share, 1.0 - share, normalized=True)
+    step = clear.buffer(DOORSTEP, cap_style="flat")
+    for surface in _surfaces(plan, step):
+        if surface.material is not Material.LEAF and (door.open or not _fills(surface, opening)):
+            line = LineString(surface.points).intersection(step)
+            problem = f"{surface.material} at {written(point_in(line))} stands in this doorway"
+            yield Finding(door.name, problem, point_in(line))
+
+
+def _fills(surface: Surface, opening: LineString) -> bool:
+    """Whether a surface is what closes a door."""
+    return bool(LineString(surface.points).buffer(TOUCH).covers(opening))
+
+
+def _pointless(door: PlanDoor, plan: FloorPlan) -> Iterator[Finding]:
+    """A door leads from one region to another."""
+    (x1, y1), (x2, y2) = door.start, door.end
+    nx, ny = (y2 - y1) / door.width, (x1 - x2) / door.width
+    x, y = door.midpoint
+    sides = [Point(x + d * nx, y + d * ny) for d in (DOORSTEP, -DOORSTEP)]
+    before, behind = ([r for r in plan.regions if r.polygon.covers(side)] for side in sides)
+    if before and {r.name for r in before} == {r.name for r in behind}:
+        problem = f"this door leads from {before[0].name} to itself; put it in a wall"
+        yield Finding(door.name, problem, door.midpoint)
+
+
+def _outside(plan: FloorPlan) -> Iterator[Finding]:
+    """Furniture stands in the building."""
+    inside = plan.boundary.buffer(TOUCH)
+    shapely.prepare(inside)
+    for surface in plan.surfaces:
+        if surface.material is Material.FURNITURE and not inside.covers(_shape(surface)):
+            at = surface.points[0]
+            problem = f"furniture at {written(at)} reaches out of the building; move it"
+            yield Finding(plan.name, problem, at)
+
+
+def _shape(surface: Surface) -> Polygon | LineString:
+    closed = len(surface.points) > 3 and surface.points[0] == surface.points[-1]
+    return Polygon(surface.points) if closed else LineString(surface.points)
+
+
+def _surfaces(plan: FloorPlan, area: Polygon) -> list[Surface]:
+    """Those that meet an area, in the order of the plan."""
+    rows = plan.solids.query(area, "intersects")
+    return [plan.surfaces[i] for i in sorted(set(plan.owners[rows].tolist()))]

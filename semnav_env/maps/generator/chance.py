@@ -1,0 +1,18 @@
+"""Draws on the grid of centimetres."""
+
+from __future__ import annotations
+
+from numpy.random import Generator
+
+from semnav_env.maps.generator.settings import Range
+
+
+def chance(rng: Generator, probability: float) -> bool:
+    """Whether something happens."""
+    return bool(rng.random() < probability)
+
+
+def centimetres(rng: Generator, metres: Range, step: int = 5) -> int:
+    """A multiple of `step` centimetres within a range of metres."""
+    low, high = (round(100 * value / step) for value in metres)
+    return step * int(rng.integers(low, high + 1))

@@ -1,0 +1,79 @@
+"""The names of generated offices: "office:medium:17" is that of seed 17 of the medium ones.
+
+One word without blanks or slashes, so that it passes for a path nowhere and needs no quotes in a
+shell; it holds all that the plan is made from, so that a process needs nothing but the name.
+"""
+
+from __future__ import annotations
+
+import re
+
+from rapidfuzz import process
+
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.generator.distributions import DISTRIBUTIONS
+from semnav_env.maps.generator.office import draw_office
+from semnav_env.maps.generator.settings import OfficeSettings
+
+PREFIX = "office"
+"""The first part of the names."""
+
+CUSTOM = "custom"
+"""Stands for settings that are those of no fixed distribution."""
+
+MOST_SEED = 2**63 - 1
+
+
+def generate_office(seed: int, settings: str | OfficeSettings = "medium") -> FloorPlan:
+    """An office with corridors, rooms, doors, furniture and names.
+
+    The same seed and settings give the same plan, byte for byte when written. The plan's name, as
+    "office:medium:17", is one that `load_floor_plan` takes, if the settings are those of a
+    distribution.
+
+    Args:
+        seed: 0 or more.
+        settings: the name of a distribution (small, medium, large, hard), or ranges of one's own.
+
+    Raises:
+        ValueError: no such distribution, a seed that is none, or settings that no office meets.
+    """
+    if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed <= MOST_SEED:
+        raise ValueError(f"the seed is {seed!r}; give a whole number from 0 to {MOST_SEED}")
+    ranges = distribution(settings) if isinstance(settings, str) else settings
+    names = [name for name, fixed in DISTRIBUTIONS.items() if fixed == ranges]
+    return draw_office(seed, ranges, office_name(names[0] if names else CUSTOM, seed))
+
+
+def office_name(distribution: str, seed: int) -> str:
+    """As "office:medium:17"."""
+    return f"{PREFIX}:{distribution}:{seed}"
+
+
+def office_named(name: str) -> FloorPlan:
+    """The generated office of a name.
+
+    Raises:
+        ValueError: not of the form "office:medium:17", or no such distribution.
+    """
+    match = re.fullmatch(rf"{PREFIX}:([a-z]+):(0|[1-9][0-9]{{0,18}})", name)
+    if match is None:
+        raise ValueError(
+            f"{name[:80]!r} names no generated office; write {PREFIX}:DISTRIBUTION:SEED, as in "
+            f"{office_name('medium', 17)}"
+        )
+    return generate_office(int(match[2]), match[1])
+
+
+def distribution(name: str) -> OfficeSettings:
+    """The distribution of that name.
+
+    Raises:
+        ValueError: no such distribution; lists those there are.
+    """
+    if name in DISTRIBUTIONS:
+        return DISTRIBUTIONS[name]
+    near = process.extractOne(name[:80], list(DISTRIBUTIONS), score_cutoff=60)
+    hint = f"; did you mean {near[0]}?" if near else ""
+    known = ", ".join(DISTRIBUTIONS)
+    raise ValueError(f"no distribution of offices named {name[:80]!r}; there are: {known}{hint}")

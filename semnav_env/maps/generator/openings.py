@@ -1,0 +1,197 @@
+"""Doors of a generated office, with their leaves, and what stays clear before them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from numpy.random import Generator
+
+from semnav_env.features.frames import Point
+from semnav_env.maps.generator.boxes import Box, Span
+from semnav_env.maps.generator.chance import centimetres, chance
+from semnav_env.maps.generator.lots import Lot, Wall
+from semnav_env.maps.generator.settings import OfficeSettings
+
+NIB = 15
+"""From a door to the nearest corner, at least, cm."""
+
+CLEAR = 0.87
+"""Metres that a half-open door leaves: a wheelchair passes."""
+
+STEEPEST_HALF = 72.0
+"""Degrees: a leaf that narrows its door stands at most so far open."""
+
+WITH_LEAF = 0.7
+"""Chance of an open door to have a leaf that the scanner sees; others fold back to the wall."""
+
+LANDING = 170
+"""Behind a door nothing stands nearer than this, cm."""
+
+LEAST_HALF = 0.92
+"""A door is half open only if it is at least so wide, metres."""
+
+BESIDE = 110
+"""Beside a half-open door one needs so much more, away from its hinge, cm."""
+
+INNER = 200
+"""A door between two rooms is at least so far from the corridor, cm."""
+
+TWO_DOORS = 750
+"""Rooms wider than this may have two doors, cm."""
+
+
+@dataclass(frozen=True)
+class Doorway:
+    """An opening in a wall.
+
+    Attributes:
+        wall: the stretch of wall it is in; its room lies inward of it.
+        span: from jamb to jamb, cm.
+        open: whether one may pass.
+        leaf: from the hinge to the tip, metres; None if none is seen.
+        way: what one needs of the wall's extent to get in past the leaf, cm.
+        lots: indices of the rooms it leads to.
+    """
+
+    wall: Wall
+    span: Span
+    open: bool
+    leaf: tuple[Point, Point] | None
+    way: Span
+    lots: tuple[int, ...]
+
+    @property
+    def jambs(self) -> tuple[Point, Point]:
+        """Start and end, metres: the room lies to the right of the way from one to the other."""
+        low, high = (_point(self.wall, along, 0.0) for along in self.span)
+        return (high, low) if self.wall.along_x == (self.wall.inward > 0) else (low, high)
+
+    @property
+    def landings(self) -> tuple[Box, Box]:
+        """What stays free behind it and before it."""
+        span, way = ((low - NIB, high + NIB) for low, high in (self.span, self.way))
+        return self.wall.box(way, LANDING), self.wall.box(span, -LANDING)
+
+
+def hang_doors(
+    rng: Generator, settings: OfficeSettings, lots: Sequence[Lot]
+) -> tuple[Doorway, ...]:
+    """One or two doors from each room to its corridor, and some between rooms."""
+    doors = []
+    for index, lot in enumerate(lots):
+        if not lot.open:
+            room = lot.box.span(lot.front.along_x)
+            doors += [_door(rng, settings, wall, room, (index,)) for wall in _fronts(rng, lot)]
+    entered = {index for door in doors if door.open for index in door.lots}
+    return (*doors, *_inner_doors(rng, settings, lots, entered))
+
+
+def lanes(door: Doorway, lots: Sequence[Lot]) -> Iterator[Box]:
+    """What stays free so that a door between two rooms is reached from the corridor."""
+    for index in door.lots if len(door.lots) == 2 else ():
+        lot = lots[index]
+        low, high = lot.box.span(lot.front.along_x)
+        beside = (low, low + 150) if low == door.wall.at else (high - 150, high)
+        deepest = max(abs(end - lot.front.at) for end in door.span)
+        yield lot.front.box(beside, deepest + NIB)
+        yield lot.front.box((low, high), LANDING)
+
+
+def _fronts(rng: Generator, lot: Lot) -> list[Wall]:
+    """The stretches of a room's front that get a door each."""
+    wall, (low, high) = lot.front, lot.front.span
+    if high - low < TWO_DOORS or chance(rng, 0.4):
+        return [wall]
+    middle = (low + high) // 2
+    halves = (low, middle - NIB), (middle + NIB, high)
+    return [Wall(wall.along_x, wall.at, half, wall.inward) for half in halves]
+
+
+def _door(
+    rng: Generator, settings: OfficeSettings, wall: Wall, room: Span, lots: tuple[int, ...]
+) -> Doorway:
+    """A door somewhere in a wall; its leaf hangs on the jamb nearer to a corner of the room."""
+    span = _place(rng, settings, wall)
+    draw = float(rng.random())
+    if draw < settings.closed:
+        return Doorway(wall, span, False, _leaf(wall, span, True, 0.0), span, lots)
+    at_low = span[0] - wall.span[0] < wall.span[1] - span[1]
+    beside = (span[0], span[1] + BESIDE) if at_low else (span[0] - BESIDE, span[1])
+    fits = room[0] <= beside[0] and beside[1] <= room[1] and span[1] - span[0] >= 100 * LEAST_HALF
+    if fits and draw < settings.closed + settings.half_open:
+        leaf = _leaf(wall, span, at_low, _half_open(rng, span[1] - span[0]))
+        return Doorway(wall, span, True, leaf, beside, lots)
+    seen = chance(rng, WITH_LEAF)
+    leaf = _leaf(wall, span, at_low, float(rng.uniform(80.0, 96.0)))
+    return Doorway(wall, span, True, leaf if seen else None, span, lots)
+
+
+def _place(rng: Generator, settings: OfficeSettings, wall: Wall) -> Span:
+    """From jamb to jamb: near one of the wall's ends, or anywhere."""
+    low, high = wall.span[0] + NIB, wall.span[1] - NIB
+    width = min(centimetres(rng, settings.door_width), high - low)
+    spare = high - low - width
+    near = min(centimetres(rng, (0.0, 0.3)), spare)
+    anywhere = 5 * int(rng.integers(0, spare // 5 + 1))
+    start = low + (near, near, spare - near, spare - near, anywhere)[int(rng.integers(5))]
+    return start, start + width
+
+
+def _half_open(rng: Generator, width: int) -> float:
+    """An angle in degrees at which a leaf leaves `CLEAR`."""
+    least = math.degrees(math.asin(CLEAR * 100 / width))
+    return float(rng.uniform(max(least, 45.0), STEEPEST_HALF))
+
+
+def _leaf(wall: Wall, span: Span, at_low: bool, degrees: float) -> tuple[Point, Point]:
+    """From hinge to tip, at an angle to its closed place."""
+    hinge, sense = (span[0], 1.0) if at_low else (span[1], -1.0)
+    width, angle = span[1] - span[0], math.radians(degrees)
+    along, inward = sense * math.cos(angle) * width, math.sin(angle) * width
+    return _point(wall, hinge, 0.0), _point(wall, hinge + along, inward)
+
+
+def _point(wall: Wall, along: float, inward: float) -> Point:
+    """Metres, to the millimetre."""
+    a, b = round(along / 100, 3), round((wall.at + wall.inward * inward) / 100, 3)
+    return (a, b) if wall.along_x else (b, a)
+
+
+def _inner_doors(
+    rng: Generator, settings: OfficeSettings, lots: Sequence[Lot], entered: set[int]
+) -> Iterator[Doorway]:
+    """Doors in walls that two neighbours on one side of a corridor share; one for each room.
+
+    At least one of the two is `entered` from the corridor.
+    """
+    used: set[int] = set()
+    for index in range(len(lots) - 1):
+        first, second = lots[index : index + 2]
+        wall = _shared(first, second)
+        pair = {index, index + 1}
+        if wall is None or used & pair or not entered & pair or first.open or second.open:
+            continue
+        if chance(rng, settings.inner_doors):
+            used |= pair
+            room = second.box.span(wall.along_x)
+            yield _door(rng, settings, wall, room, (index, index + 1))
+
+
+def _shared(first: Lot, second: Lot) -> Wall | None:
+    """The part of the wall between two rooms that may hold a door."""
+    front = first.front
+    along = front.along_x
+    if (front.at, front.inward, along) != (
+        second.front.at,
+        second.front.inward,
+        second.front.along_x,
+    ) or first.box.span(along)[1] != second.box.span(along)[0]:
+        return None
+    depth = min(lot.box.size[along] for lot in (first, second))
+    ends = front.at + front.inward * INNER, front.at + front.inward * (depth - NIB)
+    low, high = min(ends), max(ends)
+    if depth - NIB - INNER < 130 or min(first.width, second.width) < 240:
+        return None
+    return Wall(not along, first.box.span(along)[1], (low, high), 1)

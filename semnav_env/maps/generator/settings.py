@@ -1,0 +1,93 @@
+"""From which ranges the parts of a generated office are drawn."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import TypeAlias
+
+Range: TypeAlias = tuple[float, float]
+"""Least and most."""
+
+
+@dataclass(frozen=True)
+class OfficeSettings:
+    """What a generated office is like. Ranges are uniform; chances are between 0 and 1.
+
+    Attributes:
+        rooms: how many there are.
+        crossings: how many lines of corridors there are along the building and across it.
+        bay: between two corridors across the building, metres.
+        wings: chance of each corridor that could leave the grid of lines to do so.
+        wing: how far it does, metres.
+        corridor_width: metres.
+        room_depth: from the corridor to the far wall, metres.
+        room_width: of a usual room along the corridor, metres.
+        loops: chance of each corridor that closes a loop.
+        single_loaded: chance of each side of a corridor to have no rooms.
+        open_areas: chance of each stretch of rooms to hold an area without a front wall.
+        door_width: metres.
+        closed: chance of a door.
+        half_open: chance of a door that is wide enough.
+        inner_doors: chance of a door between two neighbouring rooms.
+        columns: chance of a column in each place for one.
+        furniture: chance of a piece in each place for one.
+        glass: chance of a room to have a glass front.
+    """
+
+    rooms: tuple[int, int] = (16, 34)
+    crossings: tuple[tuple[int, int], tuple[int, int]] = ((1, 3), (1, 3))
+    bay: Range = (11.0, 17.0)
+    wings: float = 0.35
+    wing: Range = (6.0, 11.0)
+    corridor_width: Range = (1.7, 2.4)
+    room_depth: Range = (4.0, 5.6)
+    room_width: Range = (2.6, 5.0)
+    loops: float = 0.4
+    single_loaded: float = 0.15
+    open_areas: float = 0.15
+    door_width: Range = (0.85, 1.2)
+    closed: float = 0.12
+    half_open: float = 0.12
+    inner_doors: float = 0.06
+    columns: float = 0.15
+    furniture: float = 0.55
+    glass: float = 0.08
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, float | int):
+                _check_chance(field.name, value)
+            elif field.name != "crossings":
+                _check_range(field.name, value)
+        for counts in self.crossings:
+            _check_range("crossings", counts)
+        for name, least, most in LIMITS:
+            low, high = getattr(self, name)
+            if not least <= low <= high <= most:
+                raise ValueError(f"{name} is {(low, high)}; it must lie within {least} and {most}")
+
+
+LIMITS: tuple[tuple[str, float, float], ...] = (
+    ("rooms", 2, 100),
+    ("bay", 6.0, 40.0),
+    ("wing", 4.0, 40.0),
+    ("corridor_width", 1.5, 4.0),
+    ("room_depth", 3.0, 9.0),
+    ("room_width", 2.4, 9.0),
+    ("door_width", 0.8, 1.2),
+)
+"""What every office keeps to: (setting, least, most). Narrower corridors and doors would not let
+every robot through."""
+
+
+def _check_chance(name: str, value: float) -> None:
+    if not 0.0 <= value <= 1.0:
+        raise ValueError(f"{name} is {value}; it is a chance, between 0 and 1")
+
+
+def _check_range(name: str, value: Range) -> None:
+    low, high = value
+    if not (math.isfinite(low) and math.isfinite(high) and 0 < low <= high):
+        raise ValueError(f"{name} is {value}; give the least and the most, both positive")

@@ -1,0 +1,116 @@
+"""The walls of a generated office: around its rooms and corridors, but for the openings."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+from typing import TypeAlias
+
+import shapely
+from numpy.random import Generator
+from shapely import Polygon
+
+from semnav_env.features.frames import Point
+from semnav_env.maps.floor_plan import Material, Surface
+from semnav_env.maps.generator.boxes import Box, Span, without
+from semnav_env.maps.generator.chance import chance
+from semnav_env.maps.generator.corridors import Corridor
+from semnav_env.maps.generator.lots import Lot, Wall
+from semnav_env.maps.generator.openings import Doorway
+from semnav_env.maps.generator.settings import OfficeSettings
+
+Line: TypeAlias = tuple[bool, int]
+"""Whether it runs along x, and its place across that, cm."""
+
+NIB = 30
+"""Of wall beside the open front of an area, and between glass and the next wall, cm."""
+
+LEAST_GLASS = 60
+"""No pane is narrower, cm."""
+
+
+def build_walls(
+    rng: Generator,
+    settings: OfficeSettings,
+    corridors: Sequence[Corridor],
+    lots: Sequence[Lot],
+    doors: Sequence[Doorway],
+) -> Iterator[Surface]:
+    """Walls and panes, each a straight line."""
+    solid: dict[Line, list[Span]] = defaultdict(list)
+    for box in (lot.box for lot in lots):
+        for along_x, at, span in _sides(box):
+            solid[along_x, at].append(span)
+    for along_x, at, span in _outline(corridor.box for corridor in corridors):
+        solid[along_x, at].append(span)
+    gaps: dict[Line, list[Span]] = defaultdict(list)
+    for door in doors:
+        gaps[door.wall.along_x, door.wall.at].append(door.span)
+    for wall in (lot.front for lot in lots if lot.open):
+        gaps[wall.along_x, wall.at].append((wall.span[0] + NIB, wall.span[1] - NIB))
+    panes = _panes(rng, settings, corridors, lots)
+    for line in sorted(solid):
+        stretches = without(solid[line], gaps[line])
+        glazed = [p for a, b in panes[line] for p in _within(stretches, (a, b))]
+        yield from (_surface(line, span, Material.GLASS) for span in glazed)
+        yield from (_surface(line, s, Material.WALL) for s in without(stretches, glazed))
+
+
+def outline(boxes: Iterable[Box]) -> Polygon:
+    """The union of some boxes, metres."""
+    union = shapely.union_all([shapely.box(*box) for box in boxes]).simplify(0.0).normalize()
+    polygon: Polygon = shapely.transform(union, lambda centimetres: centimetres / 100.0)
+    return polygon
+
+
+def _outline(boxes: Iterable[Box]) -> Iterator[tuple[bool, int, Span]]:
+    union = shapely.union_all([shapely.box(*box) for box in boxes])
+    for ring in (union.exterior, *union.interiors):
+        for (x1, y1), (x2, y2) in pairwise(ring.coords):
+            ends = sorted((int(x1), int(x2))) if y1 == y2 else sorted((int(y1), int(y2)))
+            yield y1 == y2, int(y1 if y1 == y2 else x1), (ends[0], ends[1])
+
+
+def _sides(box: Box) -> Iterator[tuple[bool, int, Span]]:
+    yield from ((True, y, (box.west, box.east)) for y in (box.south, box.north))
+    yield from ((False, x, (box.south, box.north)) for x in (box.west, box.east))
+
+
+def _panes(
+    rng: Generator, settings: OfficeSettings, corridors: Sequence[Corridor], lots: Sequence[Lot]
+) -> dict[Line, list[Span]]:
+    """Fronts of rooms, and windows at the ends of corridors."""
+    panes: dict[Line, list[Span]] = defaultdict(list)
+    for lot in lots:
+        if not lot.open and chance(rng, settings.glass):
+            _add_pane(panes, lot.front)
+    for corridor in corridors:
+        low, high = corridor.box.span(corridor.along_x)
+        across = corridor.box.span(not corridor.along_x)
+        for at, blind in zip((low, high), corridor.blind, strict=True):
+            if blind and chance(rng, settings.glass):
+                _add_pane(panes, Wall(not corridor.along_x, at, across, 1))
+    return panes
+
+
+def _add_pane(panes: dict[Line, list[Span]], wall: Wall) -> None:
+    panes[wall.along_x, wall.at].append((wall.span[0] + NIB, wall.span[1] - NIB))
+
+
+def _within(stretches: Iterable[Span], pane: Span) -> Iterator[Span]:
+    """The parts of the walls that a pane replaces."""
+    for low, high in stretches:
+        a, b = max(low, pane[0]), min(high, pane[1])
+        if b - a >= LEAST_GLASS:
+            yield a, b
+
+
+def _surface(line: Line, span: Span, material: Material) -> Surface:
+    along_x, at = line
+    ends = (_point(along_x, at, span[0]), _point(along_x, at, span[1]))
+    return Surface(ends, material)
+
+
+def _point(along_x: bool, at: int, along: int) -> Point:
+    return (along / 100, at / 100) if along_x else (at / 100, along / 100)

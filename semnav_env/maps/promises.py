@@ -1,0 +1,91 @@
+"""What a plan promises a robot: its open doors, the rooms behind them, its corridors' ends."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import shapely
+from shapely import LineString, Polygon
+from shapely.geometry.base import BaseGeometry
+
+from semnav_env.maps.doorways import TOUCH, clear_width
+from semnav_env.maps.finding import Finding, point_in
+from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
+from semnav_env.maps.reach import Reach, reach
+from semnav_env.robots import RobotSpec
+
+SPACINGS = (0.05, 0.025)
+"""Of the grid, metres: what is not reached on the first one is sought on the finer one."""
+
+END = 1.0
+"""A corridor promises its middle so far before its end, metres, as in "the end of the hall"."""
+
+AT_END = 0.6
+"""So near to that its end is reached, metres."""
+
+
+def broken_promises(plan: FloorPlan, robot: RobotSpec) -> list[Finding]:
+    """What a robot cannot reach from the middle of the largest corridor.
+
+    An open door is reached when the robot's centre gets onto its line; a room with an open door,
+    when the whole robot gets in, though it may have to back out; a corridor, when its centre gets
+    near both ends. Nothing is promised behind closed doors.
+    """
+    findings: list[Finding] = []
+    for spacing in SPACINGS:
+        findings = list(_unreached(plan, robot, reach(plan, robot.length, robot.width, spacing)))
+        if not findings:
+            break
+    return findings
+
+
+def _unreached(plan: FloorPlan, robot: RobotSpec, way: Reach) -> Iterator[Finding]:
+    body = f"a {robot.name} ({robot.length} m x {robot.width} m)"
+    if not way.cells.any():
+        yield Finding(plan.name, f"{body} cannot stand in the middle of the largest corridor")
+        return
+    for door in plan.doors:
+        if door.open and not way.near(_line(door)):
+            yield Finding(door.name, _of_door(door, plan, robot, body), door.midpoint)
+    for room in plan.rooms:
+        opens = [d for d in plan.doors if d.open and room.polygon.dwithin(_line(d).centroid, TOUCH)]
+        if opens and not way.near(_inside(room, opens, robot)):
+            yield Finding(room.name, f"{body} cannot get into this room", point_in(room.polygon))
+    for corridor in plan.corridors:
+        for end in _ends(corridor.polygon):
+            if not way.near(end, AT_END):
+                problem = f"{body} cannot get to this end of the corridor"
+                yield Finding(corridor.name, problem, point_in(end))
+
+
+def _of_door(door: PlanDoor, plan: FloorPlan, robot: RobotSpec, body: str) -> str:
+    clear = clear_width(door, plan)
+    if clear < robot.width:
+        return f"this open door leaves {clear:.2f} m; {body} needs more"
+    return f"{body} cannot get through this open door"
+
+
+def _inside(room: Region, doors: list[PlanDoor], robot: RobotSpec) -> BaseGeometry:
+    """Where the centre of a robot is that has come in as a whole."""
+    steps = shapely.union_all([_line(door) for door in doors]).buffer(robot.length / 2)
+    return room.polygon.buffer(-robot.width / 2).difference(steps)
+
+
+def _line(door: PlanDoor) -> LineString:
+    return LineString((door.start, door.end))
+
+
+def _ends(corridor: Polygon) -> list[BaseGeometry]:
+    """Places on its axis before its two ends; one in its middle if it is short."""
+    corners = list(corridor.minimum_rotated_rectangle.exterior.coords)[:4]
+    if math.dist(corners[0], corners[1]) > math.dist(corners[1], corners[2]):
+        corners = [*corners[1:], corners[0]]
+    axis = LineString((_middle(corners[0], corners[1]), _middle(corners[2], corners[3])))
+    if axis.length < 2 * END:
+        return [axis.centroid]
+    return [axis.interpolate(END), axis.interpolate(-END)]
+
+
+def _middle(a: tuple[float, ...], b: tuple[float, ...]) -> tuple[float, float]:
+    return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2

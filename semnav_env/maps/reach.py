@@ -1,0 +1,240 @@
+"""Where a body of some length and width can get to in a floor plan, whichever way it must turn.
+
+The rectangle's centre lies on a grid and its heading is one of `HEADINGS`; from one such place it
+moves to the next cell or the next heading. Everything solid is drawn onto the same grid, and a body
+covers every cell that it touches: so what is found reachable is so with a few centimetres to spare.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numba import njit
+from numpy.typing import NDArray
+from shapely.geometry.base import BaseGeometry
+
+from semnav_env.features.frames import FloatArray, Point
+from semnav_env.maps.floor_plan import FloorPlan
+
+SPACING = 0.05
+"""Of the grid, metres."""
+
+HEADINGS = 24
+"""Over half a turn: a rectangle looks the same from behind."""
+
+PAD = 4
+"""Cells around the plan that nothing reaches."""
+
+MOST_CELLS = 6_000_000
+"""Of the grid; larger plans get a coarser one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """Where the centre of a body can get to from a place.
+
+    Attributes:
+        cells: whether it can, in some heading, shape (rows, columns).
+        origin: of the first cell's middle, metres.
+        spacing: of the cells, metres.
+    """
+
+    cells: NDArray[np.bool_]
+    origin: Point
+    spacing: float
+
+    def near(self, place: BaseGeometry, within: float = 0.0) -> bool:
+        """Whether the centre gets to within so many metres of a place, but for half a cell."""
+        area = place.buffer(max(within, 0.75 * self.spacing))
+        west, south, east, north = area.bounds
+        first_column, first_row = self._cell(west, south)
+        last_column, last_row = self._cell(east, north)
+        block = self.cells[first_row : last_row + 1, first_column : last_column + 1]
+        rows, columns = np.nonzero(block)
+        x = self.origin[0] + self.spacing * (first_column + columns)
+        y = self.origin[1] + self.spacing * (first_row + rows)
+        return bool(shapely.contains_xy(area, x, y).any())
+
+    def _cell(self, x: float, y: float) -> tuple[int, int]:
+        column = round((x - self.origin[0]) / self.spacing)
+        row = round((y - self.origin[1]) / self.spacing)
+        return max(column, 0), max(row, 0)
+
+
+def reach(plan: FloorPlan, length: float, width: float, spacing: float = SPACING) -> Reach:
+    """Where a rectangular body gets to from the middle of the largest corridor.
+
+    Without corridors it starts in the middle of the boundary.
+
+    Args:
+        plan: where.
+        length: of the body, metres.
+        width: of the body, metres.
+        spacing: of the grid, metres; that of a very large plan is coarser.
+    """
+    west, south, east, north = plan.boundary.bounds
+    spacing = max(spacing, math.sqrt((east - west) * (north - south) / MOST_CELLS))
+    origin = west - PAD * spacing, south - PAD * spacing
+    shape = (
+        math.ceil((north - south) / spacing) + 2 * PAD,
+        math.ceil((east - west) / spacing) + 2 * PAD,
+    )
+    blocked = _drawn(plan.segments, *origin, spacing, *shape)
+    start = _start(plan)
+    column, row = (round((start[i] - origin[i]) / spacing) for i in (0, 1))
+    starts, rows, firsts, lengths = _footprints(length, width, spacing)
+    far = math.ceil(math.hypot(length, width) / 2 / spacing) + 1
+    cells = _flood(blocked, starts, rows, firsts, lengths, far, row, column)
+    return Reach(cells, origin, spacing)
+
+
+def _start(plan: FloorPlan) -> Point:
+    corridors = [region.polygon for region in plan.corridors]
+    area = max(corridors, key=lambda polygon: polygon.area, default=plan.boundary)
+    point = area.representative_point()
+    return point.x, point.y
+
+
+def _footprints(
+    length: float, width: float, spacing: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """The cells that a body touches in each heading, as runs along the rows.
+
+    Returns:
+        Where the runs of each heading begin in the other three; the row, the first column and the
+        length of each run, relative to the cell of the centre.
+    """
+    starts, runs = [0], []
+    half = math.ceil(math.hypot(length, width) / 2 / spacing) + 1
+    offsets = np.arange(-half, half + 1)
+    for k in range(HEADINGS):
+        angle = math.pi * k / HEADINGS
+        c, s = abs(math.cos(angle)), abs(math.sin(angle))
+        x, y = np.meshgrid(offsets * spacing, offsets * spacing)
+        ahead = x * math.cos(angle) + y * math.sin(angle)
+        left = y * math.cos(angle) - x * math.sin(angle)
+        reach_of_cell = (c + s) * spacing / 2
+        touched = (np.abs(ahead) < length / 2 + reach_of_cell - 1e-9) & (
+            np.abs(left) < width / 2 + reach_of_cell - 1e-9
+        )
+        touched &= np.abs(x) < (c * length + s * width) / 2 + spacing / 2 - 1e-9
+        touched &= np.abs(y) < (s * length + c * width) / 2 + spacing / 2 - 1e-9
+        for row in np.flatnonzero(touched.any(axis=1)):
+            columns = np.flatnonzero(touched[row])
+            runs.append((offsets[row], offsets[columns[0]], columns[-1] - columns[0] + 1))
+        starts.append(len(runs))
+    table = np.array(runs, dtype=np.int64)
+    return np.array(starts), table[:, 0].copy(), table[:, 1].copy(), table[:, 2].copy()
+
+
+@njit(cache=True, error_model="numpy")
+def _drawn(
+    segments: FloatArray, west: float, south: float, spacing: float, rows: int, columns: int
+) -> NDArray[np.bool_]:
+    """The cells that something solid passes through; those at the rim count as solid."""
+    blocked = np.zeros((rows, columns), dtype=np.bool_)
+    blocked[:2] = blocked[-2:] = True
+    blocked[:, :2] = blocked[:, -2:] = True
+    for i in range(len(segments)):
+        x1, y1 = (segments[i, 0] - west) / spacing, (segments[i, 1] - south) / spacing
+        x2, y2 = (segments[i, 2] - west) / spacing, (segments[i, 3] - south) / spacing
+        steps = max(1, math.ceil(8.0 * math.hypot(x2 - x1, y2 - y1)))
+        for k in range(steps + 1):
+            row = round(y1 + (y2 - y1) * k / steps)
+            column = round(x1 + (x2 - x1) * k / steps)
+            if 0 <= row < rows and 0 <= column < columns:
+                blocked[row, column] = True
+    return blocked
+
+
+@njit(cache=True, error_model="numpy")
+def _flood(
+    blocked: NDArray[np.bool_],
+    starts: NDArray[np.int64],
+    run_rows: NDArray[np.int64],
+    run_firsts: NDArray[np.int64],
+    run_lengths: NDArray[np.int64],
+    far: int,
+    row: int,
+    column: int,
+) -> NDArray[np.bool_]:
+    """The cells that the centre gets to.
+
+    Args:
+        blocked: the solid cells.
+        starts: see `_footprints`.
+        run_rows: see there.
+        run_firsts: see there.
+        run_lengths: see there.
+        far: where the next solid cell is farther, every heading is free.
+        row: of the start.
+        column: of the start.
+    """
+    rows, columns = blocked.shape
+    headings = len(starts) - 1
+    ahead = _free_ahead(blocked)
+    wide = _wide(blocked, far)
+    known = np.zeros((rows, columns, headings), dtype=np.bool_)
+    reached = np.zeros((rows, columns), dtype=np.bool_)
+    stack = [(row, column, k) for k in range(headings)]
+    while len(stack) > 0:
+        r, c, k = stack.pop()
+        if known[r, c, k]:
+            continue
+        if wide[r, c]:
+            known[r, c] = True
+        else:
+            known[r, c, k] = True
+            free = r >= far and c >= far and r < rows - far and c < columns - far
+            for i in range(starts[k], starts[k + 1]):
+                free = free and (ahead[r + run_rows[i], c + run_firsts[i]] >= run_lengths[i])
+                if not free:
+                    break
+            if not free:
+                continue
+            stack.append((r, c, (k + 1) % headings))
+            stack.append((r, c, (k - 1) % headings))
+        reached[r, c] = True
+        for dr, dc in ((0, 1), (1, 0), (0, -1), (-1, 0)):
+            if not wide[r, c] or wide[r + dr, c + dc]:
+                if not known[r + dr, c + dc, k]:
+                    stack.append((r + dr, c + dc, k))
+            else:
+                for other in range(headings):
+                    stack.append((r + dr, c + dc, other))
+    return reached
+
+
+@njit(cache=True, error_model="numpy")
+def _free_ahead(blocked: NDArray[np.bool_]) -> NDArray[np.int16]:
+    """How many cells are free from each one on to the right, itself included."""
+    rows, columns = blocked.shape
+    ahead = np.zeros((rows, columns), dtype=np.int16)
+    for r in range(rows):
+        run = 0
+        for c in range(columns - 1, -1, -1):
+            run = 0 if blocked[r, c] else min(run + 1, 30_000)
+            ahead[r, c] = run
+    return ahead
+
+
+@njit(cache=True, error_model="numpy")
+def _wide(blocked: NDArray[np.bool_], far: int) -> NDArray[np.bool_]:
+    """The cells with nothing solid in the square that reaches `far` cells to all sides."""
+    rows, columns = blocked.shape
+    total = np.zeros((rows + 1, columns + 1), dtype=np.int32)
+    for r in range(rows):
+        run = 0
+        for c in range(columns):
+            run += blocked[r, c]
+            total[r + 1, c + 1] = total[r, c + 1] + run
+    wide = np.zeros((rows, columns), dtype=np.bool_)
+    for r in range(far, rows - far):
+        for c in range(far, columns - far):
+            a, b, left, right = r - far, r + far + 1, c - far, c + far + 1
+            solid = total[b, right] - total[a, right] - total[b, left] + total[a, left]
+            wide[r, c] = solid == 0
+    return wide
