@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 import shapely
@@ -41,7 +42,11 @@ FAR = 1000.0
 DONE, WRONG_DOOR, WRONG_TURN = "done", "wrong door", "wrong turn"
 STOPPED_SHORT, OUT_OF_TIME = "stopped short", "out of time"
 
+BESIDE_WAY = 1.5
+"""So far beside the end of a known way is still there, metres."""
+
 Mask = NDArray[np.bool_]
+Jambs: TypeAlias = tuple[Position, Position]
 
 
 @dataclass(frozen=True)
@@ -68,30 +73,33 @@ def recheck(recording: Recording, floor_plan: FloorPlan, goals: Sequence[Goal]) 
         goals: what the command asks for, one after the other, on the true scene.
     """
     path = _Path(recording)
-    crossings = {door.name: path.crosses(door.start, door.end) for door in floor_plan.doors}
-    short = _stood_too_long(recording)
     last = 0
     for done, goal in enumerate(goals):
-        met = _first(path.meets(goal), after=last)
-        until = recording.steps if met is None else met
-        own = goal.door.name if goal.kind is GoalKind.PASS and goal.door is not None else None
-        others = [mask for name, mask in crossings.items() if name != own]
-        wrong_door = np.logical_or.reduce([*others, np.zeros(recording.steps + 1, dtype=bool)])
-        wrong_turn = path.enters(_wrong_places(goal))
-        if met is not None:
-            wrong_turn[met] = False  # to arrive is never a wrong turn
-            short[met] &= done + 1 < len(goals)
-        failures = (WRONG_DOOR, wrong_door), (WRONG_TURN, wrong_turn), (STOPPED_SHORT, short)
-        steps = [(_first(mask, after=last), verdict) for verdict, mask in failures]
-        early = [(step, verdict) for step, verdict in steps if step is not None and step <= until]
-        if early:
-            step, verdict = min(early, key=lambda item: item[0])
-            return Finding(verdict, done, step)
+        met = _first(path.meets(goal, last), after=last)
+        failure = _first_failure(path, floor_plan, goal, last, met, done + 1 == len(goals))
+        if failure is not None:
+            return Finding(failure[1], done, failure[0])
         if met is None:
-            stands = _standing(recording)[-1] > SHORT_STAND
+            stands = path.standing[-1] > SHORT_STAND
             return Finding(STOPPED_SHORT if stands else OUT_OF_TIME, done, recording.steps)
         last = met
     return Finding(DONE, len(goals), last)
+
+
+def _first_failure(
+    path: _Path, floor_plan: FloorPlan, goal: Goal, after: int, met: int | None, final: bool
+) -> tuple[int, str] | None:
+    """The first failure behind `after`, before a goal is met or in that very step."""
+    wrong_door = path.crosses_any(_forbidden(floor_plan, goal))
+    wrong_turn = path.enters(_wrong_places(goal))
+    too_still = path.standing > LONGEST_STAND + goal.wait + path.period / 2
+    if met is not None:
+        wrong_turn[met] = False  # to arrive is never a wrong turn
+        too_still[met] &= not final
+    failures = (WRONG_DOOR, wrong_door), (WRONG_TURN, wrong_turn), (STOPPED_SHORT, too_still)
+    steps = [(_first(mask, after), verdict) for verdict, mask in failures]
+    early = [(step, v) for step, v in steps if step is not None and (met is None or step <= met)]
+    return min(early, key=lambda item: item[0], default=None)
 
 
 class _Path:
@@ -102,24 +110,39 @@ class _Path:
         self._points = shapely.points(recording.path)
         pairs = np.stack((recording.path[:-1], recording.path[1:]), axis=1)
         self._pieces = shapely.linestrings(pairs)
+        self.period = recording.period
+        rates = np.abs(recording.velocities[:, 2])
+        moving = (recording.speeds >= STILL_SPEED) | (rates >= STILL_RATE)
+        self.standing = _lasting(~moving) * recording.period
 
-    def crosses(self, start: Position, end: Position) -> Mask:
+    def crosses(self, door: Jambs) -> Mask:
         """At which steps the path crosses the line between two jambs, either way."""
-        line = LineString((start, end))
-        touched = shapely.intersects(self._pieces, line)
-        left = _left_of(self._recording.path, start, end)
+        touched = shapely.intersects(self._pieces, LineString(door))
+        left = _left_of(self._recording.path, door)
         return _later(touched & (left[1:] != left[:-1]))
 
-    def meets(self, goal: Goal) -> Mask:
-        """At which steps a goal is met, whatever was before."""
+    def crosses_any(self, doors: Sequence[Jambs]) -> Mask:
+        """At which steps the path crosses one of some doors."""
+        none = np.zeros(len(self._points), dtype=bool)
+        return np.asarray(np.logical_or.reduce([none, *map(self.crosses, doors)]))
+
+    def meets(self, goal: Goal, since: int) -> Mask:
+        """At which steps a goal is met that holds since some row, whatever was before."""
         recording = self._recording
+        if goal.kind is GoalKind.SEEK:
+            return np.zeros(len(self._points), dtype=bool)
         if goal.kind is GoalKind.STOP:
-            return _later(recording.speeds[1:] < AT_REST)
+            slow = recording.speeds < AT_REST
+            slow[: since + 1] = False
+            return np.asarray(slow & (_lasting(slow) * self.period >= goal.wait - 1e-6))
         if goal.kind is GoalKind.PASS and goal.door is not None:
-            start, end = goal.door.start, goal.door.end
-            beyond = _left_of(np.array([goal.pose[:2]]), start, end)
-            there = _left_of(recording.path, start, end) == beyond
-            return np.asarray(self.crosses(start, end) & there)
+            jambs = goal.door.start, goal.door.end
+            beyond = _left_of(np.array([goal.pose[:2]]), jambs)
+            return np.asarray(self.crosses(jambs) & (_left_of(recording.path, jambs) == beyond))
+        if goal.places:
+            reach = goal.distance_tolerance
+            there = _placed(goal.pose, shapely.box(-reach, -BESIDE_WAY, reach, BESIDE_WAY))
+            return _later(shapely.covers(there, self._points)[1:])
         near = shapely.distance(self._points, Point(goal.pose[:2])) <= goal.distance_tolerance
         turned = np.angle(np.exp(1j * (recording.poses[:, 2] - goal.pose[2])))
         facing = (np.abs(turned) <= goal.heading_tolerance) | (goal.heading_tolerance >= np.pi)
@@ -133,11 +156,19 @@ class _Path:
         return _later(inside.any(axis=0)[1:])
 
 
-def _left_of(path: FloatArray, start: Position, end: Position) -> Mask:
+def _left_of(path: FloatArray, door: Jambs) -> Mask:
     """Which points lie to the left of a line: with it they go round counter-clockwise."""
-    line = np.broadcast_to(np.array((start, end)), (len(path), 2, 2))
+    line = np.broadcast_to(np.array(door), (len(path), 2, 2))
     rings = np.concatenate((line, path[:, None], line[:, :1]), axis=1)
     return np.asarray(shapely.is_ccw(shapely.linearrings(rings)))
+
+
+def _forbidden(floor_plan: FloorPlan, goal: Goal) -> list[Jambs]:
+    """The doors that must not be crossed: not the goal's, and not on the way that is known."""
+    own = goal.door.name if goal.kind is GoalKind.PASS and goal.door is not None else None
+    way = LineString(goal.places) if len(goal.places) > 1 else LineString()
+    jambs = [(door.start, door.end) for door in floor_plan.doors if door.name != own]
+    return [door for door in jambs if not way.intersects(LineString(door))]
 
 
 def _wrong_places(goal: Goal) -> list[Polygon]:
@@ -177,19 +208,11 @@ def _placed(frame: Pose, polygon: Polygon) -> Polygon:
     return affine_transform(polygon, (c, -s, s, c, frame[0], frame[1]))
 
 
-def _stood_too_long(recording: Recording) -> Mask:
-    """At which steps the robot has stood still for too long."""
-    return _standing(recording) > LONGEST_STAND + recording.period / 2
-
-
-def _standing(recording: Recording) -> NDArray[np.float64]:
-    """For how long the robot has been standing still at each row, seconds."""
-    rates = np.abs(recording.velocities[:, 2])
-    moving = (recording.speeds >= STILL_SPEED) | (rates >= STILL_RATE)
-    moving[0] = True
-    rows = np.arange(len(moving))
-    since = np.maximum.accumulate(np.where(moving, rows, 0))
-    return np.asarray((rows - since) * recording.period)
+def _lasting(mask: Mask) -> NDArray[np.int64]:
+    """For how many rows on end a mask has been true at each row; the first one does not count."""
+    rows = np.arange(len(mask))
+    false = ~mask | (rows == 0)
+    return np.asarray(rows - np.maximum.accumulate(np.where(false, rows, 0)))
 
 
 def _first(mask: Mask, after: int) -> int | None:

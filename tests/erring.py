@@ -11,7 +11,6 @@ import numpy as np
 from semnav_env.agents.oracle import OracleAgent
 from semnav_env.features.frames import FloatArray, Point, wrap_angle
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.geodesic import Geodesic
 from semnav_env.metrics import Recording
 from semnav_env.verifier import Motion, Verifier, place
 
@@ -50,6 +49,7 @@ def ghost(
     rng: np.random.Generator,
     *,
     wobble: float = 0.0,
+    pause: float = 0.0,
     stand: float = 0.0,
 ) -> Recording:
     """Glide from point to point until the verifier has seen enough; nothing is solid.
@@ -59,13 +59,18 @@ def ghost(
         points: where to, by the shortest ways.
         rng: of speed and wobble.
         wobble: how far aside it may get, metres.
+        pause: seconds to stand still at each point.
         stand: seconds to stand still at the end.
     """
-    way = _way(verifier.geodesic, verifier.start[:2], points)
-    path = _timed(way, float(rng.uniform(0.5, 1.5)))
-    if wobble > 0.0:
-        aside = np.cumsum(rng.normal(0.0, 0.1 * wobble, path.shape), axis=0)
-        path[1:] += np.clip(aside, -wobble, wobble)[1:]
+    speed, start = float(rng.uniform(0.5, 1.5)), verifier.start[:2]
+    aside = rng.uniform(-1e-3, 1e-3, 2)  # not through the very jambs, which lie on the grid
+    path = np.array([start])
+    for a, b in pairwise([start, *points]):
+        leg = _timed(verifier.geodesic.to(b).way(a) + aside, speed)
+        if wobble > 0.0:
+            errors = np.cumsum(rng.normal(0.0, 0.1 * wobble, leg.shape), axis=0)
+            leg += np.clip(errors, -wobble, wobble)
+        path = np.vstack((path, leg, np.repeat(leg[-1:], round(pause / PERIOD), axis=0)))
     path = np.vstack((path, np.repeat(path[-1:], round(stand / PERIOD), axis=0)))
     poses = np.column_stack((path, _headings(path, verifier.start[2])))
     velocities = np.zeros((len(path), 3))
@@ -100,11 +105,6 @@ def _beyond(goal: Any) -> Point:
     """A little behind where a goal leads to, along its heading."""
     x, y = place(goal)
     return x + 0.4 * math.cos(goal.pose[2]), y + 0.4 * math.sin(goal.pose[2])
-
-
-def _way(geodesic: Geodesic, start: Point, points: list[Point]) -> FloatArray:
-    legs = [geodesic.to(b).way(a) for a, b in pairwise([start, *points])]
-    return np.vstack([np.array([start]), *legs])
 
 
 def _timed(way: FloatArray, speed: float) -> FloatArray:

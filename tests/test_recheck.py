@@ -15,9 +15,14 @@ from hypothesis import strategies as st
 from semnav_env import recheck as second
 from semnav_env.agents.evaluation import drive
 from semnav_env.agents.oracle import OracleAgent
-from semnav_env.commands import parse
+from semnav_env.commands import Command, GoBack, GoToRoom, parse
+from semnav_env.commands.rooms import plain_name
+from semnav_env.commands.sampling import sample_command
 from semnav_env.env import SemNavEnv
+from semnav_env.features.frames import Pose
+from semnav_env.grounding import GroundingError
 from semnav_env.grounding.follower import STANDSTILL
+from semnav_env.grounding.goal import BESIDE
 from semnav_env.maps import bundled_names, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import sample_pose
@@ -38,29 +43,47 @@ def glide(name: str, seed: int) -> tuple[Verifier, Recording] | None:
     """A random command on a plan and a ghost that carries it out, more or less."""
     plan, rng = PLANS[name], np.random.default_rng(seed)
     start = sample_pose(plan, WHEELCHAIR, rng)
-    command = sample_feasible(plan, start, rng)
-    if command is None:
+    judge = next(filter(None, (judge_of_any(name, start, rng) for _ in range(40))), None)
+    if judge is None:
         return None
-    judge = Verifier(plan, GEODESICS[name], command, start)
-    wobble, stand = rng.choice((0.0, 0.1, 0.3)), rng.choice((0.0, 2.0, 9.9, 10.1, 12.0))
-    return judge, ghost(judge, targets(plan, judge, rng), rng, wobble=wobble, stand=stand)
+    times = rng.choice((0.0, 0.2, 3.0)), rng.choice((0.0, 2.0, 9.9, 10.1, 12.0))
+    wobble = rng.choice((0.0, 0.1, 0.3))
+    points = targets(plan, judge, rng)
+    return judge, ghost(judge, points, rng, wobble=wobble, pause=times[0], stand=times[1])
+
+
+def judge_of_any(name: str, start: Pose, rng: np.random.Generator) -> Verifier | None:
+    """The verifier of a random command, of any kind half of the time; None if not feasible."""
+    command = sample_feasible(PLANS[name], start, rng)
+    kind = rng.integers(8)
+    if kind < 3:
+        command = sample_command(rng, 4, 3)
+    elif kind == 3 and command is not None:
+        command = Command((*command.clauses, GoBack()))
+    elif kind == 4:
+        rooms = PLANS[name].rooms
+        command = Command((GoToRoom(plain_name(rooms[rng.integers(len(rooms))].name)),))
+    try:
+        return command and Verifier(PLANS[name], GEODESICS[name], command, start)
+    except GroundingError:
+        return None
 
 
 @pytest.mark.parametrize("name", PLANS)
 def test_both_judge_gliding_ghosts_alike(name: str) -> None:
     seen: Counter[Verdict] = Counter()
-    for seed in range(150):
+    for seed in range(100):
         glided = glide(name, seed)
         if glided is None:
             continue
         judge, recording = glided
-        found = recheck(recording, judge.floor_plan, judge.planned_goals)
+        found = recheck(recording, judge.floor_plan, judge.goals)
         assert found.verdict == judge.verdict, f"seed {seed}: {judge.command}"
         assert found.step == recording.steps or judge.verdict is Verdict.STOPPED_SHORT
         seen[judge.verdict] += 1
     assert seen[Verdict.DONE] > 20
     assert seen[Verdict.WRONG_DOOR] > 5
-    assert sum(seen.values()) > 100
+    assert sum(seen.values()) > 60
 
 
 def test_every_way_to_fail_is_among_the_ghosts() -> None:
@@ -93,7 +116,7 @@ def test_a_verifier_that_judges_otherwise_is_found_out(
     monkeypatch.setattr(module, name, value)
     glides = [glide("office_cross", seed) for seed in range(60)]
     verdicts = [
-        (judge.verdict, recheck(recording, judge.floor_plan, judge.planned_goals).verdict)
+        (judge.verdict, recheck(recording, judge.floor_plan, judge.goals).verdict)
         for judge, recording in filter(None, glides)
     ]
     assert any(one != other for one, other in verdicts)
@@ -133,7 +156,7 @@ def test_plain_walks_are_judged_as_by_hand(
     start = (1.3, 9.1, 0.0)
     judge = Verifier(PLANS["office_cross"], GEODESICS["office_cross"], parse(command), start)
     recording = walked(start[:2], *points)
-    assert recheck(recording, judge.floor_plan, judge.planned_goals).verdict == verdict
+    assert recheck(recording, judge.floor_plan, judge.goals).verdict == verdict
 
 
 @given(st.integers(0, 10_000))
@@ -143,7 +166,7 @@ def test_what_comes_after_the_end_changes_nothing(seed: int) -> None:
     judge = Verifier(PLANS["office_cross"], GEODESICS["office_cross"], command, start)
     more = np.random.default_rng(seed).uniform(0.0, 25.0, (5, 2)).tolist()
     recording = walked(start[:2], (3.4, 9.0), (3.4, 7.0), *map(tuple, more))
-    found = recheck(recording, judge.floor_plan, judge.planned_goals)
+    found = recheck(recording, judge.floor_plan, judge.goals)
     assert (found.verdict, found.step) == ("done", 2)
 
 
@@ -157,4 +180,4 @@ def test_the_second_opinion_imports_nothing_of_the_verifier_or_the_follower() ->
 def test_both_hold_the_same_limits() -> None:
     assert (second.INSIDE_ARM, second.BEHIND_JUNCTION) == (ASTRAY, 2 * ASTRAY)
     assert (second.AT_REST, second.STILL_SPEED, second.STILL_RATE) == (STANDSTILL, STILL, STILL)
-    assert second.LONGEST_STAND == STILL_FOR
+    assert (second.LONGEST_STAND, second.BESIDE_WAY) == (STILL_FOR, BESIDE)

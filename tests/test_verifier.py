@@ -127,3 +127,22 @@ def test_the_verdict_on_the_whole_is_that_of_the_clause_that_decides() -> None:
     judge = verifier("go through the second door on the right")
     assert judge.verdict is Verdict.ACTIVE
     assert walk(judge, (3.4, 9.0), (3.4, 7.0)).verdict is Verdict.WRONG_DOOR
+
+
+def test_what_no_one_can_find_on_the_plan_is_refused() -> None:
+    """From beside the door of a room there is no end of a hallway to be seen on the plan."""
+    plan = load_floor_plan("villa_hall")
+    start: Pose = (1.0426539, 0.685958, -2.890914)
+    command = "turn left at the first corner and go down the hallway until the end of the hallway"
+    with pytest.raises(GroundingError, match="the end of the hallway: the floor plan shows none"):
+        Verifier(plan, Geodesic(plan), parse(command), start)
+
+
+def test_after_a_stop_the_next_clause_begins_where_the_stop_did_not_where_the_robot_stands() -> (
+    None
+):
+    judge = verifier("follow the hallway for 3 metres, stop and turn left")
+    walk(judge, (3.6, 9.6))
+    judge.update(Motion((3.6, 9.6, 0.0), 0.0, 0.0, in_contact=False, seconds=1 / 15))
+    assert [str(verdict) for verdict in judge.verdicts] == ["done", "done", "active"]
+    assert judge.follower.goal.pose == pytest.approx(judge.planned_goals[-1].pose)

@@ -32,7 +32,7 @@ class Drive:
     def rechecked(self) -> str:
         """The verdict of the second opinion where it is not the verifier's; else empty."""
         verifier = self.verifier
-        found = recheck(self.recording, verifier.floor_plan, verifier.planned_goals)
+        found = recheck(self.recording, verifier.floor_plan, verifier.goals)
         return "" if found.verdict == verifier.verdict else found.verdict
 
 

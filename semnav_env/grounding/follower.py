@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from semnav_env.commands import Command
-from semnav_env.commands.clauses import Follow, GoBack, GoToDoor, Stop, Turn, Turning
+from semnav_env.commands.clauses import Follow, GoBack, GoToDoor, Turn, Turning
 from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.goal import Goal, GoalKind
@@ -145,12 +145,6 @@ class Follower:
         return isinstance(following, Follow | Turn | GoToDoor) and not on_the_spot
 
     @property
-    def wait(self) -> float:
-        """How long the robot is to stand still now, seconds."""
-        clause = None if self.done else self.command.clauses[self.active]
-        return float(clause.seconds) if isinstance(clause, Stop) else 0.0
-
-    @property
     def _after_hallway(self) -> bool:
         """Whether a bare turn means the next place that offers it, not here."""
         if self.active == 0:
@@ -166,5 +160,5 @@ class Follower:
         if self.goal.kind is GoalKind.REACH:
             return self.goal.reached_by(pose, self.care)
         if self.goal.kind is GoalKind.STOP:
-            return self.impossible is None and self._still > self.wait
+            return self.impossible is None and self._still > self.goal.wait
         return False

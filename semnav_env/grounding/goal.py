@@ -53,6 +53,7 @@ class Goal:
         onward: where the next clause begins; None for `pose`. The middle of the doorway that was
             crossed, or the mouth of the arm that was turned into.
         places: of the way there, from its begin on, if it is known; (x, y) in metres.
+        wait: how long to stand still, seconds; of a STOP.
     """
 
     kind: GoalKind
@@ -65,6 +66,7 @@ class Goal:
     junction: Junction | None = field(default=None, compare=False, repr=False)
     onward: Pose | None = None
     places: tuple[Point, ...] = field(default=(), compare=False, repr=False)
+    wait: float = 0.0
 
     def towards(self, pose: Pose) -> Goal:
         """The goal, or while the way there is long the next place on it."""

@@ -64,5 +64,6 @@ def ground(
         case GoToRoom() | GoBack():
             return ground_way(clause, situation)
         case Stop():
-            return Goal(GoalKind.STOP, situation.pose, because=str(clause))
+            wait = float(clause.seconds)
+            return Goal(GoalKind.STOP, situation.begin, because=str(clause), wait=wait)
     raise TypeError(f"{clause!r} is no clause")

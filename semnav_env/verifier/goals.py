@@ -33,6 +33,9 @@ def plan_goals(
     while not follower.done:
         if follower.impossible is not None:
             raise GroundingError(follower.impossible)
+        if follower.goal.kind is GoalKind.SEEK:
+            what = follower.goal.because.removeprefix("looking for ")
+            raise GroundingError(f"{what}: the floor plan shows none there")
         goals.append(follower.goal)
         follower.skip_to_next(floor_plan.scene)
     return tuple(goals)

@@ -84,6 +84,7 @@ class Verifier:
         self._door_ends = np.array(
             [(*door.start, *door.end) for door in floor_plan.doors], dtype=np.float64
         ).reshape(-1, 4)
+        self._met: list[Goal] = []
         self._still = 0.0
         self._in_contact = False
         self._last = start
@@ -98,10 +99,12 @@ class Verifier:
         still = speed < STILL and abs(turn_rate) < STILL
         self._still = self._still + seconds if still else 0.0
         goal = self.follower.goal
-        allowed = STILL_FOR + self.follower.wait
+        allowed = STILL_FOR + goal.wait
         completed = self.follower.advance(self._scene, pose, speed, seconds)
-        if completed and not self.follower.done:
-            self._ways = self._ways_to_goal()
+        if completed:
+            self._met.append(goal)
+            if not self.follower.done:
+                self._ways = self._ways_to_goal()
         self._judge(goal, completed, pose, self._still > allowed)
         self._last = pose
         return completed
@@ -120,6 +123,16 @@ class Verifier:
     def over(self) -> bool:
         """Whether there is nothing more to come: success or failure."""
         return self.failure is not None or self.follower.done
+
+    @property
+    def goals(self) -> tuple[Goal, ...]:
+        """The goals as they were judged, one after the other, and those planned for the rest.
+
+        They differ from the planned ones after "go back", which leads along the way driven.
+        """
+        met = len(self._met)
+        active = () if self.follower.done else (self.follower.goal,)
+        return (*self._met, *active, *self.planned_goals[met + 1 :])
 
     @property
     def verdict(self) -> Verdict:
