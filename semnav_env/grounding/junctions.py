@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from semnav_env.commands.clauses import Follow, Turn, Turning
-from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference
+from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference, Side
 from semnav_env.features.frames import Pose, compose, to_parent
 from semnav_env.features.hallway import Hallway, Junction, doorway_at, hallway
-from semnav_env.grounding.doors import OUT_OF_DOORWAY, find_door
+from semnav_env.grounding.doors import OUT_OF_DOORWAY, doors_along, find_door
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import END_MARGIN, GroundingError, Situation
 
@@ -26,7 +26,11 @@ JUST_BEHIND = 0.3
 metres."""
 
 PAST_DOORWAY = 0.5
-"""How far beside that doorway counting begins, so that it does not count itself, metres."""
+"""How far beside the doorway that one turns away from counting begins, so that it does not count
+itself, metres."""
+
+RIGHT_BEFORE = 2.0
+"""A door so near ahead is the one that a robot turns away from, metres."""
 
 QUARTERS = {Turning.LEFT: 1, Turning.RIGHT: -1, Turning.AROUND: 2}
 
@@ -112,7 +116,8 @@ def _turn_here(turning: Turning, situation: Situation) -> Goal:
     doorway = doorway_at(situation.scene, situation.begin)
     out = 0.0 if doorway is None else min(OUT_OF_DOORWAY, situation.hallway.end / 2)
     pose = compose(situation.begin, (out, 0.0, QUARTERS[turning] * math.pi / 2))
-    past = PAST_DOORWAY if doorway is not None and turning is not Turning.AROUND else 0.0
+    leaves_door = doorway is not None or _faces_a_door(situation)
+    past = PAST_DOORWAY if leaves_door and turning is not Turning.AROUND else 0.0
     return Goal(
         GoalKind.REACH,
         pose,
@@ -121,6 +126,12 @@ def _turn_here(turning: Turning, situation: Situation) -> Goal:
         because=f"turn {turning} here",
         onward=compose(pose, (past, 0.0, 0.0)),
     )
+
+
+def _faces_a_door(situation: Situation) -> bool:
+    """Whether the robot stands right before a door and looks at it."""
+    facing = doors_along(situation.scene, situation.hallway, Side.AHEAD)
+    return any(door.along <= RIGHT_BEFORE for door in facing)
 
 
 def _turn_by(turning: Turning, degrees: int, situation: Situation) -> Goal:
