@@ -12,6 +12,7 @@ from shapely import box
 
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_env.maps.doorways import DoorState, clear_width, door_state
+from semnav_env.maps.floor_plan import WIDEST_DOOR
 
 
 def hall(*extra: Surface, door_open: bool = True) -> FloorPlan:
@@ -67,6 +68,15 @@ def test_a_plan_without_surfaces_has_no_segments() -> None:
 def test_the_scene_holds_open_doors_only() -> None:
     assert [door.name for door in hall().scene.doors] == ["south"]
     assert hall(leaf(0), door_open=False).scene.doors == ()
+
+
+def test_what_is_wider_than_a_robots_door_is_no_door_of_the_scene() -> None:
+    widths = {"door": 1.2, "just": WIDEST_DOOR, "gate": 1.4}
+    doors = tuple(PlanDoor(name, (0.0, 0.0), (width, 0.0)) for name, width in widths.items())
+    plan = replace(hall(), doors=doors)
+    assert [door.name for door in plan.scene.doors] == ["door", "just"]
+    assert plan.door("gate").open
+    assert not plan.door("gate").counts
 
 
 def test_plans_are_values() -> None:

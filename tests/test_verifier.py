@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from semnav_env.commands import parse
 from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
-from semnav_env.maps import load_floor_plan
+from semnav_env.maps import PlanDoor, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.verifier import Motion, Verdict, Verifier
 from semnav_env.verifier.verdict import verdicts
@@ -65,6 +66,15 @@ def test_the_door_next_to_the_named_one_is_a_failure_however_near() -> None:
     assert judge.over
     assert not judge.success
     assert judge.crossed == ["west_south_1"]
+
+
+def test_crossing_an_opening_that_is_too_wide_for_a_door_is_no_wrong_door() -> None:
+    gate = PlanDoor("gate", (14.0, 8.0), (14.0, 10.2))
+    plan = replace(PLAN, doors=(*PLAN.doors, gate))
+    command = parse("follow the hallway until the intersection")
+    judge = walk(Verifier(plan, GEODESIC, command, WEST), (15.0, 9.1))
+    assert judge.success
+    assert judge.crossed == ["gate"]
 
 
 def test_a_closed_door_is_not_counted() -> None:

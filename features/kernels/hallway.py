@@ -14,6 +14,7 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.heading import prevailing_heading
+from semnav_env.features.kernels.narrow_places import is_narrow_place
 from semnav_env.features.kernels.probing import (
     BEHIND,
     DOORWAY,
@@ -65,7 +66,8 @@ def survey(
 
     Args:
         walls: shape (n, 4), metres.
-        doors: shape (m, 4); they close their gaps, but for one that the robot stands in.
+        doors: shape (m, 4); they close their gaps, but for one that the robot stands in, and for
+            those across the hallway where that only narrows.
         x: of the robot, metres.
         y: the same.
         heading: of the robot, radians.
@@ -123,15 +125,27 @@ def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
 
 @njit(cache=True)
 def _solid(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: float) -> FloatArray:
-    """The walls, then the doors that the robot does not stand in."""
-    solid = np.empty((len(walls) + len(doors), 4))
+    """The walls, then the doors that the robot does not stand in and that do part the hallway."""
+    known = np.concatenate((walls, doors))
+    solid = np.empty((len(known), 4))
     solid[: len(walls)] = walls
     count = len(walls)
     for i in range(len(doors)):
-        if not stands_in(doors[i], x, y, heading):
-            solid[count] = doors[i]
-            count += 1
+        if stands_in(doors[i], x, y, heading):
+            continue
+        if _is_across(doors[i], heading) and is_narrow_place(doors[i], known):
+            continue
+        solid[count] = doors[i]
+        count += 1
     return solid[:count]
+
+
+@njit(cache=True)
+def _is_across(door: FloatArray, heading: float) -> bool:
+    """Whether a doorway faces a robot with this heading, within 45 degrees."""
+    dx, dy = door[2] - door[0], door[3] - door[1]
+    along = abs(math.cos(heading) * dx + math.sin(heading) * dy)
+    return bool(along < math.sqrt(0.5) * math.hypot(dx, dy))
 
 
 @njit(cache=True)

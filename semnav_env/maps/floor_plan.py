@@ -12,6 +12,10 @@ from shapely import Polygon, STRtree, linestrings
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.scene import Door, PlainWalls, Scene
+from semnav_env.features.settings import ExtractorSettings
+
+WIDEST_DOOR = ExtractorSettings().door_width_max + ExtractorSettings().door_width_tolerance
+"""A doorway wider than this is an opening of the wall, as for a robot that looks at it, metres."""
 
 
 class Material(StrEnum):
@@ -63,6 +67,11 @@ class PlanDoor:
     def width(self) -> float:
         """Distance between the jambs, metres."""
         return self.as_door().width
+
+    @property
+    def counts(self) -> bool:
+        """Whether "the second door" counts it: it is open, and no wider than a robot's door."""
+        return self.open and self.width <= WIDEST_DOOR
 
     def as_door(self) -> Door:
         """The door as a scene holds it."""
@@ -140,8 +149,8 @@ class FloorPlan:
 
     @cached_property
     def scene(self) -> Scene:
-        """All walls (glass included) and all open doors, world frame."""
-        doors = tuple(door.as_door() for door in self.doors if door.open)
+        """All walls (glass included) and all doors that count, world frame."""
+        doors = tuple(door.as_door() for door in self.doors if door.counts)
         return Scene(PlainWalls(self.segments), doors)
 
     @property

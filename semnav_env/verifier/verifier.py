@@ -199,7 +199,12 @@ class Verifier:
 
 
 def _may_cross(goal: Goal, crossed: PlanDoor) -> bool:
-    """Whether a goal is to pass that very door, or is beyond it on the way that is known."""
+    """Whether a goal is to pass that very door, or is beyond it on the way that is known.
+
+    What is too wide to count as a door may be crossed anyway.
+    """
+    if not crossed.counts:
+        return True
     if goal.kind is GoalKind.PASS and goal.door is not None and goal.door.name == crossed.name:
         return True
     line = np.array([(*crossed.start, *crossed.end)])

@@ -1,0 +1,97 @@
+"""Numba kernel that tells where a hallway narrows to the width of a door from a door across it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray
+
+NEAREST, FARTHEST = 0.1, 3.0
+"""So far before and behind the opening its sides are looked for, metres."""
+
+BIN = 0.1
+"""In pieces of this length, metres."""
+
+LONG, SHORT = 1.0, 0.5
+"""Sides run on if so much of them is there, on one side of the opening and on the other, metres."""
+
+WIDER = 0.45
+"""A hallway with a door across it is wider than the door by more than this, metres."""
+
+STEPS = 10
+"""In so many steps a side is looked for outward from a jamb, up to `WIDER`."""
+
+WITHIN = 0.1
+"""A side may reach into the opening so far, metres; walls are rough."""
+
+SLANT = math.tan(math.radians(20.0))
+"""A side runs along the passage within this slope."""
+
+
+@njit(cache=True, error_model="numpy")
+def is_narrow_place(door: FloatArray, solid: FloatArray) -> bool:
+    """Whether a passage about as wide as an opening leads up to it and away from it.
+
+    Then it is no doorway but a hallway that narrows, between a pilaster and a wall for instance: a
+    hallway with a door in it, or a room behind one, is wider than the door.
+
+    Args:
+        door: the opening's jambs, shape (4,), metres.
+        solid: walls and doors, shape (n, 4), metres; the opening may be among them.
+    """
+    x, y = 0.5 * (door[0] + door[2]), 0.5 * (door[1] + door[3])
+    dx, dy = door[2] - door[0], door[3] - door[1]
+    width = math.hypot(dx, dy)
+    if width <= 0.0:
+        return False
+    c, s = dx / width, dy / width
+    there = np.zeros((2, 2, STEPS, round((FARTHEST - NEAREST) / BIN)), dtype=np.bool_)
+    for i in range(len(solid)):
+        across1 = c * (solid[i, 0] - x) + s * (solid[i, 1] - y)
+        across2 = c * (solid[i, 2] - x) + s * (solid[i, 3] - y)
+        along1 = c * (solid[i, 1] - y) - s * (solid[i, 0] - x)
+        along2 = c * (solid[i, 3] - y) - s * (solid[i, 2] - x)
+        if abs(across2 - across1) < SLANT * abs(along2 - along1):
+            side, aside = _beside(0.5 * (across1 + across2), 0.5 * width)
+            if -WITHIN <= aside < WIDER:
+                step = int(max(0.0, aside) / WIDER * STEPS)
+                _mark(along1, along2, there[0, side, step])
+                _mark(-along1, -along2, there[1, side, step])
+    for step in range(1, STEPS):
+        there[:, :, step] |= there[:, :, step - 1]
+    return (
+        _runs(there[0], SHORT)
+        and _runs(there[1], SHORT)
+        and (_runs(there[0], LONG) or _runs(there[1], LONG))
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def _beside(across: float, half: float) -> tuple[int, float]:
+    """On which side of the opening something lies, and how far outside the jamb, metres."""
+    return (1 if across > 0.0 else 0), abs(across) - half
+
+
+@njit(cache=True, error_model="numpy")
+def _mark(along1: float, along2: float, there: NDArray[np.bool_]) -> None:
+    """Mark the pieces that a segment covers, if it lies at positive distances from the opening."""
+    first = math.ceil((min(along1, along2) - NEAREST) / BIN - 0.5)
+    last = math.floor((max(along1, along2) - NEAREST) / BIN - 0.5)
+    for k in range(max(first, 0), min(last, len(there) - 1) + 1):
+        there[k] = True
+
+
+@njit(cache=True, error_model="numpy")
+def _runs(there: NDArray[np.bool_], length: float) -> bool:
+    """Whether both sides run on for a length, together less than `WIDER` outside the jambs."""
+    aside = 0.0
+    for side in range(2):
+        step = 0
+        while step < STEPS and there[side, step].sum() * BIN < length - 0.5 * BIN:
+            step += 1
+        aside += WIDER * step / STEPS
+    return aside < WIDER - 1e-9

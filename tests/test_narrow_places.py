@@ -1,0 +1,74 @@
+"""A hallway that narrows to the width of a door goes on; one with a door across it ends there."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from semnav_env.features.frames import points_to_parent
+from semnav_env.features.hallway import hallway
+from semnav_env.features.kernels.narrow_places import is_narrow_place
+from semnav_env.features.scene import Door, PlainWalls, Scene
+from semnav_env.grounding.doors import doors_along
+
+OPENING = np.array([0.0, 0.6, 0.0, -0.6])
+
+
+def passage(left_before=0.0, right_before=0.0, left_behind=0.0, right_behind=0.0, length=4.0):
+    """Walls along x beside an opening of 1.2 m at x = 0, so far outside its jambs."""
+    return np.array(
+        [
+            (-length, 0.6 + left_before, 0.0, 0.6 + left_before),
+            (-length, -0.6 - right_before, 0.0, -0.6 - right_before),
+            (0.0, 0.6 + left_behind, length, 0.6 + left_behind),
+            (0.0, -0.6 - right_behind, length, -0.6 - right_behind),
+            (0.0, 0.6 + max(left_before, left_behind), 0.0, 0.6),
+            (0.0, -0.6 - max(right_before, right_behind), 0.0, -0.6),
+        ]
+    )
+
+
+STEP = st.floats(0.0, 0.15)
+
+
+@given(STEP, STEP, STEP, STEP, st.floats(-math.pi, math.pi), st.floats(-5.0, 5.0))
+def test_a_pilaster_makes_no_door_whatever_the_frame(a, b, c, d, turn, away):
+    ends = np.vstack((passage(a, b, c, d), OPENING)).reshape(-1, 2)
+    placed = points_to_parent((away, -away, turn), ends).reshape(-1, 4)
+    assert is_narrow_place(placed[-1], placed)
+    assert is_narrow_place(placed[-1][[2, 3, 0, 1]], placed)
+
+
+@pytest.mark.parametrize(
+    "steps",
+    [(0.3, 0.3, 0.3, 0.3), (0.0, 0.0, 1.0, 0.0), (0.5, 0.5, 0.0, 0.0), (0.0, 0.0, 2.0, 2.0)],
+    ids=["a door in the hallway", "a room flush with it", "a narrow arm", "a room at its end"],
+)
+def test_where_the_hallway_is_wider_than_the_opening_it_is_a_door(steps):
+    assert not is_narrow_place(OPENING, passage(*steps))
+
+
+def test_sides_that_are_not_seen_to_run_on_leave_a_door_a_door():
+    assert not is_narrow_place(OPENING, passage()[:2])
+    assert not is_narrow_place(OPENING, passage(length=0.9))
+    assert is_narrow_place(OPENING, np.vstack((passage(length=0.9)[:2], passage()[2:])))
+    assert not is_narrow_place(np.zeros(4), passage())
+
+
+@pytest.mark.parametrize(
+    ("steps", "end"), [((0.0, 0.1, 0.3, 0.1), 8.0), ((0.4, 0.4, 0.4, 0.4), 4.0)]
+)
+def test_a_hallway_ends_at_a_door_across_it_and_not_where_it_narrows(steps, end):
+    walls = np.vstack((passage(*steps), (4.0, 2.0, 4.0, -2.0)))
+    across = Door((0.0, 0.6), (0.0, -0.6))
+    on_the_left = Door((2.0, 0.6 + steps[2]), (3.0, 0.6 + steps[2]))
+    scene = Scene(PlainWalls(walls), (across, on_the_left))
+    seen = hallway(scene, (-4.0, 0.0, 0.0))
+    assert seen.end == pytest.approx(end, abs=0.05)
+    assert [door.door for door in doors_along(scene, seen)] == [
+        on_the_left if end > 4.0 else across
+    ]
