@@ -7,10 +7,17 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.planning.doorway import target_behind
+from semnav_env.agents.planning.doorway import barriers_across, target_behind
 from semnav_env.agents.planning.driver import Driver
 from semnav_env.agents.planning.planner import Target
-from semnav_env.features.frames import FloatArray, Point, Pose, compose, to_parent
+from semnav_env.features.frames import (
+    FloatArray,
+    Point,
+    Pose,
+    compose,
+    points_to_parent,
+    to_parent,
+)
 from semnav_env.features.scene import Door
 from semnav_env.grounding import GoalKind
 from semnav_env.observations import SeenGoal
@@ -20,10 +27,16 @@ STUCK_AFTER, FREE_AFTER = 8, 12
 """Steps of pushing without moving after which the robot is stuck, and of backing out of it."""
 
 
+SAME_DOOR = 0.5
+"""Doors whose middles are nearer than this are one, metres."""
+
+
 class Pilot:
     """Drives a robot to goals with the footprint-aware planner.
 
-    A robot that pushes without moving backs out the way it came and plans anew.
+    A robot that pushes without moving backs out the way it came and plans anew. It takes no short
+    cut through the next room: of the doors it knows it passes the goal's, and others only where no
+    way leads around them.
 
     Args:
         robot: the body.
@@ -37,12 +50,13 @@ class Pilot:
         self._last: Pose = (0.0, 0.0, 0.0)
 
     def act(
-        self, points: FloatArray, goal: SeenGoal, pose: Pose, velocity: Pose
+        self, points: FloatArray, doors: FloatArray, goal: SeenGoal, pose: Pose, velocity: Pose
     ) -> NDArray[np.float32]:
         """The next action.
 
         Args:
             points: obstacles, shape (n, 2), in the frame of `pose`.
+            doors: x and y of the jambs of the doors it knows, robot frame, shape (m, 4).
             goal: in the robot frame.
             pose: of the robot's centre.
             velocity: forward, left (m/s) and turning (rad/s), robot frame.
@@ -54,7 +68,9 @@ class Pilot:
             return self._action(-0.2 * sign(forward), -0.2 * sign(left), -0.3 * sign(turn))
         if goal.door is not None:
             points = np.vstack((points, [to_parent(pose, jamb) for jamb in goal.door]))
-        steering = self.driver.drive(points, _target(goal, pose), pose, velocity)
+        barriers = barriers_across(_other_doors(doors, goal), self.robot)
+        barriers = points_to_parent(pose, barriers)
+        steering = self.driver.drive(points, _target(goal, pose), pose, velocity, barriers)
         self._last = steering.command
         return self._action(*steering.command)
 
@@ -81,6 +97,15 @@ class Pilot:
 def sign(value: float) -> float:
     """-1, 0 or 1; what is almost nothing is 0."""
     return math.copysign(1.0, value) if abs(value) > 0.01 else 0.0
+
+
+def _other_doors(doors: FloatArray, goal: SeenGoal) -> FloatArray:
+    """The doors that are not the goal's."""
+    if goal.door is None:
+        return doors
+    middles = (doors[:, :2] + doors[:, 2:]) / 2 - np.mean(goal.door, axis=0)
+    others: FloatArray = doors[np.hypot(*middles.T) > SAME_DOOR]
+    return others
 
 
 def _target(goal: SeenGoal, pose: Pose) -> Target:

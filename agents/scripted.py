@@ -13,7 +13,7 @@ from semnav_env.agents.pilot import Pilot
 from semnav_env.agents.planning.obstacles import ObstacleMemory
 from semnav_env.features.frames import Pose, compose
 from semnav_env.lidar.spec import LidarSpec
-from semnav_env.observations import SeenGoal
+from semnav_env.observations import SeenGoal, table
 
 
 class ScriptedAgent:
@@ -47,7 +47,8 @@ class ScriptedAgent:
         ranges, limit = observation["scan"], self._lidar.range_max
         self._obstacles.update(compose(pose, mount), ranges, self._beams, limit)
         goal = SeenGoal.read(observation["goal"])
-        return self._pilot.act(self._obstacles.points(), goal, pose, velocity)
+        doors = table(observation, "remembered_doors").astype(np.float64)
+        return self._pilot.act(self._obstacles.points(), doors, goal, pose, velocity)
 
 
 def read_odometry(observation: Observation) -> tuple[Pose, Pose]:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.agents.planning.doorway import target_behind
+from semnav_env.agents.planning.doorway import barriers_across, target_behind
 from semnav_env.agents.planning.driver import Driver
 from semnav_env.agents.planning.follower import Progress, follow
 from semnav_env.agents.planning.guard import safe_share
@@ -128,6 +128,50 @@ def test_a_wall_that_appears_on_the_path_is_driven_around():
     assert driver.path is not before
     assert driver.path.complete
     assert np.abs(driver.path.poses[:, 1]).max() > 0.6
+
+
+def wall_with_two_gaps():
+    """A wall at x = 3 with gaps of 1 m around y = 0 and y = 4, and points across the first one."""
+    wall = np.array([[3.0, -30.0, 3.0, -0.5], [3.0, 0.5, 3.0, 3.5], [3.0, 4.5, 3.0, 30.0]])
+    across = np.array([[3.0, -0.5, 3.0, 0.5]])
+    return points_of_segments(wall), points_of_segments(across)
+
+
+def crossing(path):
+    """Where a path crosses the line x = 3."""
+    poses = path.poses
+    return poses[np.argmax(poses[:, 0] > 3.0), 1]
+
+
+def test_a_way_around_a_barrier_is_taken_though_it_is_longer():
+    points, barrier = wall_with_two_gaps()
+    driver, target = Driver(WHEELCHAIR), Target((6.0, 0.0, 0.0), 0.2, None)
+    driver.drive(points, target, (0.0, 0.0, 0.0))
+    assert abs(crossing(driver.path)) < 0.5
+    driver.reset()
+    driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
+    assert driver.path.complete
+    assert abs(crossing(driver.path) - 4.0) < 0.5
+
+
+def test_a_barrier_is_passed_where_no_way_leads_around_it():
+    points, barrier = wall_with_two_gaps()
+    points = np.vstack((points, points_of_segments(np.array([[3.0, 3.5, 3.0, 4.5]]))))
+    driver = Driver(WHEELCHAIR)
+    driver.drive(points, Target((6.0, 0.0, 0.0), 0.2, None), (0.0, 0.0, 0.0), barriers=barrier)
+    assert driver.path.complete
+    assert abs(crossing(driver.path)) < 0.5
+    before = driver.path
+    for _ in range(driver.check_every):
+        driver.drive(points, Target((6.0, 0.0, 0.0), 0.2, None), (0.0, 0.0, 0.0), barriers=barrier)
+    assert driver.path is before
+
+
+def test_doorways_are_barred_but_for_the_one_the_robot_stands_in():
+    beside, here = (2.0, 1.0, 3.0, 1.0), (0.3, -0.5, 0.3, 0.5)
+    barriers = barriers_across(np.array([beside, here]), WHEELCHAIR)
+    assert np.array_equal(barriers, points_of_segments(np.array([beside])))
+    assert barriers_across(np.empty((0, 4)), WHEELCHAIR).shape == (0, 2)
 
 
 def test_a_target_that_moves_is_followed_and_one_that_trembles_is_not():

@@ -4,9 +4,16 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from semnav_env.agents.planning.obstacles import points_of_segments
 from semnav_env.agents.planning.planner import Target
-from semnav_env.features.frames import Point, Pose
+from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.features.scene import Door
+from semnav_env.robots import RobotSpec
+
+IN_DOORWAY = 0.1
+"""A robot whose footprint is nearer than this to a doorway's line stands in it, metres."""
 
 BEFORE = AFTER = 1.0
 """Metres between the door and the robot's centre (Mes 2021, section 2.1)."""
@@ -35,6 +42,22 @@ def poses_through(
         heading, c, s = math.remainder(heading + math.pi, 2 * math.pi), -c, -s
     heading = math.remainder(heading, 2 * math.pi)
     return (x - before * c, y - before * s, heading), (x + after * c, y + after * s, heading)
+
+
+def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
+    """Points across doorways that a robot is not to go through, where it does not stand in one.
+
+    Args:
+        doors: x and y of both jambs, metres, robot frame, shape (n, 4).
+        robot: gives the footprint.
+
+    Returns:
+        shape (N, 2), robot frame.
+    """
+    lines = [points_of_segments(door[None]) for door in doors]
+    reach = np.array((robot.length, robot.width)) / 2 + IN_DOORWAY
+    others = [line for line in lines if not (np.abs(line) < reach).all(axis=1).any()]
+    return np.concatenate([np.empty((0, 2)), *others])
 
 
 def target_before(door: Door, approach: Point) -> Target:

@@ -23,6 +23,8 @@ from semnav_env.features.frames import (
 )
 from semnav_env.robots import RobotSpec
 
+NOTHING: FloatArray = np.empty((0, 2))
+
 STOP = Steering(0.0, 0.0, 0.0, Progress())
 
 
@@ -65,6 +67,7 @@ class Driver:
         self._step = self._wait = 0
         self._braking = False
         self._refusals = 0
+        self._heeds_barriers = True
 
     def drive(
         self,
@@ -72,6 +75,7 @@ class Driver:
         target: Target,
         pose: Pose,
         velocity: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        barriers: FloatArray = NOTHING,
     ) -> Steering:
         """The velocities for this step; `done` once the target is reached.
 
@@ -80,16 +84,18 @@ class Driver:
             target: where to go, in the frame of the points.
             pose: the centre's pose in that frame.
             velocity: (forward, left, turn) now, m/s and rad/s.
+            barriers: points that no path leads through unless there is no other way, metres,
+                shape (M, 2); nothing that one could run into.
         """
         self._step += 1
         self._wait -= 1
         self._braking = self._braking and max(map(abs, velocity)) > 0.05
         if self._braking:
             return STOP
-        if self._must_plan(points, target, pose):
+        if self._must_plan(points, target, pose, barriers):
             if self._wait > 0:
                 return STOP
-            self._plan(points, target, pose, velocity)
+            self._plan(points, target, pose, velocity, barriers)
         assert self._track is not None
         steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
         self._progress = steering.progress
@@ -125,22 +131,32 @@ class Driver:
             return STOP
         return steering.slowed(share)
 
-    def _must_plan(self, points: FloatArray, target: Target, pose: Pose) -> bool:
+    def _must_plan(
+        self, points: FloatArray, target: Target, pose: Pose, barriers: FloatArray
+    ) -> bool:
         if self._track is None or self._target is None or self.path is None:
             return True
         if _apart(self._target, target):
             return True
         if not self.path.complete and self._remaining() < 1.0:
             return True
-        return self._step % self.check_every == 0 and not self._stays_free(points, pose)
+        if self._step % self.check_every:
+            return False
+        solid = np.vstack((points, barriers)) if self._heeds_barriers else points
+        return not self._stays_free(solid, pose)
 
     def _plan(
-        self, points: FloatArray, target: Target, pose: Pose, velocity: tuple[float, float, float]
+        self,
+        points: FloatArray,
+        target: Target,
+        pose: Pose,
+        velocity: tuple[float, float, float],
+        barriers: FloatArray,
     ) -> None:
         """Plan from here, or while driving from where the old path allows a stop."""
         kept = self._path_to_stop(points, pose, velocity)
         start = pose if kept is None else kept.end
-        self.path = plan(points, start, target, self.robot, self.planner)
+        self.path = self._path_around(points, start, target, barriers)
         if kept is not None:
             self.path = joined(kept, self.path)
         self.plans += 1
@@ -148,6 +164,19 @@ class Driver:
         self._track = Track(self.path, self.robot, self.follower)
         if not self.path.complete:
             self._wait = self.retry_after
+
+    def _path_around(
+        self, points: FloatArray, start: Pose, target: Target, barriers: FloatArray
+    ) -> Path:
+        """A path around the barriers too, unless the target is reached only through one."""
+        solid = np.vstack((points, barriers))
+        path = plan(solid, start, target, self.robot, self.planner)
+        self._heeds_barriers = True
+        if path.complete or not len(barriers):
+            return path
+        through = plan(points, start, target, self.robot, self.planner)
+        self._heeds_barriers = not through.complete
+        return through if through.complete else path
 
     def _path_to_stop(
         self, points: FloatArray, pose: Pose, velocity: tuple[float, float, float]
