@@ -1,4 +1,4 @@
-"""`semnav map`: list, show, check, generate, build and import floor plans."""
+"""`semnav map`: list, show, check, generate, build, import and export floor plans."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from tyro.conf import Positional, subcommand
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
 from semnav_env.scripts.map_build import Build
 from semnav_env.scripts.map_check import Check
+from semnav_env.scripts.map_export import Export
 from semnav_env.scripts.map_generate import Generate
 from semnav_env.scripts.map_import import Import
 
@@ -65,6 +66,7 @@ Arguments = (
     | Annotated[Generate, subcommand("generate")]
     | Annotated[Build, subcommand("build")]
     | Annotated[Import, subcommand("import")]
+    | Annotated[Export, subcommand("export")]
 )
 
 

@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.nearness import clear_near
 
 SPACING = 0.1
 """Of the grid, metres."""
@@ -84,7 +85,8 @@ class Geodesic:
         x = self.origin[0] + SPACING * columns
         y = self.origin[1] + SPACING * rows
         free = np.asarray(shapely.contains_xy(floor_plan.boundary, x, y), dtype=bool)
-        _block(free, floor_plan.segments, *self.origin, self._clearance)
+        reach = self._clearance - 1e-9  # what is exactly so far away is free
+        clear_near(free, floor_plan.segments, *self.origin, SPACING, reach)
         return free
 
     @cached_property
@@ -144,28 +146,6 @@ class WaysTo:
         cells = _descend(self.distances, *_nearest_reached(self.distances, row, column))
         inner = np.array((west, south)) + SPACING * cells[:, ::-1]
         return np.vstack((start, inner[1:-1], self.goal))
-
-
-@njit(cache=True, error_model="numpy")
-def _block(
-    free: NDArray[np.bool_], segments: FloatArray, west: float, south: float, clearance: float
-) -> None:
-    """Clear the cells that lie nearer than `clearance` to a segment, within a rounding error."""
-    reach = clearance - 1e-9
-    for k in range(len(segments)):
-        x1, y1, x2, y2 = segments[k]
-        first_row = max(0, math.floor((min(y1, y2) - clearance - south) / SPACING))
-        last_row = min(free.shape[0] - 1, math.ceil((max(y1, y2) + clearance - south) / SPACING))
-        first = max(0, math.floor((min(x1, x2) - clearance - west) / SPACING))
-        last = min(free.shape[1] - 1, math.ceil((max(x1, x2) + clearance - west) / SPACING))
-        dx, dy = x2 - x1, y2 - y1
-        squared = dx * dx + dy * dy
-        for row in range(first_row, last_row + 1):
-            for column in range(first, last + 1):
-                x, y = west + SPACING * column - x1, south + SPACING * row - y1
-                share = min(1.0, max(0.0, (x * dx + y * dy) / squared)) if squared > 0.0 else 0.0
-                if math.hypot(x - share * dx, y - share * dy) < reach:
-                    free[row, column] = False
 
 
 @njit(cache=True)

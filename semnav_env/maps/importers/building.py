@@ -15,8 +15,10 @@ from semnav_env.maps.importers.building_doors import with_doors
 from semnav_env.maps.importers.imported import MARGIN, Imported
 from semnav_env.maps.importers.labels import (
     DOORS,
+    KINDS,
     PLACES,
     PlaceLabel,
+    has_all_doors,
     read_door_labels,
     read_place_labels,
 )
@@ -33,8 +35,9 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
 
     Either file may be missing beside the map. A labelled door gets the jambs that the map shows
     (`fit_door`), and is open if the map shows a way through; a closed one gets a leaf. Further
-    doorways between two places (`find_doorways`) are named after these. A place is a room, or a
-    corridor if it is at least `LONG` times as long as wide.
+    doorways between two places (`find_doorways`) are named after these, unless the labels say that
+    they have all doors. A place is a room, or a corridor if it is at least `LONG` times as long as
+    wide, where its label does not say what it is.
 
     Args:
         path: the map's YAML file.
@@ -47,9 +50,10 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
     pixels = read_occupancy(where)
     plan, report = trace(pixels, tracing)
     doors, places = where.with_name(DOORS), where.with_name(PLACES)
-    plan, lost_places = _with_places(plan, read_place_labels(places), pixels)
+    place_labels = read_place_labels(places)
+    plan, lost_places = _with_places(plan, place_labels, pixels)
     labels = read_door_labels(doors)
-    plan, lost_doors = with_doors(plan, labels, pixels.is_free)
+    plan, lost_doors = with_doors(plan, labels, None if has_all_doors(places) else pixels.is_free)
     unnamed = len({door.name for door in plan.doors} - {label.name for label in labels})
     taken = {
         "open doors": sum(door.open for door in plan.doors),
@@ -57,6 +61,8 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
         "of them without a label": unnamed,
         "rooms": len(plan.rooms),
         "corridors": len(plan.corridors),
+        "intersections": len(plan.intersections),
+        "open areas": len(plan.areas),
     }
     halls = f"places at least {LONG:g} times as long as wide are taken for corridors"
     report = replace(
@@ -64,7 +70,8 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
         source=(*report.source, *(str(file) for file in (doors, places) if file.is_file())),
         taken=report.taken | {name: number for name, number in taken.items() if number},
         left_out=report.left_out + lost_places + lost_doors,
-        notes=report.notes + ((halls,) if plan.regions else ()),
+        notes=report.notes
+        + ((halls,) if any(label.kind is None for label in place_labels) else ()),
     )
     return Imported(plan, report)
 
@@ -74,6 +81,7 @@ def _with_places(
 ) -> tuple[FloorPlan, tuple[str, ...]]:
     """The plan with those of the labelled places that keep to the rules; and why others do not."""
     regions: dict[str, Region] = {}
+    kinds: dict[str, str] = {}
     lost = []
     for label in labels:
         whole = shapely.make_valid(Polygon(pixels.to_world(label.ring)))
@@ -87,11 +95,14 @@ def _with_places(
             lost.append(str(error))
         else:
             regions[label.name] = region
+            kinds[label.name] = label.kind or ("corridor" if is_long(region.polygon) else "room")
     wide = [plan.boundary, *(region.polygon.buffer(MARGIN) for region in regions.values())]
     boundary = shapely.box(*shapely.total_bounds(wide))
-    halls = tuple([region for region in regions.values() if is_long(region.polygon)])
-    rooms = tuple([region for region in regions.values() if not is_long(region.polygon)])
-    return replace(plan, rooms=rooms, corridors=halls, boundary=boundary), tuple(lost)
+    rooms, halls, crossings, areas = (
+        tuple([region for name, region in regions.items() if kinds[name] == kind]) for kind in KINDS
+    )
+    found = replace(plan, rooms=rooms, corridors=halls, intersections=crossings, areas=areas)
+    return replace(found, boundary=boundary), tuple(lost)
 
 
 def is_long(polygon: Polygon) -> bool:

@@ -17,7 +17,7 @@ from semnav_env.maps.rules import FloorPlanError, check_door, check_doorway
 
 
 def with_doors(
-    plan: FloorPlan, labels: Sequence[DoorLabel], is_free: Callable[[Point], bool]
+    plan: FloorPlan, labels: Sequence[DoorLabel], is_free: Callable[[Point], bool] | None
 ) -> tuple[FloorPlan, tuple[str, ...]]:
     """The plan with its doors, and why others were left out.
 
@@ -26,7 +26,7 @@ def with_doors(
     Args:
         plan: walls and places.
         labels: of doors, open or not.
-        is_free: whether a point is known to be free.
+        is_free: whether a point is known to be free; None if there are no doors but the labelled.
     """
     doors: dict[str, PlanDoor] = {}
     lost: list[str] = []
@@ -39,7 +39,7 @@ def with_doors(
             lost.append(str(error))
         else:
             doors[label.name] = door
-    for door in _further(plan, labels, doors, is_free):
+    for door in _further(plan, labels, doors, is_free) if is_free else ():
         doors[door.name] = door
     closed = [door for door in doors.values() if not door.open]
     leaves = [Surface((door.start, door.end), Material.LEAF) for door in closed]

@@ -16,6 +16,12 @@ from semnav_env.maps.rules import FloorPlanError
 
 DOORS, PLACES = "doors.yaml", "locations.yaml"
 
+ALL_DOORS = "all_doors"
+"""Entry of `locations.yaml`: whether `doors.yaml` has every door there is."""
+
+KINDS = ("room", "corridor", "intersection", "area")
+"""What a place may be, in the list `kinds` of `locations.yaml`."""
+
 T = TypeVar("T")
 
 
@@ -41,10 +47,12 @@ class PlaceLabel:
     Attributes:
         name: of the place.
         ring: its corners (column, row) in pixels of the map, shape (n, 2); row 0 is at the top.
+        kind: one of `KINDS`, if the file says so.
     """
 
     name: str
     ring: FloatArray
+    kind: str | None = None
 
 
 def read_door_labels(path: Path) -> tuple[DoorLabel, ...]:
@@ -66,7 +74,7 @@ def read_door_labels(path: Path) -> tuple[DoorLabel, ...]:
 def read_place_labels(path: Path) -> tuple[PlaceLabel, ...]:
     """The places of a `locations.yaml`: names in `locations`, as many rings in `polygons`.
 
-    None if there is no such file.
+    And, which is this project's own, as many `KINDS` in `kinds`. None if there is no such file.
 
     Raises:
         FloorPlanError: not such a file; names what is wrong with which place.
@@ -81,13 +89,27 @@ def read_place_labels(path: Path) -> tuple[PlaceLabel, ...]:
         raise FloorPlanError(
             f"{path}: {len(names)} locations but {len(rings)} polygons; give one for each"
         )
-    pairs = zip(names, rings, strict=True)
-    return tuple([_read(path, f"place {k}", _place, row, _RING) for k, row in enumerate(pairs, 1)])
+    kinds = fields.get("kinds", [None] * len(names))
+    if not isinstance(kinds, list) or len(kinds) != len(names):
+        raise FloorPlanError(f"{path}: kinds is no list with one of {_KINDS} for each location")
+    rows = zip(names, rings, kinds, strict=True)
+    return tuple([_read(path, f"place {k}", _place, row, _RING) for k, row in enumerate(rows, 1)])
+
+
+def has_all_doors(path: Path) -> bool:
+    """Whether a `locations.yaml` says that `doors.yaml` has every door there is."""
+    fields = read_yaml(path) if path.exists() else None
+    return isinstance(fields, dict) and fields.get(ALL_DOORS) is True
 
 
 _DOOR = ("name", "door_corner_pt_1: [x, y]", "door_corner_pt_2: [x, y]")
 _PLACES = ("locations", "polygons")
-_RING = ("a name", "at least three corners: [column, row, column, row, ...] in pixels")
+_KINDS = ", ".join(KINDS)
+_RING = (
+    "a name",
+    "at least three corners: [column, row, column, row, ...] in pixels",
+    f"a kind, if any, of {_KINDS}",
+)
 
 
 def _read(path: Path, what: str, reader: Callable[[Any], T], row: Any, needs: tuple[str, ...]) -> T:
@@ -112,8 +134,10 @@ def _point(values: Any) -> Point:
 
 
 def _place(row: Any) -> PlaceLabel:
-    name, values = row
+    name, values, kind = row
     ring = np.array([finite(value) for value in values]).reshape(-1, 2)
     if len(ring) < 3:
         raise ValueError(f"{len(ring)} corners")
-    return PlaceLabel(str(name).strip(), ring)
+    if kind is not None and kind not in KINDS:
+        raise ValueError(f"kind {kind!r}")
+    return PlaceLabel(str(name).strip(), ring, kind)

@@ -1,0 +1,47 @@
+"""Numba kernel that finds the cells of a grid that lie near what is solid."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray
+
+
+@njit(cache=True, error_model="numpy")
+def clear_near(
+    free: NDArray[np.bool_],
+    segments: FloatArray,
+    west: float,
+    south: float,
+    spacing: float,
+    reach: float,
+) -> None:
+    """Clear the cells whose point lies nearer than `reach` to a segment.
+
+    Args:
+        free: written, shape (rows, columns); row 0 is the southernmost.
+        segments: x1, y1, x2, y2, shape (n, 4), metres.
+        west: x of the points of the first column.
+        south: y of the points of the first row.
+        spacing: of the grid, metres.
+        reach: metres.
+    """
+    rows, columns = free.shape
+    for k in range(len(segments)):
+        x1, y1, x2, y2 = segments[k]
+        first_row = max(0, math.floor((min(y1, y2) - reach - south) / spacing))
+        last_row = min(rows - 1, math.ceil((max(y1, y2) + reach - south) / spacing))
+        first = max(0, math.floor((min(x1, x2) - reach - west) / spacing))
+        last = min(columns - 1, math.ceil((max(x1, x2) + reach - west) / spacing))
+        dx, dy = x2 - x1, y2 - y1
+        squared = dx * dx + dy * dy
+        for row in range(first_row, last_row + 1):
+            for column in range(first, last + 1):
+                x, y = west + spacing * column - x1, south + spacing * row - y1
+                share = min(1.0, max(0.0, (x * dx + y * dy) / squared)) if squared > 0.0 else 0.0
+                if math.hypot(x - share * dx, y - share * dy) < reach:
+                    free[row, column] = False
