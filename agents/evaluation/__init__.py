@@ -2,7 +2,7 @@
 
 from semnav_env.agents.evaluation.drive import Drive, drive
 from semnav_env.agents.evaluation.results import Result, Summary, failure_line, summarise
-from semnav_env.agents.evaluation.runner import Extras, run_suite
+from semnav_env.agents.evaluation.runner import Extras, conclude, run_suite
 from semnav_env.agents.evaluation.suites import SUITES, Trial, suite
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "Result",
     "Summary",
     "Trial",
+    "conclude",
     "drive",
     "failure_line",
     "run_suite",

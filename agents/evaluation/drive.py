@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from semnav_env.agents.base import Agent
 from semnav_env.agents.evaluation.causes import cause_of
 from semnav_env.env import SemNavEnv
 from semnav_env.metrics import Metrics, Recorder, Recording, measure
+from semnav_env.metrics.events import Event
+from semnav_env.metrics.witness import events_of
 from semnav_env.recheck import recheck
+from semnav_env.robots import RobotSpec
 from semnav_env.verifier import Verifier
 
 
@@ -22,18 +26,32 @@ class Drive:
         verifier: that judged it; knows the plan, the command, the true route and the goals.
         metrics: all measures.
         cause: why it failed, in words; empty after success.
+        robot: that drove.
     """
 
     recording: Recording
     verifier: Verifier
     metrics: Metrics
     cause: str
+    robot: RobotSpec
 
     def rechecked(self) -> str:
         """The verdict of the second opinion where it is not the verifier's; else empty."""
         verifier = self.verifier
         found = recheck(self.recording, verifier.floor_plan, verifier.goals)
         return "" if found.verdict == verifier.verdict else found.verdict
+
+    def events(self) -> tuple[Event, ...]:
+        """What happened, in the order of time."""
+        return events_of(self.recording, self.verifier.floor_plan)
+
+    def save_picture(self, path: str | Path, title: str = "") -> None:
+        """Write a picture: the plan, the true route, the way driven, contacts and goals."""
+        from semnav_env.metrics.picture import save_episode  # matplotlib only when it is wanted
+
+        verifier = self.verifier
+        plan, route, goals = verifier.floor_plan, verifier.route, verifier.planned_goals
+        save_episode(path, plan, self.recording, self.robot, route, goals, title)
 
 
 def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> Drive:
@@ -55,4 +73,5 @@ def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> D
         over = terminated or truncated
     verifier, recording = env.task.verifier, recorder.recording()
     metrics = measure(recording, verifier, env.robot)
-    return Drive(recording, verifier, metrics, cause_of(verifier, metrics, info["impossible"]))
+    cause = cause_of(verifier, metrics, info["impossible"])
+    return Drive(recording, verifier, metrics, cause, env.robot)

@@ -104,38 +104,33 @@ def run_episode(
     env.reset(seed=seed, options={"floor_plan": trial.floor_plan})
     pose = scattered(trial, env.floor_plan, env.robot, np.random.default_rng(seed))
     options = {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
-    driven = drive(env, agent, seed, options)
-    result = Result(
-        command=trial.command,
-        seed=seed,
-        verdicts=tuple(str(verdict) for verdict in driven.verifier.verdicts),
-        metrics=driven.metrics,
-        cause=driven.cause,
-        rechecked=driven.rechecked() if extras.recheck else "",
-    )
+    return conclude(drive(env, agent, seed, options), trial.command, seed, extras)
+
+
+def conclude(driven: Drive, command: str, seed: int, extras: Extras = NO_EXTRAS) -> Result:
+    """What came of a driven episode; asks for a second opinion and draws a failure if wanted.
+
+    Args:
+        driven: the episode.
+        command: as the results name it.
+        seed: of the episode.
+        extras: what else to do.
+    """
+    rechecked = driven.rechecked() if extras.recheck else ""
+    verdicts = tuple(str(verdict) for verdict in driven.verifier.verdicts)
+    result = Result(command, seed, verdicts, driven.metrics, driven.cause, rechecked)
     if extras.pictures is not None and not result.success:
-        _draw(
-            extras.pictures / picture_name(trial, env.robot.name, seed), driven, env.robot, result
-        )
+        name = picture_name(driven, command, seed)
+        driven.save_picture(extras.pictures / name, f"{command}: {failure_line(result)}")
     return result
 
 
-def picture_name(trial: Trial, robot: str, seed: int) -> str:
+def picture_name(driven: Drive, command: str, seed: int) -> str:
     """The file name of the picture of an episode; long commands are cut and told by a checksum."""
-    plan = Path(trial.floor_plan).stem
-    command = re.sub("[^a-z0-9]+", "_", trial.command.lower()).strip("_")
-    if len(command) > LONGEST_NAME:
-        command = f"{command[:LONGEST_NAME]}_{zlib.crc32(trial.command.encode()):08x}"
-    return f"{plan}-{command}-{robot}-seed{seed}.png"
-
-
-def _draw(path: Path, driven: Drive, robot: RobotSpec, result: Result) -> None:
-    from semnav_env.metrics.picture import save_episode
-
-    verifier = driven.verifier
-    title = f"{result.command}: {failure_line(result)}"
-    goals = verifier.planned_goals
-    save_episode(path, verifier.floor_plan, driven.recording, robot, verifier.route, goals, title)
+    words = re.sub("[^a-z0-9]+", "_", command.lower()).strip("_")
+    if len(words) > LONGEST_NAME:
+        words = f"{words[:LONGEST_NAME]}_{zlib.crc32(command.encode()):08x}"
+    return f"{driven.verifier.floor_plan.name}-{words}-{driven.robot.name}-seed{seed}.png"
 
 
 def scattered(
