@@ -31,7 +31,7 @@ class Arguments:
     Attributes:
         command: what to say to it.
         map: a floor plan: a bundled name or a path.
-        language: of the command: en or de.
+        language: of the command: en or de (english, german).
         robot: wheelchair or spot.
         agent: scripted, oracle, or the path of a trained agent.
         pose: where it starts, x,y,heading in metres and radians; drawn from the seed if not given.

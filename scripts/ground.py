@@ -31,7 +31,7 @@ class Arguments:
         map: a floor plan: a bundled name or a path.
         pose: where the robot stands, x,y,heading in metres and radians.
         robot: wheelchair or spot.
-        language: of the command: en or de.
+        language: of the command: en or de (english, german).
         json: print as JSON.
     """
 

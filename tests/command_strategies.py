@@ -1,5 +1,7 @@
 """Hypothesis strategies for clauses and commands."""
 
+from dataclasses import replace
+
 from hypothesis import strategies as st
 
 from semnav_env.commands import (
@@ -15,6 +17,7 @@ from semnav_env.commands import (
     GoBack,
     GoToDoor,
     GoToRoom,
+    IfThere,
     Leave,
     Place,
     PlaceReference,
@@ -54,5 +57,17 @@ clauses = st.one_of(
     st.builds(Follow, st.one_of(st.none(), places, doors, distances)),
     st.builds(Follow, st.one_of(junctions, doors), past=st.just(True)),
 )
-commands = st.lists(clauses, min_size=1, max_size=MAX_CLAUSES).map(lambda c: Command(tuple(c)))
+conditions = st.builds(IfThere, st.one_of(places, doors), st.booleans())
+stretches = st.one_of(
+    st.tuples(clauses),
+    st.tuples(clauses),
+    st.tuples(conditions, clauses),
+    st.tuples(conditions.map(lambda c: replace(c, otherwise=True)), clauses, clauses),
+)
+commands = (
+    st.lists(stretches, min_size=1, max_size=MAX_CLAUSES)
+    .map(lambda found: tuple(clause for stretch in found for clause in stretch))
+    .filter(lambda found: len(found) <= MAX_CLAUSES)
+    .map(Command)
+)
 without_rooms = commands.filter(lambda c: not any(isinstance(x, GoToRoom) for x in c.clauses))

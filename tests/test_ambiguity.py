@@ -120,7 +120,6 @@ def test_the_error_survives_pickling() -> None:
         "don't turn left",
         "do not stop",
         "never go through the first door",
-        "turn left, no, turn right",
         "turn left instead of right",
         "go through the first door on the left on the right",
         "go through the left door on the right",

@@ -51,8 +51,7 @@ def test_different_commands_have_different_tokens(one: Command, other: Command) 
 
 @given(without_rooms)
 def test_rows_after_the_last_clause_are_zero(command: Command) -> None:
-    verbs = encode(command)[:, 0]
-    assert np.all(verbs[: len(command.clauses)] > 0)
+    assert np.all(encode(command)[: len(command.clauses)].any(axis=1))
     assert not np.any(encode(command)[len(command.clauses) :])
 
 

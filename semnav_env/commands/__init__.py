@@ -7,6 +7,7 @@ from semnav_env.commands.clauses import (
     GoBack,
     GoToDoor,
     GoToRoom,
+    IfThere,
     Leave,
     Stop,
     Turn,
@@ -22,7 +23,7 @@ from semnav_env.commands.interpreters import (
     TemplateInterpreter,
 )
 from semnav_env.commands.paraphrases import paraphrases
-from semnav_env.commands.parser import parse, readings
+from semnav_env.commands.parser import correct, parse, readings
 from semnav_env.commands.program import from_program, to_program
 from semnav_env.commands.references import (
     LAST,
@@ -58,6 +59,7 @@ __all__ = [
     "GoToDoor",
     "GoToRoom",
     "GrammarInterpreter",
+    "IfThere",
     "Interpretation",
     "Interpreter",
     "Leave",
@@ -70,6 +72,7 @@ __all__ = [
     "Turn",
     "Turning",
     "Unit",
+    "correct",
     "decode",
     "encode",
     "from_program",

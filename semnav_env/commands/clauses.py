@@ -187,4 +187,23 @@ class Stop(_Said):
         return language.say("stop")
 
 
-Clause: TypeAlias = Follow | Turn | GoToDoor | GoToRoom | Leave | GoBack | Stop
+@dataclass(frozen=True, slots=True)
+class IfThere(_Said):
+    """Do the next clause only if something is there: "if you see the first door on the left, ...".
+
+    Attributes:
+        what: a door or a place ahead.
+        absent: do it only if it is not there.
+        otherwise: the clause after that one is for the other case.
+    """
+
+    what: DoorReference | PlaceReference
+    absent: bool = False
+    otherwise: bool = False
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        return language.say("if_not" if self.absent else "if", referent=self.what)
+
+
+Clause: TypeAlias = Follow | Turn | GoToDoor | GoToRoom | Leave | GoBack | Stop | IfThere

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import Enum
 from itertools import pairwise
 from typing import get_args
 
-from semnav_env.commands.clauses import Clause, Follow, GoToDoor, Turn
+from semnav_env.commands.clauses import Clause, Follow, GoToDoor, IfThere, Turn
 from semnav_env.commands.language import Language, language_of
 from semnav_env.commands.references import DoorReference, PlaceReference
 
@@ -41,6 +43,7 @@ class Command:
                 raise ValueError(f"a clause is one of {kinds}, not {clause!r}")
         if not 1 <= len(self.clauses) <= MAX_CLAUSES:
             raise ValueError(f"a command has 1 to {MAX_CLAUSES} clauses, not {len(self.clauses)}")
+        links_of(self.clauses)
 
     def __str__(self) -> str:
         return self.say()
@@ -56,12 +59,46 @@ class Command:
         """
         spoken = language_of(language)
         said = self.clauses[0].say(spoken)
+        links = links_of(self.clauses)
         last = len(self.clauses) - 2
         for index, (before, clause) in enumerate(pairwise(self.clauses)):
-            joint = spoken.say("comma" if index < last else "and")
-            anew = spoken.say("from_there") if may_count_on(before, clause) else ""
-            said += joint + anew + clause.say(spoken)
+            link = links[index + 1]
+            plain = link is Link.NEXT
+            joint = spoken.say("and" if plain and index == last else "comma")
+            anew = plain and may_count_on(before, clause)
+            adverb = spoken.say("from_there" if anew else link.value) if anew or not plain else ""
+            said += joint + adverb + clause.say(spoken)
         return said
+
+
+class Link(Enum):
+    """How a clause hangs on those before it; its value is the phrase that says so."""
+
+    NEXT = "next"
+    THEN = "in_that_case"
+    OTHERWISE = "otherwise"
+    IN_ANY_CASE = "in_any_case"
+
+
+def links_of(clauses: Sequence[Clause]) -> list[Link]:
+    """How each clause hangs on those before it.
+
+    Raises:
+        ValueError: a condition is not followed by the clauses that hang on it.
+    """
+    links: list[Link] = []
+    expected: list[Link] = []
+    for clause in clauses:
+        link = expected.pop(0) if expected else Link.NEXT
+        links.append(link)
+        if not isinstance(clause, IfThere):
+            continue
+        if link in (Link.THEN, Link.OTHERWISE):
+            raise ValueError("a condition cannot hang on another one")
+        expected = [Link.THEN, *[Link.OTHERWISE] * clause.otherwise, Link.IN_ANY_CASE]
+    if expected and expected != [Link.IN_ANY_CASE]:
+        raise ValueError("a condition is followed by what to do then, and otherwise if it says so")
+    return links
 
 
 def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
@@ -73,6 +110,8 @@ def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
             return at
         case GoToDoor(door):
             return door
+        case IfThere(what):
+            return what
         case _:
             return None
 

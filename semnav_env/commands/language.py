@@ -168,7 +168,7 @@ def languages() -> dict[str, Language]:
 
 
 def language_of(language: str | Language) -> Language:
-    """The language of a code or name, such as "en" or "english".
+    """The language of a code or a name, such as "de" or "german".
 
     Raises:
         ValueError: there is no such language; lists those there are.
@@ -178,4 +178,5 @@ def language_of(language: str | Language) -> Language:
     for known in languages().values():
         if language in (known.code, known.name):
             return known
-    raise ValueError(f"no language {language!r}; there are: {', '.join(sorted(languages()))}")
+    there = ", ".join(f"{known.code} ({known.name})" for known in languages().values())
+    raise ValueError(f"no language {language!r}; there are: {there}")

@@ -18,6 +18,7 @@ from semnav_env.commands.clauses import (
     GoBack,
     GoToDoor,
     GoToRoom,
+    IfThere,
     Leave,
     Stop,
     Turn,
@@ -27,12 +28,16 @@ from semnav_env.commands.language import Language
 from semnav_env.commands.parts import (
     EnterIt,
     Found,
+    Instead,
     OnThatSide,
+    Otherwise,
     Parts,
     Readings,
     at_reference,
+    correction,
     door_and_turn,
     members,
+    on_condition,
     one,
     ordinal_in,
     reference_in,
@@ -66,8 +71,34 @@ class _Meanings(Transformer[Token, list[Found]]):
 
     @v_args(meta=True)
     def clause(self, meta: Meta, parts: Parts) -> Found:
-        anew = any(isinstance(part, Token) for part in parts)
-        return Found(one(parts, tuple), meta.start_pos, meta.end_pos, anew)
+        adverbs = {part.type for part in parts if isinstance(part, Token)}
+        span = meta.start_pos, meta.end_pos
+        return Found(one(parts, tuple), *span, "FROM_THERE" in adverbs, "IN_ANY_CASE" in adverbs)
+
+    def if_there(self, parts: Parts) -> Readings:
+        return on_condition(IfThere(reference_in(parts)), one(parts, tuple))
+
+    def if_not(self, parts: Parts) -> Readings:
+        return on_condition(IfThere(reference_in(parts), absent=True), one(parts, tuple))
+
+    def if_open(self, parts: Parts) -> Readings:
+        return self.if_there([_first_open(reference_in(parts)), *parts])
+
+    def if_closed(self, parts: Parts) -> Readings:
+        return sure(GoToDoor(_first_open(reference_in(parts))))
+
+    def otherwise(self, parts: Parts) -> Readings:
+        readings = one(parts, tuple)
+        if any(len(steps) != 1 for steps in readings):
+            raise ValueError('one thing is done otherwise; begin the next with "in any case"')
+        return tuple((Otherwise(), *steps) for steps in readings)
+
+    def instead(self, parts: Parts) -> Readings:
+        return ((correction(one(parts, tuple)),),)
+
+    def instead_one(self, parts: Parts) -> Readings:
+        ordinal = next((part for part in parts if isinstance(part, int)), None)
+        return ((Instead(ordinal=ordinal, side=side_in(parts)),),)
 
     def follow(self, parts: Parts) -> Readings:
         return sure(Follow(reference_in(parts)))
@@ -259,6 +290,17 @@ class _Meanings(Transformer[Token, list[Found]]):
 
     def other(self, _: Parts) -> int:
         return OTHER
+
+
+def _first_open(door: DoorReference) -> DoorReference:
+    """The door that one takes who is told to look whether the first one is open.
+
+    Raises:
+        ValueError: it is another one than the first.
+    """
+    if door.ordinal != 1:
+        raise ValueError("closed doors look like walls and are not counted: say which open door")
+    return door
 
 
 def meanings_of(tree: Any, language: Language, rooms: dict[str, str]) -> list[Found]:

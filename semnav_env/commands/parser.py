@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from semnav_env.commands.clauses import GoToRoom
 from semnav_env.commands.command import MAX_CLAUSES, Command
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
-from semnav_env.commands.language import Language, language_of
+from semnav_env.commands.language import Language, language_of, languages
 from semnav_env.commands.normalise import NormalisedText, normalise
 from semnav_env.commands.rooms import plain_name
 from semnav_env.commands.suggest import nearest
@@ -45,16 +45,50 @@ def parse(text: str, language: str | Language = "en", rooms: Sequence[str] = ())
     return found[0]
 
 
+def correct(command: Command, text: str, language: str | Language = "en") -> Command:
+    """The command that another one becomes by a correction of its end: "no, the left one".
+
+    Raises:
+        CommandError: it is no correction of that.
+    """
+    return parse(f"{command.say(language)}, {text}", language)
+
+
 def readings(
     text: str, language: str | Language = "en", rooms: Sequence[str] = ()
 ) -> tuple[Command, ...]:
     """Everything that a text can mean; as `parse`, but more than one reading is no error."""
+    spoken = language_of(language)
+    try:
+        return _readings(text, spoken, rooms)
+    except CommandError as error:
+        others = (each for each in languages().values() if each is not spoken)
+        understood = next((each for each in others if _is_understood(text, each, rooms)), None)
+        if understood is None:
+            raise
+        raise _in_another(error, understood) from None
+
+
+def _is_understood(text: str, language: Language, rooms: Sequence[str]) -> bool:
+    try:
+        return bool(_readings(text, language, rooms))
+    except CommandError:
+        return False
+
+
+def _in_another(error: CommandError, language: Language) -> CommandError:
+    """The error of a text that a command of another language is."""
+    name = language.name
+    hint = f'this is {name.capitalize()}: say language="{name}", or --language {name}'
+    return CommandError(error.problem, error.text, error.position, error.length, hint=hint)
+
+
+def _readings(text: str, language: Language, rooms: Sequence[str]) -> tuple[Command, ...]:
     from lark import UnexpectedToken  # here, because Lark is slow to import
 
-    from semnav_env.commands.combine import NoDoorSpokenOfError, TooAmbiguousError, commands_of
+    from semnav_env.commands.combine import OutOfPlaceError, TooAmbiguousError, commands_of
     from semnav_env.commands.grammar import MeaninglessError, find_clauses
 
-    language = language_of(language)
     normalised = normalise(text, language)
     try:
         found = find_clauses(language, normalised.text, tuple(rooms))
@@ -64,7 +98,7 @@ def readings(
         raise _explained(unexpected, normalised, language) from None
     except MeaninglessError as error:
         raise _pointed(str(error), normalised, error.start, error.stop) from None
-    except NoDoorSpokenOfError as error:
+    except OutOfPlaceError as error:
         at = found[error.index]
         raise _pointed(str(error), normalised, at.start, at.stop) from None
     except TooAmbiguousError as error:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar, get_args
 
 from lark import Token
 
-from semnav_env.commands.clauses import Clause, Follow, GoToDoor, Turn, Turning
+from semnav_env.commands.clauses import Clause, Follow, GoToDoor, IfThere, Turn, Turning
 from semnav_env.commands.references import Distance, DoorReference, PlaceReference, Side
 
 T = TypeVar("T")
@@ -27,7 +27,27 @@ class OnThatSide:
     side: Side
 
 
-Steps: TypeAlias = tuple["Clause | EnterIt | OnThatSide", ...]
+@dataclass(frozen=True, slots=True)
+class Otherwise:
+    """What follows is for the other case of the condition before."""
+
+
+@dataclass(frozen=True, slots=True)
+class Instead:
+    """A correction of the clause before: "no, the second one on the left".
+
+    Attributes:
+        clause: what to do instead of it; None changes only what else is given.
+        ordinal: of its door or place.
+        side: of its door, or of its turn.
+    """
+
+    clause: Clause | None = None
+    ordinal: int | None = None
+    side: Side | None = None
+
+
+Steps: TypeAlias = tuple["Clause | EnterIt | OnThatSide | Otherwise | Instead", ...]
 Readings: TypeAlias = tuple[Steps, ...]
 """What a stretch of text can mean: each reading is some clauses in turn."""
 
@@ -41,12 +61,14 @@ class Found:
         start: where it begins in the text.
         stop: where it ends.
         anew: whether it says that counting begins anew.
+        in_any_case: whether it says that it hangs on no condition.
     """
 
     readings: Readings
     start: int
     stop: int
     anew: bool
+    in_any_case: bool = False
 
     @property
     def wants_side(self) -> bool:
@@ -63,8 +85,7 @@ class Found:
     def longest(self) -> int:
         """Number of clauses in the longest reading."""
         return max(
-            sum(not isinstance(step, EnterIt | OnThatSide) for step in each)
-            for each in self.readings
+            sum(isinstance(step, get_args(Clause)) for step in each) for each in self.readings
         )
 
 
@@ -81,6 +102,34 @@ def at_reference(reference: DoorReference | PlaceReference, steps: Steps) -> Rea
             aside = side in (None, Side(way.value))
             return (there, (through, *steps[1:])) if aside else (there,)
     return ((Follow(reference), *steps),)
+
+
+def on_condition(condition: IfThere, readings: Readings) -> Readings:
+    """The readings of "if you see the second door, ...".
+
+    Raises:
+        ValueError: more than one thing hangs on it.
+    """
+    if any(len(steps) != 1 for steps in readings):
+        raise ValueError('one thing hangs on a condition; begin the next with "in any case"')
+    return tuple((condition, *steps) for steps in readings)
+
+
+def correction(readings: Readings) -> Instead:
+    """What "no, ..." changes, by what follows it.
+
+    Raises:
+        ValueError: more than one clause.
+    """
+    asides = [step.side for steps in readings for step in steps if isinstance(step, OnThatSide)]
+    if asides:
+        return Instead(side=asides[0])
+    (step, *more), *others = readings
+    if isinstance(step, GoToDoor) and others:
+        return Instead(ordinal=step.door.ordinal, side=step.door.side)
+    if more or others or not isinstance(step, get_args(Clause)):
+        raise ValueError("one clause is corrected at a time")
+    return Instead(step)
 
 
 def door_and_turn(parts: Parts) -> tuple[DoorReference, Turn]:

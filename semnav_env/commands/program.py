@@ -76,7 +76,7 @@ def _read(name: str, part: object, where: str) -> Any:
     inside = f"{name} of {where}"
     if part is None and name in ("until", "at", "side", "degrees"):
         return None
-    if name in ("until", "at", "door"):
+    if name in _REFERRED:
         return _value(part, _REFERRED[name], inside)
     if name in _ENUMS:
         members = [member.value for member in _ENUMS[name]]
@@ -100,9 +100,12 @@ _REFERRED: dict[str, dict[str, Any]] = {
     "until": REFERENCES,
     "at": {"PlaceReference": PlaceReference},
     "door": {"DoorReference": DoorReference},
+    "what": {"DoorReference": DoorReference, "PlaceReference": PlaceReference},
 }
 _PLAIN: dict[str, Callable[[object], bool]] = {
     "past": lambda part: isinstance(part, bool),
+    "absent": lambda part: isinstance(part, bool),
+    "otherwise": lambda part: isinstance(part, bool),
     "name": lambda part: isinstance(part, str),
     "amount": lambda part: isinstance(part, int | float) and not isinstance(part, bool),
     "ordinal": lambda part: isinstance(part, int) and not isinstance(part, bool),

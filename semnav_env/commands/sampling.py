@@ -16,6 +16,7 @@ from semnav_env.commands.clauses import (
     Follow,
     GoBack,
     GoToDoor,
+    IfThere,
     Leave,
     Stop,
     Turn,
@@ -39,6 +40,9 @@ from semnav_env.commands.references import (
 
 T = TypeVar("T")
 
+CONDITIONAL = 0.1
+"""How often a sampled clause is a condition, where there is room for what hangs on it."""
+
 
 def sample_command(
     rng: np.random.Generator, max_clauses: int = MAX_CLAUSES, max_ordinal: int = MAX_ORDINAL
@@ -51,13 +55,19 @@ def sample_command(
         max_ordinal: the highest ordinal to use, 1 to `MAX_ORDINAL`.
     """
     number = int(rng.integers(1, max_clauses + 1))
-    return Command(tuple(sample_clause(rng, max_ordinal) for _ in range(number)))
+    clauses: list[Clause] = []
+    while len(clauses) < number:
+        if number - len(clauses) > 1 and rng.random() < CONDITIONAL:
+            clauses += _conditional(rng, max_ordinal, number - len(clauses) > 2)
+        else:
+            clauses.append(sample_clause(rng, max_ordinal))
+    return Command(tuple(clauses))
 
 
 def sample_clause(rng: np.random.Generator, max_ordinal: int = MAX_ORDINAL) -> Clause:
     """A random clause: each kind is equally likely, and each of its readings has a chance.
 
-    Rooms are left out, for their names belong to a building.
+    Rooms are left out, for their names belong to a building; conditions, for others hang on them.
     """
     kind = _choose(rng, (Follow, Turn, GoToDoor, Leave, GoBack, Stop))
     if kind is Follow:
@@ -69,6 +79,15 @@ def sample_clause(rng: np.random.Generator, max_ordinal: int = MAX_ORDINAL) -> C
     if kind is Stop:
         return Stop(_choose(rng, (0, int(rng.integers(1, MAX_SECONDS + 1)))))
     return Leave() if kind is Leave else GoBack()
+
+
+def _conditional(rng: np.random.Generator, max_ordinal: int, otherwise: bool) -> list[Clause]:
+    """A condition with what hangs on it."""
+    whats = (_door(rng, max_ordinal), _place(rng, max_ordinal))
+    what = whats[int(rng.integers(2))]
+    condition = IfThere(what, _choose(rng, (False, True)), otherwise and rng.random() < 0.5)
+    hanging = 2 if condition.otherwise else 1
+    return [condition, *(sample_clause(rng, max_ordinal) for _ in range(hanging))]
 
 
 def _follow(rng: np.random.Generator, max_ordinal: int) -> Follow:

@@ -18,6 +18,7 @@ from semnav_env.commands.clauses import (
     GoBack,
     GoToDoor,
     GoToRoom,
+    IfThere,
     Leave,
     Stop,
     Turn,
@@ -43,9 +44,12 @@ Row: TypeAlias = tuple[int, ...]
 
 
 class Verb(IntEnum):
-    """What a clause asks for, the first column."""
+    """What a clause asks for, the first column.
 
-    NONE = 0
+    A condition asks for nothing; its second column says in which case (`CASES`).
+    """
+
+    IF_THERE = 0
     FOLLOW = 1
     TURN = 2
     GO_TO = 3
@@ -59,6 +63,10 @@ class Verb(IntEnum):
 
 TURNINGS = (None, Turning.LEFT, Turning.RIGHT, Turning.AROUND)
 """The second column."""
+
+CASES = ((False, False), (False, True), (True, False), (True, True))
+"""The second column of a condition: whether it is for something absent, and whether it has an
+otherwise."""
 
 DOOR, DEGREES, SECONDS, ROOM = "door", "degrees", "seconds", "room"
 REFERENTS = (
@@ -97,7 +105,7 @@ def token_space() -> Box:
 
 def token_mask(tokens: ArrayLike) -> NDArray[np.bool_]:
     """Which rows of tokens hold a clause, shape (`MAX_CLAUSES`,)."""
-    return np.asarray(np.asarray(tokens).reshape(MAX_CLAUSES, CLAUSE_FEATURES)[:, 0] > 0)
+    return np.asarray(np.any(np.reshape(tokens, (MAX_CLAUSES, CLAUSE_FEATURES)), axis=1))
 
 
 def encode(command: Command, rooms: Sequence[str] = ()) -> IntArray:
@@ -156,6 +164,8 @@ def _row(clause: Clause, rooms: Sequence[str]) -> Row:
             return (Verb.LEAVE, 0, 0, 0, 0)
         case GoBack():
             return (Verb.GO_BACK, 0, 0, 0, 0)
+        case IfThere(what, absent, otherwise):
+            return (Verb.IF_THERE, CASES.index((absent, otherwise)), *_reference_row(what))
         case Stop(seconds):
             return (Verb.STOP, 0, REFERENTS.index(SECONDS) if seconds else 0, seconds, 0)
     raise TypeError(f"{clause!r} is no clause")
@@ -219,6 +229,8 @@ def _clause_of(row: Row, rooms: Sequence[str]) -> Clause | None:
         return Stop(number)
     reference = _reference(referent, number, side)
     match Verb(verb), TURNINGS[turning], reference:
+        case Verb.IF_THERE, _, DoorReference() | PlaceReference() as what:
+            return IfThere(what, *CASES[turning])
         case Verb.FOLLOW, _, Distance() | PlaceReference() | DoorReference() | None:
             return Follow(reference)
         case Verb.PASS, _, PlaceReference() | DoorReference():

@@ -89,10 +89,7 @@ def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | G
     Raises:
         GroundingError: the hallway ended before, or the side is open and doors on both fit.
     """
-    if reference.side in (Side.BEHIND, Side.OPPOSITE):
-        raise GroundingError(
-            f"{reference}: only doors to the left, to the right and ahead are found"
-        )
+    check_side(reference)
     doors = doors_along(situation.scene, situation.hallway, reference.side)
     if reference.ordinal <= OTHER and not situation.seen_to_end:
         return situation.seek(reference)
@@ -106,6 +103,18 @@ def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | G
     elif _may_hide_a_door(situation, reference.side, doors[index].along):
         return situation.seek(f"doors before {reference}", doors[index].along)
     return doors[index]
+
+
+def check_side(reference: DoorReference) -> None:
+    """Refuse a side on which no doors are found.
+
+    Raises:
+        GroundingError: it is one.
+    """
+    if reference.side in (Side.BEHIND, Side.OPPOSITE):
+        raise GroundingError(
+            f"{reference}: only doors to the left, to the right and ahead are found"
+        )
 
 
 def _index(reference: DoorReference, count: int) -> int:

@@ -6,12 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from semnav_env.commands import Command
-from semnav_env.commands.clauses import Follow, GoBack, GoToDoor, Turn, Turning
+from semnav_env.commands.clauses import Follow, GoBack, GoToDoor, IfThere, Turn, Turning
 from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.scene import Scene
+from semnav_env.grounding.conditions import after, hangs_on_condition, in_context, is_met
 from semnav_env.grounding.goal import Goal, GoalKind
-from semnav_env.grounding.ground import ground
-from semnav_env.grounding.situation import GroundingError
+from semnav_env.grounding.ground import goal_of
+from semnav_env.grounding.situation import GroundingError, Situation
 from semnav_env.grounding.ways import Guide, Told, Trail, Way
 
 STANDSTILL = 0.05
@@ -99,19 +100,27 @@ class Follower:
             self.goal = Goal(GoalKind.STOP, pose, because="done")
             return
         try:
-            self.goal = ground(
-                self.command.clauses[self.active],
-                scene,
-                self.begin,
-                pose if self._way else self._farthest,  # what was looked at stays so on coming back
-                complete=self.complete,
-                after_hallway=self._after_hallway,
-                way=self._way,
-            )
+            goal = self._ground(scene, pose)
             self.impossible = None
+            if isinstance(goal, Goal):
+                self.goal = goal
+            else:
+                self.active = after(self.command.clauses, self.active, goal)
+                self._begin_clause(scene, self.begin, pose)
         except GroundingError as error:
             self.impossible = str(error)
             self.goal = Goal(GoalKind.STOP, pose, because=self.impossible)
+
+    def _ground(self, scene: Scene, pose: Pose) -> Goal | bool:
+        """The goal of the active clause, or whether its condition is met."""
+        here = pose if self._way else self._farthest  # what was looked at stays so on coming back
+        situation = Situation(
+            scene, self.begin, here, self.complete, self._after_hallway, self._way
+        )
+        clause = in_context(self.command.clauses, self.active)
+        return (
+            is_met(clause, situation) if isinstance(clause, IfThere) else goal_of(clause, situation)
+        )
 
     def skip_to_next(self, scene: Scene) -> None:
         """Take the active clause for done."""
@@ -119,7 +128,7 @@ class Follower:
 
     def _begin_next(self, scene: Scene, pose: Pose) -> None:
         """Begin where the clause before leads, so that counting does not depend on the driving."""
-        self.active += 1
+        self.active = after(self.command.clauses, self.active)
         self._begin_clause(scene, self.goal.onward or self.goal.pose, pose)
 
     def _begin_clause(self, scene: Scene, begin: Pose, pose: Pose) -> None:
@@ -140,6 +149,8 @@ class Follower:
         clauses = self.command.clauses
         if clauses[index] != Follow() or index + 1 == len(clauses):
             return False
+        if hangs_on_condition(clauses, index):
+            return False
         following = clauses[index + 1]
         on_the_spot = isinstance(following, Turn) and following.degrees is not None
         return isinstance(following, Follow | Turn | GoToDoor) and not on_the_spot
@@ -149,6 +160,8 @@ class Follower:
         """Whether a bare turn means the next place that offers it, not here."""
         if self.active == 0:
             return False
+        if hangs_on_condition(self.command.clauses, self.active - 1):
+            return False  # it may not have been done
         before, clause = self.command.clauses[self.active - 1 : self.active + 1]
         aside = isinstance(clause, Turn) and clause.turning is not Turning.AROUND
         passed = isinstance(before, Follow) and before.past and aside

@@ -8,6 +8,7 @@ from semnav_env.commands.clauses import (
     GoBack,
     GoToDoor,
     GoToRoom,
+    IfThere,
     Leave,
     Stop,
     Turn,
@@ -18,7 +19,7 @@ from semnav_env.grounding.doors import ground_door, ground_leave
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.junctions import ground_follow, ground_turn
 from semnav_env.grounding.rooms import ground_way
-from semnav_env.grounding.situation import Situation
+from semnav_env.grounding.situation import GroundingError, Situation
 from semnav_env.grounding.ways import Way
 
 
@@ -51,7 +52,15 @@ def ground(
         GroundingError: the referent cannot be there; the message says what is.
     """
     here = begin if pose is None else pose
-    situation = Situation(scene, begin, here, complete, after_hallway, way)
+    return goal_of(clause, Situation(scene, begin, here, complete, after_hallway, way))
+
+
+def goal_of(clause: Clause, situation: Situation) -> Goal:
+    """The goal of a clause in a situation; see `ground`.
+
+    Raises:
+        GroundingError: the referent cannot be there, or the clause is a condition.
+    """
     match clause:
         case GoToDoor():
             return ground_door(clause, situation)
@@ -63,6 +72,8 @@ def ground(
             return ground_leave(situation)
         case GoToRoom() | GoBack():
             return ground_way(clause, situation)
+        case IfThere():
+            raise GroundingError(f"{clause}: a condition leads nowhere by itself")
         case Stop():
             wait = float(clause.seconds)
             return Goal(GoalKind.STOP, situation.begin, because=str(clause), wait=wait)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from semnav_env.commands import Command, parse
+from semnav_env.commands.language import language_of
 from semnav_env.directory import Directory
 from semnav_env.features.frames import Pose, wrap_angle
 from semnav_env.features.hallway import hallway
@@ -58,7 +59,8 @@ class CommandTask:
         """Choose or check the start pose and the command of an episode.
 
         Args:
-            options: "command" (text or `Command`) and "pose" (x, y, heading), each optional.
+            options: "command" (text or `Command`), "language" (of the text; "en") and "pose" (x, y,
+                heading), each optional.
             rng: for what is not given.
 
         Returns:
@@ -67,7 +69,7 @@ class CommandTask:
         Raises:
             ValueError: the pose is not free, or the command is not understood or not feasible.
         """
-        command = _command(options.get("command"), self.floor_plan.room_names)
+        command = _command(options, self.floor_plan.room_names)
         pose = _pose(options.get("pose"))
         if pose is not None:
             error = placement_error(self.floor_plan, self.robot, pose)
@@ -131,11 +133,12 @@ class CommandTask:
         raise AssertionError("count() never ends")
 
 
-def _command(given: object, rooms: tuple[str, ...]) -> Command | None:
+def _command(options: dict[str, Any], rooms: tuple[str, ...]) -> Command | None:
+    given, language = options.get("command"), language_of(options.get("language", "en"))
     if given is None or isinstance(given, Command):
         return given
     if isinstance(given, str):
-        return parse(given, rooms=rooms)
+        return parse(given, language, rooms)
     raise ValueError(f"a command is text or a Command, not {type(given).__name__}")
 
 
