@@ -24,8 +24,11 @@ from semnav_env.senses import Senses, join_senses, observe
 LOOK_EVERY, TURN_EVERY = 1.5, 0.5
 """A clause is grounded anew after so many metres, or so many radians, on the way."""
 
-CHECK_DOORS, CHECK_WALLS = 5, 30
-"""And after so many steps, if more doors count by then; or more walls."""
+CHECK_DOORS, CHECK_REST = 5, 30
+"""And after so many steps, if more doors count by then; or more walls, or if it has moved."""
+
+STIRRED = 0.2
+"""Less than this is not moved, metres."""
 
 FIRST_SCANS = 3
 """After so many scans the first features count, see `SceneMemory`."""
@@ -149,7 +152,8 @@ class Perception:
 
     def _should_look(self, pose: Pose, step: int) -> bool:
         x, y, heading = self._looked_from
-        if (pose[0] - x) ** 2 + (pose[1] - y) ** 2 > LOOK_EVERY**2:
+        moved = (pose[0] - x) ** 2 + (pose[1] - y) ** 2
+        if moved > LOOK_EVERY**2:
             return True
         if abs(math.remainder(pose[2] - heading, math.tau)) > TURN_EVERY:
             return True
@@ -158,9 +162,8 @@ class Perception:
             return False
         walls, doors = self.memory.size
         known_walls, known_doors = self._looked_on
-        return doors != known_doors or (
-            walls != known_walls and (since >= CHECK_WALLS or step == FIRST_SCANS)
-        )
+        differs = walls != known_walls or moved > STIRRED**2
+        return doors != known_doors or (differs and (since >= CHECK_REST or step == FIRST_SCANS))
 
     def _note_look(self, pose: Pose, step: int) -> None:
         self._looked_from, self._looked_at, self._looked_on = pose, step, self.memory.size

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 import sys
 from itertools import product
@@ -13,6 +14,7 @@ from gymnasium.utils.env_checker import check_env
 
 from semnav_env.commands import CommandError
 from semnav_env.env import SemNavEnv
+from semnav_env.features.memory import SceneMemory
 from semnav_env.grounding import GroundingError
 from semnav_env.maps import bundled_names
 from semnav_env.observations import MODES
@@ -63,6 +65,22 @@ def test_standing_still_ends_as_stopped_short() -> None:
         if terminated:
             break
     assert info["verdicts"] == ("stopped short",)
+
+
+def test_a_robot_that_came_to_rest_has_looked_from_there(monkeypatch) -> None:
+    """What it could not see on the way it may see from where it stands now."""
+    env = fresh("semantic", command="go to the end of the hallway", pose=START["pose"])
+    monkeypatch.setattr(SceneMemory, "size", property(lambda memory: (1, 1)))  # nothing new
+    follower, looked_from = env.perception.follower, []
+    look = follower.look
+    monkeypatch.setattr(
+        follower, "look", lambda scene, pose: (looked_from.append(pose), look(scene, pose))
+    )
+    for forward in np.repeat((0.0, 0.3, 0.0), (60, 20, 60)):
+        env.step(np.array([forward, 0.0], dtype=np.float32))
+    at_rest = env.odometry.pose
+    assert math.hypot(*at_rest[:2]) > 0.4
+    assert math.dist(looked_from[-1][:2], at_rest[:2]) < 0.2
 
 
 def test_driving_into_a_wall_is_counted_once() -> None:
