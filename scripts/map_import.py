@@ -10,7 +10,7 @@ from tyro.conf import Positional
 
 from semnav_env.features.plot import check_suffix
 from semnav_env.maps import save_floor_plan
-from semnav_env.maps.importers import Tracing, import_map
+from semnav_env.maps.importers import Drawing, Tracing, import_map
 
 
 @dataclass(frozen=True)
@@ -18,13 +18,15 @@ class Import:
     """Make a floor plan of somebody else's map, and say what was understood of it.
 
     Reads maps of ROS's map_server (.yaml, with doors.yaml and locations.yaml beside it if there
-    are any; or the image alone), vector maps (.json), and lists of wall segments (.csv).
+    are any; or the image alone), drawings (.dxf, .svg), vector maps and houses of HouseExpo
+    (.json), and lists of wall segments (.csv).
 
     Attributes:
         source: the map.
         out: the floor plan to write (.geojson).
         resolution: of an image alone, metres a pixel.
         tracing: how walls are made of the pixels of an occupancy map.
+        drawing: scale and layers of a drawing.
         picture: of the plan (.png, .pdf or .svg).
         json: print the report as JSON.
     """
@@ -33,6 +35,7 @@ class Import:
     out: Path
     resolution: float | None = None
     tracing: Tracing = field(default_factory=Tracing)
+    drawing: Drawing = field(default_factory=Drawing)
     picture: Path | None = None
     json: bool = False
 
@@ -42,7 +45,7 @@ class Import:
             raise ValueError(f"--out is the map itself, {self.source}; give another file")
         if self.picture:
             check_suffix(self.picture)
-        plan, report = import_map(self.source, self.resolution, self.tracing)
+        plan, report = import_map(self.source, self.resolution, self.tracing, self.drawing)
         self.out.parent.mkdir(parents=True, exist_ok=True)
         save_floor_plan(plan, self.out)
         if self.picture:

@@ -1,13 +1,17 @@
-"""Floor plans from other people's maps: occupancy maps of ROS, vector maps, labelled buildings."""
+"""Floor plans from other people's maps: occupancy maps, vector maps, buildings, drawings."""
 
 from semnav_env.maps.importers.building import load_building
+from semnav_env.maps.importers.drawing import Drawing
+from semnav_env.maps.importers.dxf import load_dxf
 from semnav_env.maps.importers.imported import Imported, ImportReport
 from semnav_env.maps.importers.occupancy import OccupancyMap, OccupancySpec, read_occupancy
 from semnav_env.maps.importers.opening import import_map
 from semnav_env.maps.importers.segments import load_csv, load_vector_map
+from semnav_env.maps.importers.svg import load_svg
 from semnav_env.maps.importers.tracing import Tracing, trace
 
 __all__ = [
+    "Drawing",
     "ImportReport",
     "Imported",
     "OccupancyMap",
@@ -16,6 +20,8 @@ __all__ = [
     "import_map",
     "load_building",
     "load_csv",
+    "load_dxf",
+    "load_svg",
     "load_vector_map",
     "read_occupancy",
     "trace",

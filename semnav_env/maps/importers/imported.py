@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from shapely import Polygon, box
@@ -31,6 +31,10 @@ class ImportReport:
     taken: dict[str, int]
     left_out: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+
+    def with_left_out(self, more: Sequence[str]) -> ImportReport:
+        """The report with further lines of what was left out."""
+        return replace(self, left_out=(*self.left_out, *more))
 
     def __str__(self) -> str:
         """As lines of text."""

@@ -2,32 +2,44 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 from semnav_env.maps.importers.building import load_building
+from semnav_env.maps.importers.documents import read_text
+from semnav_env.maps.importers.drawing import Drawing
+from semnav_env.maps.importers.dxf import load_dxf
+from semnav_env.maps.importers.house_expo import is_house, plan_of_house
 from semnav_env.maps.importers.imported import Imported
 from semnav_env.maps.importers.occupancy import IMAGES, read_occupancy
 from semnav_env.maps.importers.segments import load_csv, load_vector_map
+from semnav_env.maps.importers.svg import load_svg
 from semnav_env.maps.importers.tracing import Tracing, trace
 from semnav_env.maps.rules import FloorPlanError
 
 KINDS = (
     "a map_server map (.yaml, or its image with a resolution)",
-    "a vector map (.json)",
+    "a vector map or a house of HouseExpo (.json)",
     "a list of segments (.csv)",
+    "a drawing (.dxf, .svg)",
 )
 
 
 def import_map(
-    path: str | Path, resolution: float | None = None, tracing: Tracing | None = None
+    path: str | Path,
+    resolution: float | None = None,
+    tracing: Tracing | None = None,
+    drawing: Drawing | None = None,
 ) -> Imported:
     """A floor plan from somebody else's map, by the suffix of its file.
 
     Args:
         path: .yaml or .yml of ROS's map_server, with the labels beside it if there are any; its
-            image alone; .json with the segments of a vector map; or .csv or .txt with segments.
+            image alone; .json with the segments of a vector map or a house of HouseExpo; .csv or
+            .txt with segments; .dxf or .svg.
         resolution: metres per pixel of an image alone.
         tracing: how walls are made of the pixels of an occupancy map.
+        drawing: scale and layers of a drawing; of a house, only the scale is used.
 
     Returns:
         The plan, and what was understood.
@@ -43,8 +55,20 @@ def import_map(
         raise FloorPlanError(f"{where}: only an image alone needs a resolution; leave it out")
     if suffix in (".yaml", ".yml"):
         return load_building(where, tracing)
+    if suffix in (".dxf", ".svg"):
+        return (load_dxf if suffix == ".dxf" else load_svg)(where, drawing)
     if suffix == ".json":
-        return load_vector_map(where)
+        return _load_json(where, drawing.scale if drawing else None)
     if suffix in (".csv", ".txt"):
         return load_csv(where)
     raise FloorPlanError(f"{where}: no map of a known kind; give {', '.join(KINDS)}")
+
+
+def _load_json(path: Path, scale: float | None) -> Imported:
+    """A house of HouseExpo or a vector map, by what the file holds."""
+    text = read_text(path)
+    try:
+        content = json.loads(text)
+    except (ValueError, RecursionError):
+        content = None  # the reader of vector maps says what is wrong
+    return plan_of_house(content, path, scale) if is_house(content) else load_vector_map(path)

@@ -1,0 +1,157 @@
+"""Plans from line drawings: strokes on layers, walls on some of them, doors on others."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from shapely import STRtree
+
+from semnav_env.features.frames import FloatArray, Point
+from semnav_env.maps.importers.building_doors import with_doors
+from semnav_env.maps.importers.fitting import fit_door
+from semnav_env.maps.importers.imported import Imported
+from semnav_env.maps.importers.labels import DoorLabel
+from semnav_env.maps.importers.segments import Row, plan_of_segments
+from semnav_env.maps.rules import FloorPlanError
+
+FLAT = 0.01
+"""Curves become lines that lie at most this far beside them, metres."""
+
+LARGEST = 1000.0
+"""Extent of a drawing beyond which its scale must be wrong, metres."""
+
+MOST = 49_000
+"""More segments are not read; a floor plan file holds 50,000 positions."""
+
+LEAVES = (0.5, 2.2)
+"""Narrowest and widest leaf of a door, metres."""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """How a line drawing (DXF, SVG) is read.
+
+    Attributes:
+        scale: metres a unit of the drawing, if the file does not say (0.001 for millimetres).
+        walls: layers with walls; all but those of doors if none are named.
+        doors: layers with doors: arcs that leaves swing along, or lines from jamb to jamb.
+
+    Raises:
+        FloorPlanError: a scale out of range.
+    """
+
+    scale: float | None = None
+    walls: tuple[str, ...] = ()
+    doors: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.scale is not None and not 1e-6 <= self.scale <= 1e3:
+            raise FloorPlanError(f"scale is {self.scale}; it must be 1e-6 to 1000 metres a unit")
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """A line of a drawing.
+
+    Attributes:
+        layer: that it is drawn on.
+        points: along it, shape (n, 2), metres.
+        hinge: the centre, if it is an arc.
+    """
+
+    layer: str
+    points: FloatArray
+    hinge: Point | None = None
+
+
+def plan_of_strokes(
+    strokes: Sequence[Stroke], drawing: Drawing, path: Path, kind: str, notes: tuple[str, ...] = ()
+) -> Imported:
+    """The walls and doors of a drawing; its lower left corner becomes the origin.
+
+    Raises:
+        FloorPlanError: no such layer, no wall on it, or a drawing that is too large.
+    """
+    layers = Counter(stroke.layer for stroke in strokes)
+    there = ", ".join(f"{name or '(none)'} ({count})" for name, count in sorted(layers.items()))
+    for name in (*drawing.walls, *drawing.doors):
+        if name not in layers:
+            raise FloorPlanError(
+                f"{path}: no layer {name!r} with lines; there are: {there or 'none'}"
+            )
+    chosen = drawing.walls or tuple(name for name in layers if name not in drawing.doors)
+    walls = [stroke for stroke in strokes if stroke.layer in chosen]
+    if not walls:
+        raise FloorPlanError(f"{path}: no line that could be a wall; layers: {there or 'none'}")
+    corner = _corner(walls, path)
+    rows = [row for stroke in walls for row in _rows(stroke.points - corner)]
+    if len(rows) > MOST:
+        raise FloorPlanError(
+            f"{path}: {len(rows):,} segments; at most {MOST:,} are read: name the layers with "
+            f"walls; there are: {there}"
+        )
+    plan, report = plan_of_segments(rows, path, kind)
+    drawn = [stroke for stroke in strokes if stroke.layer in drawing.doors]
+    plan, lost = with_doors(plan, door_labels(drawn, corner, plan.solids), None)
+    unused = [name for name in layers if name not in (*chosen, *drawing.doors)]
+    left = tuple(f"layer {name}: {layers[name]} lines" for name in sorted(unused))
+    taken = report.taken | ({"doors": len(plan.doors)} if drawing.doors else {})
+    told = (f"lower left corner, now the origin, at {corner[0]:g}, {corner[1]:g} m", *notes)
+    return Imported(
+        plan, replace(report, taken=taken, left_out=report.left_out + left + lost, notes=told)
+    )
+
+
+def door_labels(
+    strokes: Sequence[Stroke], corner: FloatArray, walls: STRtree
+) -> tuple[DoorLabel, ...]:
+    """Doors from the arcs that leaves swing along; without any, from lines from jamb to jamb.
+
+    A leaf may be drawn open or closed, so of the two ends of its arc that is taken for the other
+    jamb from which the walls show a gap to the hinge.
+    """
+    swings = [stroke for stroke in strokes if stroke.hinge is not None]
+    pairs: list[list[tuple[Point, Point]]] = []
+    for stroke in swings or strokes:
+        first, last = (_point(stroke.points[k] - corner) for k in (0, -1))
+        hinge = None if stroke.hinge is None else _point(np.array(stroke.hinge) - corner)
+        pairs.append([(first, last)] if hinge is None else [(hinge, first), (hinge, last)])
+    labels = []
+    for number, ways in enumerate(pairs, 1):
+        right = [way for way in ways if LEAVES[0] <= math.dist(*way) <= LEAVES[1]]
+        doors = [DoorLabel(f"door {number}", *way) for way in right]
+        labels += sorted(doors, key=lambda door: not _is_open(door, walls))[:1]
+    return tuple(labels)
+
+
+def _is_open(door: DoorLabel, walls: STRtree) -> bool:
+    fit = fit_door(door, walls)
+    return fit is not None and fit.open
+
+
+def _corner(strokes: Sequence[Stroke], path: Path) -> FloatArray:
+    points = np.concatenate([stroke.points for stroke in strokes])
+    low, high = points.min(axis=0), points.max(axis=0)
+    if not np.isfinite(points).all():
+        raise FloorPlanError(f"{path}: has coordinates that are not finite")
+    if (high - low).max() > LARGEST:
+        width, height = high - low
+        raise FloorPlanError(
+            f"{path}: {width:,.0f} x {height:,.0f} m; at most {LARGEST:,.0f} m are read: give the "
+            "scale, metres a unit, such as 0.001 for millimetres"
+        )
+    return np.asarray(low)
+
+
+def _rows(points: FloatArray) -> list[Row]:
+    return [(a, b, c, d) for (a, b), (c, d) in pairwise(points.tolist())]
+
+
+def _point(values: FloatArray) -> Point:
+    return float(values[0]), float(values[1])

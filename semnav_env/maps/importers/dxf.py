@@ -1,0 +1,128 @@
+"""Drawings of AutoCAD and its kin (DXF), read with ezdxf."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from semnav_env.maps.importers.documents import MAX_BYTES
+from semnav_env.maps.importers.drawing import FLAT, Drawing, Stroke, plan_of_strokes
+from semnav_env.maps.importers.imported import Imported
+from semnav_env.maps.rules import FloorPlanError
+
+CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
+
+DEEPEST, MOST = 8, 200_000
+"""Blocks within blocks, and entities, beyond which a drawing is refused."""
+
+
+def load_dxf(path: str | Path, drawing: Drawing | None = None) -> Imported:
+    """The floor plan of a DXF drawing: lines, polylines and curves of its model space.
+
+    Blocks are resolved; what a block draws on layer 0 belongs to the layer it is inserted on.
+    Layers that are off or frozen are left out unless they are named. Units are those of the
+    header's $INSUNITS.
+
+    Args:
+        path: the file.
+        drawing: scale and layers.
+
+    Raises:
+        FloorPlanError: names the file, what is wrong and what would be right.
+    """
+    where, drawing = Path(path), drawing or Drawing()
+    document = _read(where)
+    scale = drawing.scale or _metres(document, where)
+    named = (*drawing.walls, *drawing.doors)
+    hidden = {
+        layer.dxf.name
+        for layer in document.layers
+        if (layer.is_off() or layer.is_frozen()) and layer.dxf.name not in named
+    }
+    strokes: list[Stroke] = []
+    left: Counter[str] = Counter()
+    for count, (layer, entity) in enumerate(_entities(document.modelspace(), None, where)):
+        if count >= MOST:
+            raise FloorPlanError(f"{where}: more than {MOST:,} entities; export the walls alone")
+        if layer in hidden:
+            left[f"lines on layer {layer}, which is off"] += 1
+        elif entity.dxftype() in CURVES and (stroke := _stroke(entity, layer, scale)):
+            strokes.append(stroke)
+        else:
+            left[entity.dxftype()] += 1
+    plan, report = plan_of_strokes(
+        strokes, drawing, where, "DXF drawing", (f"{scale:g} m a unit of the drawing",)
+    )
+    lost = tuple(f"{count} {what}" for what, count in sorted(left.items()))
+    return Imported(plan, report.with_left_out(lost))
+
+
+def _read(path: Path) -> Any:
+    try:
+        from ezdxf import recover
+        from ezdxf.lldxf.const import DXFError
+    except ImportError:
+        raise FloorPlanError("DXF needs ezdxf: pip install 'semnav-env[import]'") from None
+    try:
+        size = path.stat().st_size
+        if size > MAX_BYTES:
+            raise FloorPlanError(f"{path}: {size:,} bytes; at most {MAX_BYTES:,} are read")
+        document, _ = recover.readfile(path)
+    except OSError as error:
+        raise FloorPlanError(f"{path}: cannot be read: {error.strerror or error}") from None
+    except (DXFError, ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
+        if isinstance(error, FloorPlanError):
+            raise
+        raise FloorPlanError(f"{path}: no DXF drawing: {str(error).splitlines()[0]}") from None
+    return document
+
+
+def _metres(document: Any, path: Path) -> float:
+    """Metres a unit, as the header says."""
+    from ezdxf.enums import InsertUnits
+    from ezdxf.units import conversion_factor
+
+    unit = document.units
+    if unit not in [known.value for known in InsertUnits] or unit == InsertUnits.Unitless:
+        raise FloorPlanError(
+            f"{path}: the header does not say in which units it is drawn ($INSUNITS); give the "
+            "scale, metres a unit: 0.001 for millimetres, 0.0254 for inches"
+        )
+    return float(conversion_factor(InsertUnits(unit), InsertUnits.Meters))
+
+
+def _entities(
+    layout: Iterable[Any], within: str | None, path: Path, depth: int = 0
+) -> Iterator[tuple[str, Any]]:
+    """Layer and entity, those of blocks included."""
+    if depth > DEEPEST:
+        raise FloorPlanError(f"{path}: blocks within blocks more than {DEEPEST} deep; explode them")
+    for entity in layout:
+        own = entity.dxf.get("layer", "0")
+        layer = within if own == "0" and within is not None else own
+        if entity.dxftype() != "INSERT":
+            yield layer, entity
+            continue
+        for insert in entity.multi_insert() if entity.mcount > 1 else (entity,):
+            yield from _entities(insert.virtual_entities(), layer, path, depth + 1)
+
+
+def _stroke(entity: Any, layer: str, scale: float) -> Stroke | None:
+    """The entity as points; None if it is no curve after all, such as a mesh."""
+    from ezdxf.path import make_path
+
+    try:
+        corners = [(v.x, v.y) for v in make_path(entity).flattening(FLAT / scale)]
+    except TypeError:
+        return None
+    if len(corners) < 2:
+        return None
+    hinge = None
+    if entity.dxftype() == "ARC":
+        centre = entity.ocs().to_wcs(entity.dxf.center)
+        hinge = (centre.x * scale, centre.y * scale)
+    return Stroke(layer, scale * np.array(corners), hinge)

@@ -1,0 +1,124 @@
+"""Drawings in SVG, read with svgelements."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import ParseError
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray, Point
+from semnav_env.maps.importers.documents import read_text
+from semnav_env.maps.importers.drawing import FLAT, Drawing, Stroke, plan_of_strokes
+from semnav_env.maps.importers.imported import Imported
+from semnav_env.maps.rules import FloorPlanError
+
+LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
+
+
+def load_svg(path: str | Path, drawing: Drawing | None = None) -> Imported:
+    """The floor plan of an SVG drawing: the outlines of all its shapes.
+
+    A layer is an outermost group, by its Inkscape label or its id. What is not displayed, text
+    and images are left out. y points down in the file and up in the plan.
+
+    Args:
+        path: the file.
+        drawing: layers, and the scale: metres a unit of the file's own coordinates (its viewBox).
+
+    Raises:
+        FloorPlanError: names the file, what is wrong and what would be right.
+    """
+    where, drawing = Path(path), drawing or Drawing()
+    picture = _read(where)
+    if drawing.scale is None:
+        raise FloorPlanError(
+            f"{where}: an SVG does not say how large the building is; give the scale, metres a "
+            "unit of its coordinates, such as 0.01"
+        )
+    unit = drawing.scale / _stretch(picture)
+    strokes: list[Stroke] = []
+    left: Counter[str] = Counter()
+    for layer, shape in _shapes(picture, None):
+        drawn = list(_strokes(shape, layer, unit))
+        strokes += drawn
+        if not drawn:
+            left[type(shape).__name__.lower()] += 1
+    notes = (f"{drawing.scale:g} m a unit of the drawing",)
+    plan, report = plan_of_strokes(strokes, drawing, where, "SVG drawing", notes)
+    lost = tuple(f"{count} {what}" for what, count in sorted(left.items()))
+    return Imported(plan, report.with_left_out(lost))
+
+
+def _read(path: Path) -> Any:
+    try:
+        from svgelements import SVG
+    except ImportError:
+        raise FloorPlanError("SVG needs svgelements: pip install 'semnav-env[import]'") from None
+    text = read_text(path)
+    if "<!ENTITY" in text:
+        raise FloorPlanError(f"{path}: defines entities; save it as plain SVG")
+    try:
+        picture = SVG.parse(io.StringIO(text))
+    except (ParseError, ValueError, TypeError, AttributeError, IndexError, RecursionError) as error:
+        raise FloorPlanError(f"{path}: no SVG drawing: {error}") from None
+    if "<svg" not in text:
+        raise FloorPlanError(f"{path}: no SVG drawing: it has no <svg> element")
+    return picture
+
+
+def _stretch(picture: Any) -> float:
+    """How many pixels svgelements makes of a unit of the file's coordinates."""
+    box = picture.viewbox
+    sides = [(picture.width, box and box.width), (picture.height, box and box.height)]
+    shares = [float(size) / float(inner) for size, inner in sides if size and inner]
+    return min(shares, default=1.0) or 1.0
+
+
+def _shapes(group: Any, layer: str | None) -> Iterator[tuple[str, Any]]:
+    from svgelements import Group
+
+    for child in group:
+        if isinstance(child, Group):
+            told = child.values.get("attributes", {})
+            yield from _shapes(child, layer or told.get(LABEL) or child.id or None)
+        else:
+            yield layer or "", child
+
+
+def _strokes(shape: Any, layer: str, unit: float) -> Iterator[Stroke]:
+    """Each unbroken line of a shape; nothing if it is none."""
+    from svgelements import Arc, Path, Shape
+
+    if not isinstance(shape, Shape):
+        return
+    for part in Path(shape).as_subpaths():
+        pieces = [piece for piece in part if piece.start is not None and piece.end is not None]
+        points = [_flat(piece, unit) for piece in pieces]
+        if not points:
+            continue
+        arcs = [piece for piece in pieces if isinstance(piece, Arc)]
+        if len(arcs) == 1 and len(pieces) < 4:
+            yield Stroke(layer, _flat(arcs[0], unit), _placed(arcs[0].center, unit))
+        elif len(np.unique(line := np.concatenate(points), axis=0)) > 1:
+            yield Stroke(layer, line)
+
+
+def _flat(piece: Any, unit: float) -> FloatArray:
+    """A piece of a path as points, metres."""
+    from svgelements import Close, Line
+
+    if isinstance(piece, Line | Close):
+        return np.array([_placed(piece.start, unit), _placed(piece.end, unit)])
+    length = unit * float(piece.length(error=1e-3))
+    steps = min(200, max(2, math.ceil(length / math.sqrt(8.0 * FLAT))))
+    return np.array([_placed(piece.point(k / steps), unit) for k in range(steps + 1)])
+
+
+def _placed(point: Any, unit: float) -> Point:
+    return unit * float(point.x), -unit * float(point.y)
