@@ -88,15 +88,11 @@ def _outside(plan: FloorPlan) -> Iterator[Finding]:
     inside = plan.boundary.buffer(TOUCH)
     shapely.prepare(inside)
     for surface in plan.surfaces:
-        if surface.material is Material.FURNITURE and not inside.covers(_shape(surface)):
-            at = surface.points[0]
+        line = LineString(surface.points)
+        if surface.material is Material.FURNITURE and not inside.covers(line):
+            at = point_in(line.difference(inside))
             problem = f"furniture at {written(at)} reaches out of the building; move it"
             yield Finding(plan.name, problem, at)
-
-
-def _shape(surface: Surface) -> Polygon | LineString:
-    closed = len(surface.points) > 3 and surface.points[0] == surface.points[-1]
-    return Polygon(surface.points) if closed else LineString(surface.points)
 
 
 def _surfaces(plan: FloorPlan, area: Polygon) -> list[Surface]:

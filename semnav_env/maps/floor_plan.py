@@ -142,6 +142,18 @@ class FloorPlan:
         """Spatial index of `segments`, in the same order, for offline queries."""
         return STRtree(linestrings(self.segments.reshape(-1, 2, 2)))
 
+    @cached_property
+    def furniture(self) -> STRtree:
+        """Spatial index of the areas of closed furniture, in which nothing else can be."""
+        closed = [
+            surface.points
+            for surface in self.surfaces
+            if surface.material is Material.FURNITURE
+            and len(surface.points) > 3
+            and surface.points[0] == surface.points[-1]
+        ]
+        return STRtree([Polygon(points) for points in closed])
+
     @property
     def regions(self) -> tuple[Region, ...]:
         """All rooms, corridors, intersections and open areas."""

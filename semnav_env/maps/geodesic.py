@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
+from shapely import Polygon
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.floor_plan import FloorPlan
@@ -87,7 +88,22 @@ class Geodesic:
         free = np.asarray(shapely.contains_xy(floor_plan.boundary, x, y), dtype=bool)
         reach = self._clearance - 1e-9  # what is exactly so far away is free
         clear_near(free, floor_plan.segments, *self.origin, SPACING, reach)
+        for piece in floor_plan.furniture.geometries:
+            self._block_inside(free, piece)
         return free
+
+    def _block_inside(self, free: NDArray[np.bool_], piece: Polygon) -> None:
+        """No way begins or ends inside a piece of furniture."""
+        west, south, east, north = piece.bounds
+        rows, columns = (
+            np.arange(
+                math.ceil((low - origin) / SPACING), math.floor((high - origin) / SPACING) + 1
+            )
+            for low, high, origin in ((south, north, self.origin[1]), (west, east, self.origin[0]))
+        )
+        x, y = np.meshgrid(self.origin[0] + SPACING * columns, self.origin[1] + SPACING * rows)
+        row, column = np.nonzero(shapely.contains_xy(piece, x, y))
+        free[rows[row], columns[column]] = False
 
     @cached_property
     def _graph(self) -> coo_matrix:

@@ -8,8 +8,8 @@ import numpy as np
 import shapely
 from shapely import Polygon
 
-from semnav_env.features.frames import Pose, points_to_parent
-from semnav_env.maps.floor_plan import FloorPlan, Material, Region
+from semnav_env.features.frames import Point, Pose, points_to_parent
+from semnav_env.maps.floor_plan import FloorPlan, Region
 from semnav_env.robots import RobotSpec
 
 TRIES = 2000
@@ -90,15 +90,16 @@ def _touched(plan: FloorPlan, body: Polygon) -> str | None:
         at = plan.solids.geometries[row].intersection(body).centroid
         surface = plan.surfaces[int(plan.owners[row])]
         return f"{surface.material.value} at ({at.x:.2f}, {at.y:.2f})"
-    for surface in plan.surfaces:
-        closed = len(surface.points) > 3 and surface.points[0] == surface.points[-1]
-        if (
-            closed
-            and surface.material is Material.FURNITURE
-            and Polygon(surface.points).covers(body)
-        ):
-            return f"furniture around ({body.centroid.x:.2f}, {body.centroid.y:.2f})"
+    if len(plan.furniture.query(body, predicate="covered_by")):
+        return f"furniture around ({body.centroid.x:.2f}, {body.centroid.y:.2f})"
     return None
+
+
+def is_clear(plan: FloorPlan, point: Point, radius: float) -> bool:
+    """Whether nothing solid is within `radius` metres of a point of the plan, and it in none."""
+    place = shapely.Point(point)
+    near = plan.solids.query(place, predicate="dwithin", distance=radius)
+    return len(near) == 0 and len(plan.furniture.query(place, predicate="covered_by")) == 0
 
 
 def _advice(plan: FloorPlan, robot: RobotSpec) -> str:

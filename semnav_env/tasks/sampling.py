@@ -19,12 +19,16 @@ from semnav_env.commands import (
     Turning,
 )
 from semnav_env.features.frames import Pose
-from semnav_env.grounding import GroundingError
+from semnav_env.grounding import Goal, GoalKind, GroundingError
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.placement import is_clear
 from semnav_env.verifier import plan_goals
 
 TRIES = 50
 """Commands drawn before a start pose is given up."""
+
+SPACE = 0.3
+"""Around a place to go to, metres."""
 
 
 def sample_feasible(
@@ -38,11 +42,17 @@ def sample_feasible(
     for _ in range(TRIES):
         command = _draw(rng, most_clauses)
         try:
-            plan_goals(floor_plan, command, start)
+            goals = plan_goals(floor_plan, command, start)
         except GroundingError:
             continue
-        return command
+        if all(_has_space(floor_plan, goal) for goal in goals):
+            return command
     return None
+
+
+def _has_space(floor_plan: FloorPlan, goal: Goal) -> bool:
+    """Whether no desk stands where a robot is told to be: at the end of a lounge, say."""
+    return goal.kind is not GoalKind.REACH or is_clear(floor_plan, goal.pose[:2], SPACE)
 
 
 def _draw(rng: np.random.Generator, most_clauses: int) -> Command:
