@@ -139,7 +139,7 @@ def test_where_a_body_reaches_it_fits_in_some_heading(seed: int) -> None:
     for i in rng.integers(len(rows), size=20):
         x = way.origin[0] + way.spacing * columns[i]
         y = way.origin[1] + way.spacing * rows[i]
-        headings = np.linspace(0, math.pi, 24, endpoint=False)
+        headings = np.linspace(0, math.pi, 12, endpoint=False)
         bodies = [footprint(WHEELCHAIR, (x, y, heading)) for heading in headings]
         assert any(not body.intersects(solid) for body in bodies)
 

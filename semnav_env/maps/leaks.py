@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import shapely
 from shapely import LineString, Point, Polygon, STRtree
+from shapely.geometry.base import BaseGeometry
 
 from semnav_env.maps.doorways import TOUCH
 from semnav_env.maps.finding import Finding, point_in, written
@@ -17,40 +18,42 @@ LINE = 0.0005
 
 def leaks(plan: FloorPlan) -> Iterator[Finding]:
     """All of them."""
-    yield from _leaks_outside(plan)
-    yield from _leaks_of_rooms(plan)
+    walls = shapely.union_all(shapely.linestrings(plan.segments.reshape(-1, 2, 2)))
+    yield from _leaks_outside(plan, walls)
+    yield from _leaks_of_rooms(plan, walls)
 
 
-def _leaks_outside(plan: FloorPlan) -> Iterator[Finding]:
+def _leaks_outside(plan: FloorPlan, walls: BaseGeometry) -> Iterator[Finding]:
     """Spaces that hold both the outside and something well inside the boundary."""
-    outside = next(s for s in _spaces(plan, seal_doors=False) if s.contains(_far_corner(plan)))
+    outside = next(s for s in _spaces(plan, walls) if s.contains(_far_corner(plan)))
     inside = plan.boundary.buffer(-2 * TOUCH)
     leak = outside.intersection(inside)
     if leak.area > TOUCH**2:
-        at = point_in(leak)
-        problem = f"one can walk out of the building from {written(at)}; close the walls"
+        gap = outside.intersection(inside.boundary)
+        at = point_in(leak if gap.is_empty else gap)
+        problem = f"one can walk out of the building at {written(at)}; close the walls"
         yield Finding(plan.name, problem, at)
 
 
-def _leaks_of_rooms(plan: FloorPlan) -> Iterator[Finding]:
+def _leaks_of_rooms(plan: FloorPlan, walls: BaseGeometry) -> Iterator[Finding]:
     """With all doors sealed, no space may reach from a room to somewhere else."""
-    spaces = STRtree(_spaces(plan, seal_doors=True))
+    doors = [LineString((door.start, door.end)) for door in plan.doors]
+    spaces = STRtree(_spaces(plan, shapely.union_all([walls, *doors])))
     for room in plan.rooms:
         core = room.polygon.buffer(-TOUCH)
         for index in sorted(spaces.query(core, "intersects").tolist()):
             space = spaces.geometries[index]
             leak = space.difference(room.polygon.buffer(TOUCH))
             if space.intersection(core).area > TOUCH**2 and leak.area > TOUCH**2:
-                at = point_in(leak)
-                problem = f"leaks to {written(at)} other than through a door; close it"
+                gap = space.intersection(room.polygon.boundary)
+                at = point_in(leak if gap.is_empty else gap)
+                problem = f"leaks at {written(at)} other than through a door; close it"
                 yield Finding(room.name, problem, at)
 
 
-def _spaces(plan: FloorPlan, seal_doors: bool) -> list[Polygon]:
+def _spaces(plan: FloorPlan, walls: BaseGeometry) -> list[Polygon]:
     """The connected spaces between the walls, the outside among them."""
-    walls = shapely.linestrings(plan.segments.reshape(-1, 2, 2))
-    doors = [LineString((door.start, door.end)) for door in plan.doors] if seal_doors else []
-    solid = shapely.union_all([*walls, *doors]).buffer(LINE, quad_segs=1)
+    solid = walls.buffer(LINE, quad_segs=1)
     sheet = shapely.box(*plan.boundary.bounds).buffer(1.0, join_style="mitre")
     return list(shapely.get_parts(sheet.difference(solid)))
 

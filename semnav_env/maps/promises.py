@@ -15,8 +15,8 @@ from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.maps.reach import Reach, reach
 from semnav_env.robots import RobotSpec
 
-SPACINGS = (0.05, 0.025)
-"""Of the grid, metres: what is not reached on the first one is sought on the finer one."""
+SEARCHES = ((0.05, 12), (0.025, 24))
+"""Spacing of the grid, metres, and headings; the finer search is for what the first one misses."""
 
 END = 1.0
 """A corridor promises its middle so far before its end, metres, as in "the end of the hall"."""
@@ -33,8 +33,9 @@ def broken_promises(plan: FloorPlan, robot: RobotSpec) -> list[Finding]:
     near both ends. Nothing is promised behind closed doors.
     """
     findings: list[Finding] = []
-    for spacing in SPACINGS:
-        findings = list(_unreached(plan, robot, reach(plan, robot.length, robot.width, spacing)))
+    for spacing, headings in SEARCHES:
+        way = reach(plan, robot.length, robot.width, spacing, headings)
+        findings = list(_unreached(plan, robot, way))
         if not findings:
             break
     return findings

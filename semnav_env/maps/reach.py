@@ -1,8 +1,8 @@
 """Where a body of some length and width can get to in a floor plan, whichever way it must turn.
 
-The rectangle's centre lies on a grid and its heading is one of `HEADINGS`; from one such place it
-moves to the next cell or the next heading. Everything solid is drawn onto the same grid, and a body
-covers every cell that it touches: so what is found reachable is so with a few centimetres to spare.
+The rectangle's centre lies on a grid and its heading is one of a few; from one such place it moves
+to the next cell or the next heading. Everything solid is drawn onto the same grid, and a body
+covers every cell that it touches: what is found reachable is so with a few centimetres to spare.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from semnav_env.maps.floor_plan import FloorPlan
 SPACING = 0.05
 """Of the grid, metres."""
 
-HEADINGS = 24
+HEADINGS = 12
 """Over half a turn: a rectangle looks the same from behind."""
 
 PAD = 4
@@ -64,7 +64,13 @@ class Reach:
         return max(column, 0), max(row, 0)
 
 
-def reach(plan: FloorPlan, length: float, width: float, spacing: float = SPACING) -> Reach:
+def reach(
+    plan: FloorPlan,
+    length: float,
+    width: float,
+    spacing: float = SPACING,
+    headings: int = HEADINGS,
+) -> Reach:
     """Where a rectangular body gets to from the middle of the largest corridor.
 
     Without corridors it starts in the middle of the boundary.
@@ -74,6 +80,7 @@ def reach(plan: FloorPlan, length: float, width: float, spacing: float = SPACING
         length: of the body, metres.
         width: of the body, metres.
         spacing: of the grid, metres; that of a very large plan is coarser.
+        headings: that the body may have, evenly spread over half a turn.
     """
     west, south, east, north = plan.boundary.bounds
     spacing = max(spacing, math.sqrt((east - west) * (north - south) / MOST_CELLS))
@@ -85,7 +92,7 @@ def reach(plan: FloorPlan, length: float, width: float, spacing: float = SPACING
     blocked = _drawn(plan.segments, *origin, spacing, *shape)
     start = _start(plan)
     column, row = (round((start[i] - origin[i]) / spacing) for i in (0, 1))
-    starts, rows, firsts, lengths = _footprints(length, width, spacing)
+    starts, rows, firsts, lengths = _footprints(length, width, spacing, headings)
     far = math.ceil(math.hypot(length, width) / 2 / spacing) + 1
     cells = _flood(blocked, starts, rows, firsts, lengths, far, row, column)
     return Reach(cells, origin, spacing)
@@ -99,7 +106,7 @@ def _start(plan: FloorPlan) -> Point:
 
 
 def _footprints(
-    length: float, width: float, spacing: float
+    length: float, width: float, spacing: float, headings: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """The cells that a body touches in each heading, as runs along the rows.
 
@@ -110,8 +117,8 @@ def _footprints(
     starts, runs = [0], []
     half = math.ceil(math.hypot(length, width) / 2 / spacing) + 1
     offsets = np.arange(-half, half + 1)
-    for k in range(HEADINGS):
-        angle = math.pi * k / HEADINGS
+    for k in range(headings):
+        angle = math.pi * k / headings
         c, s = abs(math.cos(angle)), abs(math.sin(angle))
         x, y = np.meshgrid(offsets * spacing, offsets * spacing)
         ahead = x * math.cos(angle) + y * math.sin(angle)
