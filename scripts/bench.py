@@ -16,7 +16,7 @@ class Arguments:
     """Time a step of the environment and its parts, on one core.
 
     Attributes:
-        map: a floor plan: a bundled name or a path.
+        map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         robot: wheelchair or spot.
         observation: semantic, raw, truth or all.
         runs: how often each part is timed; the median counts.

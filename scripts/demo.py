@@ -30,7 +30,7 @@ class Arguments:
 
     Attributes:
         command: what to say to it.
-        map: a floor plan: a bundled name or a path.
+        map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         language: of the command: en or de (english, german).
         robot: wheelchair or spot.
         agent: scripted, oracle, or the path of a trained agent.

@@ -29,7 +29,7 @@ class Arguments:
     Attributes:
         start: where the robot stands, x,y,heading in metres and radians.
         to: name of a door, a room or a corridor, or x,y in metres.
-        map: a floor plan: a bundled name or a path.
+        map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         approach: through a door that is named, or to it.
         robot: wheelchair or spot.
         language: english or german.

@@ -28,7 +28,7 @@ class Arguments:
 
     Attributes:
         command: a command, or just a place: "the second door on the right".
-        map: a floor plan: a bundled name or a path.
+        map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         pose: where the robot stands, x,y,heading in metres and radians.
         robot: wheelchair or spot.
         language: of the command: en or de (english, german).

@@ -84,7 +84,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     an episode; it is counted in `info["collisions"]`.
 
     ## Arguments
-    robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a bundled name, a path or a
+    robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a
     `FloorPlan`. observation: see above. lidar: "tim561", "barbret" or a `LidarSpec`. odometry:
     drift. extractor: limits of the feature extractor. rewards: weights. dynamics: what else
     moves. max_seconds: of simulated time. render_mode: "rgb_array" or "human" (extra `render`).

@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from shapely import LineString, Point
 
 from semnav_env.commands import parse
+from semnav_env.grounding import GoalKind
 from semnav_env.maps import (
     DISTRIBUTIONS,
     FloorPlan,
@@ -31,6 +32,7 @@ from semnav_env.maps import (
 from semnav_env.maps.check import check
 from semnav_env.maps.doorways import DoorState, clear_width, door_state
 from semnav_env.maps.generator.boxes import merged, without
+from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.rules import check_plan
 from semnav_env.maps.writer import to_geojson
 from semnav_env.robots import ROBOTS, WHEELCHAIR
@@ -218,6 +220,16 @@ def test_random_commands_are_found_and_their_ways_are_finite(name: str) -> None:
             task.begin({}, np.random.default_rng(episode))
             assert math.isfinite(task.verifier.route_length)
             assert math.isfinite(task.verifier.remaining)
+            for goal in task.verifier.planned_goals:
+                at_desk = len(plan.furniture.query(Point(goal.pose[:2]), "covered_by"))
+                assert not (goal.kind is GoalKind.REACH and at_desk)
+
+
+def test_no_way_ends_inside_a_desk() -> None:
+    plan = generate_office(1, "hard")
+    desk = max(plan.furniture.geometries, key=lambda piece: piece.area)
+    ways = Geodesic(plan).to((desk.centroid.x, desk.centroid.y))
+    assert math.isfinite(ways.length(plan.corridors[0].polygon.centroid.coords[0]))
 
 
 def test_settings_of_ones_own_are_kept_to_and_named_custom() -> None:

@@ -20,7 +20,7 @@ class Stage:
     """Makes the floor plans of episodes.
 
     Args:
-        default: the plan where no other is asked for: a bundled name, a path or a plan.
+        default: the plan where no other is asked for: a name, a path or a plan.
         dynamics: what changes.
         robot: which must get everywhere.
 
@@ -44,7 +44,7 @@ class Stage:
         """The plan of an episode; the very plan that was loaded if nothing of it changes.
 
         Args:
-            options: "floor_plan" (a bundled name, a path or a plan), and "pose" where the robot
+            options: "floor_plan" (a name, a path or a plan), and "pose" where the robot
                 is asked to start; each optional.
             rng: of the furniture, which stays where it is without it.
 
