@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import statistics
 import time
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass
-from itertools import chain
+from pathlib import Path
 from typing import Any
 
 from rich.console import Console
@@ -55,6 +56,7 @@ class Arguments:
         count: of offices per distribution.
         first_seed: of them.
         robot: wheelchair or spot; the smaller body passes wherever the larger one does.
+        out: file for every office as it comes, one JSON object a line.
         json: print JSON.
     """
 
@@ -62,6 +64,7 @@ class Arguments:
     count: int = 100
     first_seed: int = 0
     robot: str = "wheelchair"
+    out: Path | None = None
     json: bool = False
 
     def run(self) -> int:
@@ -73,11 +76,7 @@ class Arguments:
             distribution(name)
         robot = robot_spec(self.robot)
         measure(names[0], self.first_seed, robot)  # compiles what is compiled
-        seeds = range(self.first_seed, self.first_seed + self.count)
-        total, offices = len(names) * self.count, list[Office]()
-        drawn = chain.from_iterable((measure(n, s, robot) for s in seeds) for n in names)
-        for office in tracked(drawn, lambda n: f"{n} offices", lambda: len(offices) / total):
-            offices.append(office)
+        offices = self._offices(names, robot)
         rows = [summary(n, [o for o in offices if o.distribution == n]) for n in names]
         faulty = [office for office in offices if office.faults]
         if self.json:
@@ -85,6 +84,18 @@ class Arguments:
         else:
             _show(rows, faulty)
         return 1 if faulty else 0
+
+    def _offices(self, names: tuple[str, ...], robot: RobotSpec) -> list[Office]:
+        """One of each distribution in turn, so that a run that is cut off can be used."""
+        seeds = range(self.first_seed, self.first_seed + self.count)
+        total, offices = len(names) * self.count, list[Office]()
+        drawn = (measure(name, seed, robot) for seed in seeds for name in names)
+        with nullcontext() if self.out is None else self.out.open("w") as out:
+            for office in tracked(drawn, lambda n: f"{n} offices", lambda: len(offices) / total):
+                offices.append(office)
+                if out is not None:
+                    print(json.dumps(asdict(office)), file=out, flush=True)
+        return offices
 
 
 def measure(name: str, seed: int, robot: RobotSpec = ROBOTS["wheelchair"]) -> Office:

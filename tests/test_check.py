@@ -193,6 +193,7 @@ def test_the_commands_generate_and_measure_offices(tmp_path: Path, capsys) -> No
         main(["map", "generate", "--distribution", "small", "--seed", "4", "--out", str(out)]) == 0
     )
     assert main(["map", "check", str(out)]) == 0
-    options = ["--distributions", "small", "--count", "2"]
+    options = ["--distributions", "small", "--count", "2", "--out", str(tmp_path / "offices.jsonl")]
     assert main(["evaluate", "offices", *options]) == 0
     assert "100.0 %" in capsys.readouterr().out
+    assert len((tmp_path / "offices.jsonl").read_text().splitlines()) == 2
