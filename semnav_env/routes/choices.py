@@ -22,11 +22,11 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.features.frames import FloatArray, Pose, points_to_local
-from semnav_env.features.hallway import Hallway, hallway
-from semnav_env.features.scene import Scene
+from semnav_env.features.frames import FloatArray, points_to_local
+from semnav_env.features.hallway import Hallway
 from semnav_env.grounding.doors import CountedDoor, doors_along
 from semnav_env.grounding.junctions import junctions_ahead
+from semnav_env.grounding.situation import Situation
 from semnav_env.routes.naming import names_of_door, names_of_junction
 
 END = PlaceReference(Place.END)
@@ -52,14 +52,12 @@ class Choices:
     """What may be said to a robot that begins a clause at a pose.
 
     Attributes:
-        scene: the true scene.
-        begin: where the clause begins.
+        situation: in which the clause begins, on the true scene.
         way: poses of the route from there on, shape (n, 3), up to the next door that it crosses.
         door: the name of that door; None if it crosses no more.
     """
 
-    scene: Scene
-    begin: Pose
+    situation: Situation
     way: FloatArray
     door: str | None
 
@@ -68,8 +66,8 @@ class Choices:
 
         Those of a group mean the same, the shortest first; not all of them need be unambiguous.
         """
-        seen = hallway(self.scene, self.begin)
-        doors = doors_along(self.scene, seen)
+        seen = self.situation.hallway
+        doors = doors_along(self.situation.scene, seen)
         for group in (
             *self._doors(doors),
             *_turns(seen),

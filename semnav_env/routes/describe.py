@@ -5,7 +5,7 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
 
 import numpy as np
@@ -13,7 +13,9 @@ import numpy as np
 from semnav_env.commands import MAX_CLAUSES, Approach, Clause, Command, Follow, Turn, Turning
 from semnav_env.commands.command import may_count_on
 from semnav_env.features.frames import Pose, wrap_angle
-from semnav_env.grounding import Goal, GoalKind, GroundingError, ground
+from semnav_env.grounding import Goal, GoalKind, GroundingError
+from semnav_env.grounding.ground import goal_of
+from semnav_env.grounding.situation import Situation
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.routes.choices import Choices, words_of
 from semnav_env.routes.follow import check_route, crossings, destination, follows, with_rest
@@ -123,31 +125,18 @@ class _Search:
         crossing = next((c for c in self._crossings if c[0] > told.index), None)
         stop, door = crossing or (len(self._poses), None)
         way = self._poses[told.index : stop + 1]
-        for group in Choices(self._plan.scene, told.begin, way, door).groups():
+        situation = Situation(self._plan.scene, told.begin, told.begin, complete=True)
+        for group in Choices(situation, way, door).groups():
             for clause in group:
                 if _is_on_the_spot(clause) and _is_on_the_spot(*told.clauses[-1:]):
                     continue  # two turns on one spot are one turn
-                goal = self._goal(clause, told)
+                goal = _goal(clause, told, situation)
                 if goal is None:
                     continue
                 done = self._done(goal, told.index, stop, door)
                 if done is not None and self._is_direct(goal, told.index, done):
                     yield self._told(told, clause, goal, done), self._is_end(goal, done)
                 break
-
-    def _goal(self, clause: Clause, told: Told) -> Goal | None:
-        before = told.clauses[-1] if told.clauses else None
-        aside = isinstance(clause, Turn) and clause.turning is not Turning.AROUND
-        try:
-            return ground(
-                clause,
-                self._plan.scene,
-                told.begin,
-                complete=True,
-                after_hallway=aside and before is not None and _is_past(before),
-            )
-        except GroundingError:
-            return None
 
     def _done(self, goal: Goal, index: int, stop: int, door: str | None) -> int | None:
         """At which pose of the route a goal is attained, before or by crossing the next door."""
@@ -213,6 +202,17 @@ class _Search:
             f"no command of up to {MAX_CLAUSES} clauses leads along this route: it can be told as "
             f"far as {where}, but not from there {rest}"
         )
+
+
+def _goal(clause: Clause, told: Told, situation: Situation) -> Goal | None:
+    """Where a clause leads from there; None if nowhere."""
+    bare = _is_on_the_spot(clause) and clause != Turn(Turning.AROUND)
+    if bare and told.clauses and _is_past(told.clauses[-1]):
+        situation = replace(situation, after_hallway=True)
+    try:
+        return goal_of(clause, situation)
+    except GroundingError:
+        return None
 
 
 def _is_past(clause: Clause) -> bool:
