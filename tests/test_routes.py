@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +18,7 @@ from semnav_env.commands.command import reference_of
 from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
+from semnav_env.maps.generator import DISTRIBUTIONS, generate_office
 from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.routes import (
@@ -100,12 +103,29 @@ def test_what_is_said_of_a_route_leads_along_it_to_that_very_door(name: str) -> 
     assert np.mean(told) >= DESCRIBED
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", PLANS)
-def test_what_is_said_of_a_thousand_routes_leads_along_them(name: str) -> None:
+def thousand_routes(name: str) -> Iterator[tuple[FloorPlan, Route, str]]:
+    """Through a bundled plan, or through 40 generated offices."""
     rng = np.random.default_rng(12)
-    told = [check(PLANS[name], *random_route(PLANS[name], rng)[:2]) for _ in range(1000)]
-    print(f"{name}: {np.mean(told):.1%} of 1000 routes described")
+    offices = [generate_office(seed, name) for seed in range(40)] if name in DISTRIBUTIONS else ()
+    for plan in offices or (PLANS[name],):
+        GEODESICS.setdefault(plan.name, comfortable(plan))
+        for _ in range(1000 // len(offices or (plan,))):
+            route, door, _ = random_route(plan, rng)
+            yield plan, route, door
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", (*PLANS, *DISTRIBUTIONS))
+def test_what_is_said_of_a_thousand_routes_leads_along_them(name: str) -> None:
+    told, seconds = [], []
+    for plan, route, door in thousand_routes(name):
+        began = time.perf_counter()
+        told.append(check(plan, route, door))
+        seconds.append(time.perf_counter() - began)
+    shares = [float(share) for share in 1e3 * np.quantile(seconds, (0.5, 0.95))]
+    print(
+        f"{name}: {np.mean(told):.1%} described and checked, {shares[0]:.0f} ms ({shares[1]:.0f})"
+    )
     assert np.mean(told) >= DESCRIBED
 
 

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterator
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,6 +37,12 @@ def test_a_command_means_what_the_table_says(row: Row) -> None:
         assert goal.door.name == row.expected
     else:
         assert math.dist(goal.pose[:2], row.expected) < 0.15
+
+
+def test_the_documentation_speaks_of_every_row() -> None:
+    text = (Path(__file__).resolve().parents[1] / "docs" / "commands.md").read_text()
+    named = set(re.findall(r"\b[DCFWJBRNE]\d+\b", text))
+    assert named == {row.id for row in ROWS}
 
 
 UNSEEN = {"W1"}

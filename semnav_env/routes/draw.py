@@ -27,7 +27,7 @@ def draw_routes(
 
     Args:
         floor_plan: where.
-        routes: each with its text, for the legend.
+        routes: each with its text, the label of its line.
         ax: where to draw.
         names: whether to write the names of doors and regions.
     """
@@ -38,7 +38,6 @@ def draw_routes(
         _draw_arrow(ax, route.start, colour)
         _draw_arrow(ax, route.poses[-1].tolist(), colour)
         ax.plot(*route.start[:2], "o", color=colour, ms=7)
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), frameon=False)
 
 
 def save_routes(
@@ -55,6 +54,7 @@ def save_routes(
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
     draw_routes(floor_plan, routes, figure.add_subplot(), names)
+    figure.legend(loc="outside lower center", frameon=False)
     figure.savefig(path, dpi=100)
 
 

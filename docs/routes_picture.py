@@ -1,0 +1,21 @@
+"""Draw docs/images/routes.png: three routes, and what is said for each."""
+
+from pathlib import Path
+
+from semnav_env.maps import load_floor_plan
+from semnav_env.routes import describe, route_to
+from semnav_env.routes.draw import save_routes
+
+START = (1.3, 9.1, 0.0)
+GOALS = ("west_south_2", "south_east", "room_bend_south_2")
+
+
+def main() -> None:
+    plan = load_floor_plan("office_cross")
+    routes = [route_to(plan, START, goal) for goal in GOALS]
+    told = [(route, str(describe(plan, route))) for route in routes]
+    save_routes(plan, told, Path(__file__).parent / "images" / "routes.png", names=False)
+
+
+if __name__ == "__main__":
+    main()
