@@ -112,10 +112,12 @@ def thousand_routes(name: str) -> Iterator[tuple[FloorPlan, Route, str]]:
         for _ in range(1000 // len(offices or (plan,))):
             route, door, _ = random_route(plan, rng)
             yield plan, route, door
+        if plan.name not in PLANS:
+            del GEODESICS[plan.name]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", (*PLANS, *DISTRIBUTIONS))
+@pytest.mark.parametrize("name", [*PLANS, *DISTRIBUTIONS])
 def test_what_is_said_of_a_thousand_routes_leads_along_them(name: str) -> None:
     told, seconds = [], []
     for plan, route, door in thousand_routes(name):
