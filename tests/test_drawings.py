@@ -99,6 +99,16 @@ def test_a_turned_mirrored_and_scaled_block_is_drawn_where_it_is_put(
     assert ring.length == pytest.approx((4 + 3 + math.hypot(4, 2) + 1) * size)
 
 
+def test_a_block_that_holds_itself_is_refused(tmp_path: Path) -> None:
+    document = ezdxf.new(units=InsertUnits.Meters)
+    block = document.blocks.new("endless")
+    block.add_blockref("endless", (1, 0))
+    document.modelspace().add_blockref("endless", (0, 0))
+    document.saveas(tmp_path / "endless.dxf")
+    with pytest.raises(FloorPlanError, match="blocks within blocks"):
+        import_map(tmp_path / "endless.dxf")
+
+
 def test_circles_become_lines_that_lie_beside_them_by_a_centimetre(tmp_path: Path) -> None:
     document = ezdxf.new(units=InsertUnits.Millimeters)
     document.modelspace().add_circle((3000, 2000), 1500)
@@ -188,6 +198,7 @@ def test_a_house_has_its_outline_and_its_categories_as_rooms(tmp_path: Path) -> 
         ("a.svg", SVG.format("", SHAPES), Drawing(10.0), "at most 1,000 m"),
         ("a.svg", SVG.format("", "<text>a</text>"), Drawing(1.0), "no line that could be a wall"),
         ("a.svg", '<!DOCTYPE a [<!ENTITY b "c">]>' + SVG.format("", ""), Drawing(1.0), "entities"),
+        ("a.svg", '<g xmlns="http://www.w3.org/2000/svg"/>', Drawing(1.0), "no SVG drawing"),
         ("a.dxf", "walls", Drawing(), "no DXF drawing"),
         ("a.json", '{"verts": 3}', None, "verts"),
         ("a.json", '{"verts": [[0, 0], [1, 1]]}', None, "at least three"),

@@ -16,7 +16,7 @@ from semnav_env.maps.rules import FloorPlanError
 
 CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
 
-DEEPEST, MOST = 8, 200_000
+DEEPEST, MOST = 8, 60_000
 """Blocks within blocks, and entities, beyond which a drawing is refused."""
 
 
@@ -35,33 +35,37 @@ def load_dxf(path: str | Path, drawing: Drawing | None = None) -> Imported:
         FloorPlanError: names the file, what is wrong and what would be right.
     """
     where, drawing = Path(path), drawing or Drawing()
-    document = _read(where)
+    document, mended = _read(where)
     scale = drawing.scale or _metres(document, where)
+    strokes, left = _strokes(document, drawing, scale, where)
+    notes = (f"{scale:g} m a unit of the drawing", *([f"{mended} errors mended"] if mended else ()))
+    plan, report = plan_of_strokes(strokes, drawing, where, "DXF drawing", notes)
+    lost = tuple(f"{count} {what}" for what, count in sorted(left.items()))
+    return Imported(plan, report.with_left_out(lost))
+
+
+def _strokes(
+    document: Any, drawing: Drawing, scale: float, path: Path
+) -> tuple[list[Stroke], Counter[str]]:
+    """The curves of the model space, and how many entities of each kind were left out."""
     named = (*drawing.walls, *drawing.doors)
-    hidden = {
-        layer.dxf.name
-        for layer in document.layers
-        if (layer.is_off() or layer.is_frozen()) and layer.dxf.name not in named
-    }
+    off = {each.dxf.name for each in document.layers if each.is_off() or each.is_frozen()}
     strokes: list[Stroke] = []
     left: Counter[str] = Counter()
-    for count, (layer, entity) in enumerate(_entities(document.modelspace(), None, where)):
+    for count, (layer, entity) in enumerate(_entities(document.modelspace(), None, path)):
         if count >= MOST:
-            raise FloorPlanError(f"{where}: more than {MOST:,} entities; export the walls alone")
-        if layer in hidden:
+            raise FloorPlanError(f"{path}: more than {MOST:,} entities; export the walls alone")
+        if layer in off.difference(named):
             left[f"lines on layer {layer}, which is off"] += 1
         elif entity.dxftype() in CURVES and (stroke := _stroke(entity, layer, scale)):
             strokes.append(stroke)
         else:
             left[entity.dxftype()] += 1
-    plan, report = plan_of_strokes(
-        strokes, drawing, where, "DXF drawing", (f"{scale:g} m a unit of the drawing",)
-    )
-    lost = tuple(f"{count} {what}" for what, count in sorted(left.items()))
-    return Imported(plan, report.with_left_out(lost))
+    return strokes, left
 
 
-def _read(path: Path) -> Any:
+def _read(path: Path) -> tuple[Any, int]:
+    """The document, and how many errors in the file were mended."""
     try:
         from ezdxf import recover
         from ezdxf.lldxf.const import DXFError
@@ -71,14 +75,14 @@ def _read(path: Path) -> Any:
         size = path.stat().st_size
         if size > MAX_BYTES:
             raise FloorPlanError(f"{path}: {size:,} bytes; at most {MAX_BYTES:,} are read")
-        document, _ = recover.readfile(path)
+        document, audit = recover.readfile(path)
     except OSError as error:
         raise FloorPlanError(f"{path}: cannot be read: {error.strerror or error}") from None
     except (DXFError, ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
         if isinstance(error, FloorPlanError):
             raise
         raise FloorPlanError(f"{path}: no DXF drawing: {str(error).splitlines()[0]}") from None
-    return document
+    return document, len(audit.errors) + len(audit.fixes)
 
 
 def _metres(document: Any, path: Path) -> float:

@@ -67,8 +67,8 @@ def _read(path: Path) -> Any:
         picture = SVG.parse(io.StringIO(text))
     except (ParseError, ValueError, TypeError, AttributeError, IndexError, RecursionError) as error:
         raise FloorPlanError(f"{path}: no SVG drawing: {error}") from None
-    if "<svg" not in text:
-        raise FloorPlanError(f"{path}: no SVG drawing: it has no <svg> element")
+    if not isinstance(picture, SVG):
+        raise FloorPlanError(f"{path}: no SVG drawing: its outermost element is not <svg>")
     return picture
 
 
