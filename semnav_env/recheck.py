@@ -164,10 +164,11 @@ def _left_of(path: FloatArray, door: Jambs) -> Mask:
 
 
 def _forbidden(floor_plan: FloorPlan, goal: Goal) -> list[Jambs]:
-    """The doors that must not be crossed: not the goal's, and not on the way that is known."""
+    """The doors that must not be crossed: not the goal's, nor on a known way, nor too wide."""
     own = goal.door.name if goal.kind is GoalKind.PASS and goal.door is not None else None
     way = LineString(goal.places) if len(goal.places) > 1 else LineString()
-    jambs = [(door.start, door.end) for door in floor_plan.doors if door.name != own]
+    doors = [door for door in floor_plan.doors if door.name != own and not door.is_opening]
+    jambs = [(door.start, door.end) for door in doors]
     return [door for door in jambs if not way.intersects(LineString(door))]
 
 

@@ -79,7 +79,8 @@ def test_both_judge_gliding_ghosts_alike(name: str) -> None:
         judge, recording = glided
         found = recheck(recording, judge.floor_plan, judge.goals)
         assert found.verdict == judge.verdict, f"seed {seed}: {judge.command}"
-        assert found.step == recording.steps or judge.verdict is Verdict.STOPPED_SHORT
+        early = judge.verdict is Verdict.STOPPED_SHORT or not judge.goals  # nothing to do
+        assert abs(found.step - recording.steps) <= 1 or early  # sums of periods are not exact
         seen[judge.verdict] += 1
     assert seen[Verdict.DONE] > 20
     assert seen[Verdict.WRONG_DOOR] > 5

@@ -156,3 +156,10 @@ def test_after_a_stop_the_next_clause_begins_where_the_stop_did_not_where_the_ro
     judge.update(Motion((3.6, 9.6, 0.0), 0.0, 0.0, in_contact=False, seconds=1 / 15))
     assert [str(verdict) for verdict in judge.verdicts] == ["done", "done", "active"]
     assert judge.follower.goal.pose == pytest.approx(judge.planned_goals[-1].pose)
+
+
+def test_a_door_that_was_closed_when_it_was_counted_is_a_wrong_one_all_the_same() -> None:
+    """It may have been opened since; a way through it was not asked for."""
+    judge = verifier("go through the first door on the left", (28.6, 9.1, math.pi))
+    assert not PLAN.door("east_south_2").open
+    assert walk(judge, (23.0, 9.0), (23.0, 7.0)).verdict is Verdict.WRONG_DOOR

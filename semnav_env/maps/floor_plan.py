@@ -71,7 +71,12 @@ class PlanDoor:
     @property
     def counts(self) -> bool:
         """Whether "the second door" counts it: it is open, and no wider than a robot's door."""
-        return self.open and self.width <= WIDEST_DOOR
+        return self.open and not self.is_opening
+
+    @property
+    def is_opening(self) -> bool:
+        """Whether it is too wide for a door, open or not: an opening of the wall."""
+        return self.width > WIDEST_DOOR
 
     def as_door(self) -> Door:
         """The door as a scene holds it."""

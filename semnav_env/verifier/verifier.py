@@ -203,7 +203,7 @@ def _may_cross(goal: Goal, crossed: PlanDoor) -> bool:
 
     What is too wide to count as a door may be crossed anyway.
     """
-    if not crossed.counts:
+    if crossed.is_opening:
         return True
     if goal.kind is GoalKind.PASS and goal.door is not None and goal.door.name == crossed.name:
         return True
