@@ -184,28 +184,37 @@ def _runs(
     rng: Generator, edges: set[Edge], lines: tuple[Lines, Lines], along_x: bool
 ) -> list[Corridor]:
     """The longest straight stretches in one direction."""
-    own, other = lines if along_x else lines[::-1]
     step = (1, 0) if along_x else (0, 1)
     corridors = []
     for first in sorted(a for a, b in edges if b == _moved(a, step)):
-        if (_moved(first, step, -1), first) in edges:
-            continue
-        last = first
-        while (last, _moved(last, step)) in edges:
-            last = _moved(last, step)
-        line, crossed = (1, 0) if along_x else (0, 1)
-        blind = [not _crosses(node, edges, along_x) for node in (first, last)]
-        stubs = [centimetres(rng, (0.0, LONGEST_STUB / 100)) if dead else 0 for dead in blind]
-        ends = [
-            other.widths[node[crossed]] // 2 + stub
-            for node, stub in zip((first, last), stubs, strict=True)
-        ]
-        span = other.at[first[crossed]] - ends[0], other.at[last[crossed]] + ends[1]
-        i = first[line]
-        across = own.at[i] - own.widths[i] // 2, own.at[i] + own.widths[i] // 2
-        box = box_of(along_x, span, across)
-        corridors.append(Corridor(box, along_x, own.depths[i], (blind[0], blind[1])))
+        if (_moved(first, step, -1), first) not in edges:
+            last = first
+            while (last, _moved(last, step)) in edges:
+                last = _moved(last, step)
+            blind = tuple(not _crosses(node, edges, along_x) for node in (first, last))
+            corridors.append(_corridor(rng, (first, last), blind, lines, along_x))
     return corridors
+
+
+def _corridor(
+    rng: Generator,
+    ends: tuple[Node, Node],
+    blind: tuple[bool, ...],
+    lines: tuple[Lines, Lines],
+    along_x: bool,
+) -> Corridor:
+    """From one node to another: to the far side of what it meets there, or a stub beyond."""
+    own, other = lines if along_x else lines[::-1]
+    first, last = (node[not along_x] for node in ends)
+    i = ends[0][along_x]
+    low, high = (
+        other.widths[index] // 2 + (centimetres(rng, (0.0, LONGEST_STUB / 100)) if is_blind else 0)
+        for index, is_blind in zip((first, last), blind, strict=True)
+    )
+    half = own.widths[i] // 2
+    span = other.at[first] - low, other.at[last] + high
+    box = box_of(along_x, span, (own.at[i] - half, own.at[i] + half))
+    return Corridor(box, along_x, own.depths[i], (blind[0], blind[1]))
 
 
 def _moved(node: Node, step: Node, times: int = 1) -> Node:
