@@ -25,6 +25,7 @@ COMMANDS = {
     "evaluate buildings": ("evaluate_buildings", "measure doors in scans of real floors"),
     "evaluate places": ("evaluate_places", "measure corridors told from other places"),
     "evaluate matching": ("evaluate_matching", "measure how exactly scans are matched"),
+    "evaluate unsaid": ("evaluate_unsaid", "measure what implicit steps are good for"),
     "evaluate offices": ("evaluate_offices", "check generated offices, and time them"),
     "train": ("train", "teach an agent, and keep what it learned"),
     "bench": ("bench", "time a step of the environment and its parts"),

@@ -29,7 +29,7 @@ from semnav_env.world import World
 CONTROL_HZ = 15
 """Steps per second, the rate of the lidar."""
 
-OPTIONS = ("command", "language", "pose", "floor_plan")
+OPTIONS = ("command", "language", "implicit_steps", "pose", "floor_plan")
 
 
 class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
@@ -74,9 +74,9 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     the shortest way, clauses done, success, failure, contact, time.
 
     ## Starting State
-    `reset(options=...)` takes "command" (text, or a `Command`), "language" of the text, "pose"
-    (x, y, heading; world frame) and "floor_plan". What is not given is drawn: a free pose in a
-    corridor looking along it, and a command that can be carried out from there.
+    `reset(options=...)` takes "command" (text or `Command`), its "language", "implicit_steps" (or
+    not), "pose" (x, y, heading; world frame) and "floor_plan". What is not given is drawn: a
+    free pose in a corridor looking along it, and a command that can be carried out from there.
 
     ## Episode End
     Terminates when the command has been carried out, at a wrong door or a wrong turn, and after

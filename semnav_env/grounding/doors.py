@@ -12,6 +12,7 @@ from semnav_env.features.hallway import Hallway, doorway_at
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import GroundingError, Situation
+from semnav_env.grounding.surroundings import doors_around
 
 STAND_OFF = 0.9
 """How far before a door, and behind it, the robot's centre comes to stand, metres."""
@@ -67,8 +68,10 @@ def ground_door(clause: GoToDoor, situation: Situation) -> Goal:
 def ground_leave(situation: Situation) -> Goal:
     """The goal of "leave the room": back through the doorway that the robot has just come by.
 
+    Who has not come by one leaves by the only door in view.
+
     Raises:
-        GroundingError: the clause begins neither in a doorway nor right before one, facing it.
+        GroundingError: there is none, or there are several.
     """
     inward = situation.begin
     door = doorway_at(situation.scene, inward)
@@ -76,11 +79,27 @@ def ground_leave(situation: Situation) -> Goal:
         inward = compose(situation.begin, (OUT_OF_DOORWAY, 0.0, math.pi))
         door = doorway_at(situation.scene, inward)
     if door is None:
-        raise GroundingError("leave the room: by which door? say which, or enter the room first")
+        around = doors_around(situation.scene, situation.begin)
+        if not around and not situation.complete:
+            behind = compose(situation.begin, (-OUT_OF_DOORWAY, 0.0, math.pi))
+            return Goal(GoalKind.SEEK, behind, because="looking for the door of the room")
+        if len(around) != 1:
+            raise GroundingError(
+                "leave the room: by which door? say which, or enter the room first"
+            )
+        door = around[0]
+        inward = (*door.midpoint, wrap_angle(_leading_away(door, situation.begin) + math.pi))
     outward = wrap_angle(inward[2] + math.pi)
     line = CountedDoor(door, 0.0, Side.BEHIND, outward)
     because = "leave the room"
     return Goal(GoalKind.PASS, line.pose(STAND_OFF), door, because=because, onward=line.pose(0.0))
+
+
+def _leading_away(door: Door, pose: Pose) -> float:
+    """The heading through a door for one who comes from a pose."""
+    (ax, ay), (bx, by) = door.start, door.end
+    left = (bx - ax) * (pose[1] - ay) - (by - ay) * (pose[0] - ax) > 0.0
+    return math.atan2(by - ay, bx - ax) + (-math.pi / 2 if left else math.pi / 2)
 
 
 def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | Goal:

@@ -8,6 +8,7 @@ from itertools import count
 from typing import Any
 
 import numpy as np
+import shapely
 
 from semnav_env.commands import Command, parse
 from semnav_env.commands.language import language_of
@@ -19,6 +20,7 @@ from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import placement_error, sample_pose
 from semnav_env.robots import RobotSpec
+from semnav_env.tasks.implicit import with_implicit_steps
 from semnav_env.tasks.rewards import RewardTerms, RewardWeights
 from semnav_env.tasks.sampling import sample_feasible
 from semnav_env.verifier import Motion, Verifier, plan_goals
@@ -59,8 +61,9 @@ class CommandTask:
         """Choose or check the start pose and the command of an episode.
 
         Args:
-            options: "command" (text or `Command`), "language" (of the text; "en") and "pose" (x, y,
-                heading), each optional.
+            options: "command" (text or `Command`), "language" (of the text; "en"), "implicit_steps"
+                (whether to do what goes without saying; True) and "pose" (x, y, heading), each
+                optional.
             rng: for what is not given.
 
         Returns:
@@ -76,6 +79,8 @@ class CommandTask:
             if error is not None:
                 raise ValueError(f"start pose {pose}: {error}")
         start, command = self._complete(pose, command, rng)
+        if options.get("implicit_steps", True):
+            command = self._with_implicit_steps(command, start)
         self.verifier = Verifier(self.floor_plan, self.geodesic, command, start)
         self._remaining = self.verifier.remaining
         return start
@@ -109,6 +114,13 @@ class CommandTask:
         if command is not None:
             raise ValueError(f'no start found in {name} from which "{command}" can be carried out')
         raise ValueError(f"no command found that can be carried out in {name} from {pose or 'it'}")
+
+    def _with_implicit_steps(self, command: Command, start: Pose) -> Command:
+        here = shapely.Point(start[:2])
+        in_room = any(room.polygon.contains(here) for room in self.floor_plan.rooms)
+        return with_implicit_steps(
+            command, lambda each: self._is_feasible(each, start), in_room=in_room
+        )
 
     def _is_feasible(self, command: Command, start: Pose) -> bool:
         try:
