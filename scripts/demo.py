@@ -6,14 +6,16 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from tyro.conf import Positional
+from tyro.conf import Positional, arg
 
 from semnav_env.agents.registry import make_agent
 from semnav_env.commands import parse
+from semnav_env.dynamics import OFF, Dynamics
+from semnav_env.dynamics.social import for_json
 from semnav_env.env import CONTROL_HZ, SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.scripts.progress import tracked
@@ -36,6 +38,7 @@ class Arguments:
         agent: scripted, oracle, or the path of a trained agent.
         pose: where it starts, x,y,heading in metres and radians; drawn from the seed if not given.
         seed: of everything that is drawn.
+        dynamics: what else moves.
         save: film of it (.gif or .mp4).
         picture: picture of the end (.png).
         show: watch it in a window.
@@ -49,6 +52,7 @@ class Arguments:
     agent: str = "scripted"
     pose: str | None = None
     seed: int = 0
+    dynamics: Annotated[Dynamics, arg(name="")] = OFF
     save: Path | None = None
     picture: Path | None = None
     show: bool = False
@@ -62,7 +66,13 @@ class Arguments:
         agent = make_agent(self.agent)
         filmed = self.save is not None or self.picture is not None
         mode = "human" if self.show else "rgb_array" if filmed else None
-        env = SemNavEnv(self.robot, self.map, observation=agent.observation, render_mode=mode)
+        env = SemNavEnv(
+            self.robot,
+            self.map,
+            observation=agent.observation,
+            dynamics=self.dynamics,
+            render_mode=mode,
+        )
         command = parse(self.command, self.language, env.floor_plan.room_names)
         options: dict[str, Any] = {"command": command}
         if self.pose is not None:
@@ -79,7 +89,7 @@ class Arguments:
                 frames.append(env.render())  # type: ignore[arg-type]
         env.close()
         self._save(frames)
-        self._report(start, info, env.seconds)
+        self._report(start, info, env.seconds, for_json(env.world.social()))
         return 0 if info["is_success"] else 1
 
     def _check_files(self) -> None:
@@ -99,7 +109,9 @@ class Arguments:
         if self.picture is not None:
             save_png(self.picture, frames[-1])
 
-    def _report(self, start: dict[str, Any], info: dict[str, Any], seconds: float) -> None:
+    def _report(
+        self, start: dict[str, Any], info: dict[str, Any], seconds: float, social: dict[str, Any]
+    ) -> None:
         outcome = {
             "command": start["command"],
             "floor_plan": start["floor_plan"].name,
@@ -111,6 +123,7 @@ class Arguments:
             "seconds": round(seconds, 2),
             "path_length": round(info["path_length"], 3),
             "route_length": round(info["route_length"], 3),
+            **social,
             "files": [str(path) for path in (self.save, self.picture) if path is not None],
         }
         if self.json:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import fmean, median
+from typing import Annotated
 
 from rich.console import Console
 from rich.table import Table
-from tyro.conf import Positional
+from tyro.conf import Positional, arg
 
 from semnav_env.agents.evaluation import (
     Extras,
@@ -19,6 +21,7 @@ from semnav_env.agents.evaluation import (
     suite,
     summarise,
 )
+from semnav_env.dynamics import OFF, Dynamics
 from semnav_env.metrics import SHARES
 from semnav_env.scripts.progress import tracked
 
@@ -46,6 +49,7 @@ class Arguments:
         workers: processes.
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
+        dynamics: what else moves.
         out: file for every episode, one JSON object a line.
         json: print the table as JSON.
     """
@@ -58,6 +62,7 @@ class Arguments:
     workers: int = 1
     recheck: bool = False
     pictures: Path | None = None
+    dynamics: Annotated[Dynamics, arg(name="")] = OFF
     out: Path | None = None
     json: bool = False
 
@@ -72,7 +77,8 @@ class Arguments:
         total = len(trials) * len(seeds)
         results: list[Result] = []
         extras = Extras(self.recheck, self.pictures)
-        episodes = run_suite(trials, self.agent, self.robot, seeds, self.workers, extras)
+        how = self.workers, extras, self.dynamics
+        episodes = run_suite(trials, self.agent, self.robot, seeds, *how)
         for result in tracked(episodes, lambda n: f"{n} episodes", lambda: len(results) / total):
             results.append(result)
         results.sort(
@@ -102,6 +108,13 @@ class Arguments:
         self._show_extras(results)
 
     def _show_extras(self, results: list[Result]) -> None:
+        if self.dynamics.pedestrians:
+            intrusions = [result.social["personal_space_intrusions"] for result in results]
+            soonest = [result.social["least_time_to_collision"] for result in results]
+            print(
+                f"people: {fmean(intrusions):.2f} intrusions an episode; "
+                f"least time to collision {median(soonest):.1f} s (median over episodes)"
+            )
         if self.recheck:
             odd = [result for result in results if result.rechecked]
             print(f"second opinion: {len(odd)} of {len(results)} episodes judged otherwise")

@@ -13,8 +13,10 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
+from semnav_env.agents.evaluation import run_suite, suite
 from semnav_env.dynamics import OFF, Dynamics
 from semnav_env.env import SemNavEnv
+from semnav_env.scripts.main import main
 from tests.episodes import actions, digest, rollout
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -139,3 +141,28 @@ def test_the_picture_shows_people_and_leaves() -> None:
     assert with_people is not None
     assert (with_people != env.render()).any()
     env.close()
+
+
+def test_the_command_line_takes_people_and_says_how_near_they_came(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    words = ["demo", "stop", "--pedestrians", "2", "--model", "orca", "--changing-doors", "0.5"]
+    main([*words, "--json"])
+    outcome = json.loads(capsys.readouterr().out)
+    assert {"personal_space_intrusions", "least_time_to_collision"} <= outcome.keys()
+
+
+def test_the_command_line_refuses_people_that_make_no_sense(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["demo", "stop", "--pedestrians", "-1"]) == 2
+    assert "a whole number from 0 to 200" in capsys.readouterr().err
+
+
+def test_an_evaluation_with_people_measures_them() -> None:
+    trial = suite("heidelberg")[0]
+    [result] = run_suite([trial], "scripted", "spot", [0], dynamics=Dynamics(2))
+    assert result.social["least_gap_to_people"] > 0.0
+    assert json.loads(json.dumps(result.row(), allow_nan=False))["personal_space_seconds"] >= 0.0
+    [alone] = run_suite([trial], "scripted", "spot", [0])
+    assert alone.social == {}

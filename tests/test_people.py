@@ -193,6 +193,16 @@ def test_a_robot_that_drives_at_somebody_is_stopped_and_pushes_nobody() -> None:
     assert touched
 
 
+def test_people_move_no_robot_that_stands_still() -> None:
+    blind = Walking(see_robot=False)
+    world = World(empty_hall(6.0, 5.0), WHEELCHAIR, dynamics=Dynamics(8, walking=blind))
+    world.reset((3.0, 2.5, 0.3), np.random.default_rng(3))
+    for _ in range(450):
+        world.step((0.0, 0.0, 0.0))
+    assert not world.in_contact
+    assert world.pose == pytest.approx((3.0, 2.5, 0.3), abs=1e-9)
+
+
 def test_people_are_the_same_for_a_seed_and_differ_between_seeds() -> None:
     world = World(empty_hall(12.0, 8.0), WHEELCHAIR, dynamics=Dynamics(4))
     assert world.moving is not None

@@ -27,6 +27,7 @@ class Drive:
         metrics: all measures.
         cause: why it failed, in words; empty after success.
         robot: that drove.
+        social: how near people came, see `World.social`.
     """
 
     recording: Recording
@@ -34,6 +35,7 @@ class Drive:
     metrics: Metrics
     cause: str
     robot: RobotSpec
+    social: dict[str, float]
 
     def rechecked(self) -> str:
         """The verdict of the second opinion where it is not the verifier's; else empty."""
@@ -74,4 +76,4 @@ def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> D
     verifier, recording = env.task.verifier, recorder.recording()
     metrics = measure(recording, verifier, env.robot)
     cause = cause_of(verifier, metrics, info["impossible"])
-    return Drive(recording, verifier, metrics, cause, env.robot)
+    return Drive(recording, verifier, metrics, cause, env.robot, env.world.social())

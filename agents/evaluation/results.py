@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 
+from semnav_env.dynamics.social import for_json
 from semnav_env.metrics import SHARES, Metrics, means, worst
 
 
@@ -19,6 +20,7 @@ class Result:
         metrics: all measures.
         cause: why it failed, in words; empty after success.
         rechecked: verdict of the second opinion where it is not the verifier's; else empty.
+        social: how near people came, see `SocialRecord.outcome`; empty without people.
     """
 
     command: str
@@ -27,6 +29,7 @@ class Result:
     metrics: Metrics
     cause: str = ""
     rechecked: str = ""
+    social: dict[str, float] = field(default_factory=dict)
 
     @property
     def success(self) -> bool:
@@ -36,7 +39,8 @@ class Result:
     def row(self) -> dict[str, object]:
         """One flat object, as it is written to a file."""
         first = {"command": self.command, "seed": self.seed, "verdicts": self.verdicts}
-        return {**first, **asdict(self.metrics), "cause": self.cause, "rechecked": self.rechecked}
+        last = {"cause": self.cause, "rechecked": self.rechecked}
+        return {**first, **asdict(self.metrics), **for_json(self.social), **last}
 
 
 @dataclass(frozen=True)

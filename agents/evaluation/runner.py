@@ -16,6 +16,7 @@ from semnav_env.agents.evaluation.drive import Drive, drive
 from semnav_env.agents.evaluation.results import Result, failure_line
 from semnav_env.agents.evaluation.suites import Trial
 from semnav_env.agents.registry import make_agent
+from semnav_env.dynamics import OFF, Dynamics
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.maps import FloorPlan
@@ -51,6 +52,7 @@ class Job:
     robot: str
     seeds: tuple[int, ...]
     extras: Extras = NO_EXTRAS
+    dynamics: Dynamics = OFF
 
 
 def run_suite(
@@ -60,6 +62,7 @@ def run_suite(
     seeds: Sequence[int],
     workers: int = 1,
     extras: Extras = NO_EXTRAS,
+    dynamics: Dynamics = OFF,
 ) -> Iterator[Result]:
     """The result of every trial with every seed, as they come.
 
@@ -70,8 +73,9 @@ def run_suite(
         seeds: each gives a start pose, sensor noise and odometry drift.
         workers: processes; results do not depend on it, but for their order.
         extras: what else to do with each episode.
+        dynamics: what else moves.
     """
-    jobs = [Job(trial, agent, robot, (seed,), extras) for trial in trials for seed in seeds]
+    jobs = [Job(t, agent, robot, (seed,), extras, dynamics) for t in trials for seed in seeds]
     if workers == 1:
         runner = Runner()
         yield from (result for job in jobs for result in runner.run(job))
@@ -85,14 +89,15 @@ class Runner:
     """Runs jobs one after the other and keeps the environment from one to the next."""
 
     def __init__(self) -> None:
-        self._envs: dict[tuple[str, str], tuple[SemNavEnv, Any]] = {}
+        self._envs: dict[tuple[str, str, Dynamics], tuple[SemNavEnv, Any]] = {}
 
     def run(self, job: Job) -> list[Result]:
         """The results of a job, one per seed."""
-        key = (job.agent, job.robot)
+        key = (job.agent, job.robot, job.dynamics)
         if key not in self._envs:
             agent = make_agent(job.agent)
-            self._envs[key] = SemNavEnv(job.robot, observation=agent.observation), agent
+            env = SemNavEnv(job.robot, observation=agent.observation, dynamics=job.dynamics)
+            self._envs[key] = env, agent
         env, agent = self._envs[key]
         return [run_episode(env, agent, job.trial, seed, job.extras) for seed in job.seeds]
 
@@ -118,7 +123,8 @@ def conclude(driven: Drive, command: str, seed: int, extras: Extras = NO_EXTRAS)
     """
     rechecked = driven.rechecked() if extras.recheck else ""
     verdicts = tuple(str(verdict) for verdict in driven.verifier.verdicts)
-    result = Result(command, seed, verdicts, driven.metrics, driven.cause, rechecked)
+    measured = driven.metrics, driven.cause, rechecked, driven.social
+    result = Result(command, seed, verdicts, *measured)
     if extras.pictures is not None and not result.success:
         name = picture_name(driven, command, seed)
         driven.save_picture(extras.pictures / name, f"{command}: {failure_line(result)}")

@@ -75,13 +75,16 @@ class Crowd:
         self._best = np.full(count, np.inf)
         self._waited = np.zeros(count)
 
-    def step(self, body: FloatArray, leaves: FloatArray, guard: float, seconds: float) -> None:
+    def step(
+        self, body: FloatArray, leaves: FloatArray, guard: float, touch: float, seconds: float
+    ) -> None:
         """Let everybody walk for a time step.
 
         Args:
             body: of the robot, see `on_body`.
             leaves: segments that move, shape (m, 4).
             guard: see `walk`.
+            touch: see `walk`.
             seconds: of the step.
         """
         if len(self.places) == 0:
@@ -94,7 +97,7 @@ class Crowd:
             self.places, self.velocities, self._wishes, *around, walking.see_robot, seconds, wanted
         )
         self.velocities[:] = wanted
-        walk(self.places, self.velocities, *around, guard, seconds)
+        walk(self.places, self.velocities, *around, guard, touch, seconds)
 
     def __getstate__(self) -> dict[str, Any]:
         """Without the ways, which are large; `begin` finds them again."""

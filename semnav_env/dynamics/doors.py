@@ -106,6 +106,6 @@ def _has_way(
         share = k / pieces
         x, y = hinge[0] + share * (tip[0] - hinge[0]), hinge[1] + share * (tip[1] - hinge[1])
         near_x, near_y = on_body(x, y, body)
-        if math.hypot(x - near_x, y - near_y) < guard + 0.05:
+        if math.hypot(x - near_x, y - near_y) < guard:
             return False
     return True

@@ -48,7 +48,7 @@ class Moving:
         self._robot, self._seconds = robot, seconds
         self._radius = dynamics.walking.radius
         fastest = dynamics.walking.speed + 2.0 * dynamics.walking.spread
-        self._guard = seconds * (_fastest_corner(robot) + 1.3 * fastest) + 0.05
+        self._guard = seconds * (_fastest(robot) + 1.3 * fastest) + 0.05
 
     @property
     def shapes(self) -> tuple[FloatArray, FloatArray]:
@@ -71,10 +71,9 @@ class Moving:
             velocity: forward, left (m/s) and turning (rad/s), robot frame.
         """
         body = as_body(self._robot, pose, velocity)
-        self.crowd.step(body, self.doors.segments, self._guard, self._seconds)
-        self.doors.step(
-            self._seconds, self.crowd.places, self._radius, body, _reach(self._robot, self._seconds)
-        )
+        touch = _reach(self._robot, velocity, self._seconds)
+        self.crowd.step(body, self.doors.segments, self._guard, touch, self._seconds)
+        self.doors.step(self._seconds, self.crowd.places, self._radius, body, self._guard)
         self.discs[:, :2] = self.crowd.places
 
     def note(self, pose: Pose, velocity: Pose) -> None:
@@ -100,12 +99,19 @@ def as_body(robot: RobotSpec, pose: Pose, velocity: Pose) -> FloatArray:
     return np.array([*pose, robot.length / 2, robot.width / 2, *moved, turn])
 
 
-def _fastest_corner(robot: RobotSpec) -> float:
+def _arm(robot: RobotSpec) -> float:
+    """From the axle to the farthest corner, metres."""
+    return math.hypot(robot.length / 2 + abs(robot.axle), robot.width / 2)
+
+
+def _fastest(robot: RobotSpec) -> float:
     """No point of the body moves faster than this, m/s."""
-    arm = math.hypot(robot.length / 2 + abs(robot.axle), robot.width / 2)
-    return math.hypot(robot.max_speed, robot.max_sideways_speed) + robot.max_turn_rate * arm
+    straight = math.hypot(robot.max_speed, robot.max_sideways_speed)
+    return straight + robot.max_turn_rate * _arm(robot)
 
 
-def _reach(robot: RobotSpec, seconds: float) -> float:
-    """How far a point of the body gets in a time step, metres."""
-    return seconds * _fastest_corner(robot)
+def _reach(robot: RobotSpec, velocity: Pose, seconds: float) -> float:
+    """No point of the body gets farther than this in the next step, but for a bit, metres."""
+    forward, left, turn = velocity
+    gain = seconds * (robot.max_acceleration + robot.max_turn_acceleration * _arm(robot))
+    return seconds * (math.hypot(forward, left) + abs(turn) * _arm(robot) + gain) + 0.01

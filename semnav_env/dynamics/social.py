@@ -74,6 +74,11 @@ class SocialRecord:
         }
 
 
+def for_json(outcome: dict[str, Any]) -> dict[str, Any]:
+    """An outcome as JSON can hold it: None in place of what is infinite."""
+    return {name: value if math.isfinite(value) else None for name, value in outcome.items()}
+
+
 @njit(cache=True, error_model="numpy")
 def gaps(body: FloatArray, discs: FloatArray) -> FloatArray:
     """Distance between the robot's footprint and each person's body, metres, shape (n,).

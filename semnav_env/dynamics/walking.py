@@ -26,12 +26,14 @@ def walk(
     leaves: FloatArray,
     body: FloatArray,
     guard: float,
+    touch: float,
     seconds: float,
 ) -> None:
     """Move people, one after the other, and note how fast they really went.
 
     A step that would lead into a wall, a leaf or somebody is bent along it; one that cannot be
-    bent is not taken. Nobody within `guard` of the robot steps towards it.
+    bent is not taken. Nobody within `guard` of the robot steps towards it. Nobody within `touch`
+    of it steps anywhere but straight away from it: who walks along a robot drags it with them.
 
     Args:
         places: updated; metres, shape (n, 2).
@@ -42,21 +44,26 @@ def walk(
         body: of the robot, see `on_body`.
         guard: metres; more than what robot and person can come nearer in a step, so that only the
             robot can make them touch.
+        touch: metres; how far the robot can get in this step.
         seconds: length of the step.
     """
     for i in range(len(places)):
         x, y = places[i]
-        reach = radius + guard
-        vx, vy = _off_the_robot(x, y, velocities[i, 0], velocities[i, 1], reach, body)
+        near_x, near_y = on_body(x, y, body)
+        gap = math.hypot(x - near_x, y - near_y) - radius
+        vx, vy = velocities[i, 0], velocities[i, 1]
+        if gap < guard:
+            vx, vy = _off_the_robot(x - near_x, y - near_y, vx, vy, gap < touch)
         step_x, step_y = seconds * vx, seconds * vy
         longest = math.hypot(step_x, step_y) + TIGHT
         for _ in range(ROUNDS):
             depth, push_x, push_y = _worst(x + step_x, y + step_y, i, places, radius, walls, leaves)
-            if depth <= TIGHT:
+            if depth <= TIGHT or gap < touch:
                 break
             step_x, step_y = step_x + depth * push_x, step_y + depth * push_y
         too_long = math.hypot(step_x, step_y) > longest
-        if depth > TIGHT or too_long or _nears_robot(x, y, step_x, step_y, reach, body):
+        nearer = gap < guard and _nears_robot(x, y, step_x, step_y, radius + gap, body)
+        if depth > TIGHT or too_long or nearer:
             step_x = step_y = 0.0
         places[i, 0], places[i, 1] = x + step_x, y + step_y
         velocities[i, 0], velocities[i, 1] = step_x / seconds, step_y / seconds
@@ -64,28 +71,23 @@ def walk(
 
 @njit(cache=True, error_model="numpy")
 def _off_the_robot(
-    x: float, y: float, vx: float, vy: float, reach: float, body: FloatArray
+    dx: float, dy: float, vx: float, vy: float, straight: bool
 ) -> tuple[float, float]:
-    """The velocity without its part towards the robot, if that is near."""
-    near_x, near_y = on_body(x, y, body)
-    dx, dy = x - near_x, y - near_y
-    distance = math.hypot(dx, dy)
-    if distance > reach or distance < 1e-9:
-        return vx, vy
-    towards = min((vx * dx + vy * dy) / (distance * distance), 0.0)
-    return vx - towards * dx, vy - towards * dy
+    """The part of a velocity that does not lead towards a robot at -d, or straight away from it."""
+    squared = max(dx * dx + dy * dy, 1e-12)
+    away = (vx * dx + vy * dy) / squared
+    if straight:
+        return max(away, 0.0) * dx, max(away, 0.0) * dy
+    return vx - min(away, 0.0) * dx, vy - min(away, 0.0) * dy
 
 
 @njit(cache=True, error_model="numpy")
 def _nears_robot(
-    x: float, y: float, step_x: float, step_y: float, reach: float, body: FloatArray
+    x: float, y: float, step_x: float, step_y: float, before: float, body: FloatArray
 ) -> bool:
-    """Whether a step that was bent brings somebody nearer to a near robot."""
-    near_x, near_y = on_body(x, y, body)
-    before = math.hypot(x - near_x, y - near_y)
+    """Whether a step leads nearer to the robot than `before`."""
     near_x, near_y = on_body(x + step_x, y + step_y, body)
-    after = math.hypot(x + step_x - near_x, y + step_y - near_y)
-    return after < before - 1e-9 and after < reach
+    return math.hypot(x + step_x - near_x, y + step_y - near_y) < before - 1e-9
 
 
 @njit(cache=True, error_model="numpy")
