@@ -102,7 +102,7 @@ def _share(
 ) -> None:
     """The half-plane ORCA of A and B (section 4): half of u, the least change out of VO.
 
-    VO (section 3) is the cone of the disc at x = p_B - p_A with the sum of the radii, cut off by
+    VO is the cone of the disc at x = p_B - p_A with the sum of the radii, cut off by
     the disc shrunk by the horizon; u leads from the relative velocity to the nearest point of its
     border, where the outward normal is n.
     """

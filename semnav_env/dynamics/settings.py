@@ -14,7 +14,7 @@ class Walking:
 
     Attributes:
         radius: of a body, a disc as the lidar and the physics meet it, metres.
-        speed: mean of the desired speeds, m/s (Helbing and Molnar 1995, section III).
+        speed: mean of the desired speeds, m/s (Helbing and Molnar 1995).
         spread: standard deviation of the desired speeds, m/s; cut off at two of them.
         patience: seconds without getting nearer after which somebody walks elsewhere.
         see_robot: whether people keep away from the robot by themselves. They never step into it
