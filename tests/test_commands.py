@@ -134,11 +134,11 @@ def test_sampling_reaches_every_clause_of_a_small_language() -> None:
     assert len(found) == follows + turns + 2 * doors + 1 + 1 + 101
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize("count", [500, pytest.param(100_000, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("language", sorted(languages()))
-def test_a_hundred_thousand_sampled_commands_come_back_from_their_words(language: str) -> None:
+def test_sampled_commands_come_back_from_their_words(language: str, count: int) -> None:
     rng = np.random.default_rng(7)
-    for _ in range(100_000):
+    for _ in range(count):
         command = sample_command(rng)
         assert parse(command.say(language), language) == command
 
