@@ -247,6 +247,15 @@ def test_a_route_in_circles_cannot_be_told_and_the_error_says_how_far() -> None:
         describe(PLANS["villa_hall"], route)
 
 
+def test_a_route_leads_around_what_stands_behind_a_door() -> None:
+    plan, door = generate_office(5, "small"), "1.01 - 1.02"
+    start: Pose = (5.73, 0.09, -2.05)
+    route = route_to(plan, start, door)
+    goal = plan_goals(plan, describe(plan, route), start)[-1]
+    assert goal.door is not None
+    assert goal.door.name == door
+
+
 @pytest.mark.parametrize(
     ("goal", "message"),
     [

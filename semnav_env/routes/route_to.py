@@ -64,7 +64,16 @@ def route_to(
     if not door.open:
         raise RouteError(f"door {door.name} is closed")
     way = _way(geodesic, start, door.midpoint, goal)
-    return _to_door(start, way, door, approach)
+    route = _to_door(start, way, door, approach)
+    straight = not len(floor_plan.solids.query(shapely.LineString(route.points), "intersects"))
+    return route if straight or approach is Approach.TO else _winding(geodesic, route)
+
+
+def _winding(geodesic: Geodesic, route: Route) -> Route:
+    """A route to about the same end around what stands in a doorway, such as a half-open leaf."""
+    x, y = route.points[-1].tolist()
+    way = geodesic.to((x, y)).way(route.start[:2])
+    return Route(route.start, way[:-1]) if len(way) > 2 else route
 
 
 def _to_door(start: Pose, way: FloatArray, door: PlanDoor, approach: Approach) -> Route:
