@@ -105,8 +105,13 @@ def _strokes(shape: Any, layer: str, unit: float) -> Iterator[Stroke]:
         arcs = [piece for piece in pieces if isinstance(piece, Arc)]
         if len(arcs) == 1 and len(pieces) < 4:
             yield Stroke(layer, _flat(arcs[0], unit), _placed(arcs[0].center, unit))
-        elif len(np.unique(line := np.concatenate(points), axis=0)) > 1:
+        elif len(line := _without_repetition(np.concatenate(points))) > 1:
             yield Stroke(layer, line)
+
+
+def _without_repetition(points: FloatArray) -> FloatArray:
+    """The points without those that are the same as the one before; pieces share their ends."""
+    return points[np.append(True, (points[1:] != points[:-1]).any(axis=1))]
 
 
 def _flat(piece: Any, unit: float) -> FloatArray:
