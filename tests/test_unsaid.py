@@ -12,7 +12,8 @@ from semnav_env.agents.evaluation.unsaid import follow, unsaid_trials
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
-from semnav_env.grounding import GroundingError
+from semnav_env.features.scene import Scene
+from semnav_env.grounding import GroundingError, ground
 from semnav_env.grounding.surroundings import doors_around
 from semnav_env.maps import load_floor_plan
 from semnav_env.scripts.main import main
@@ -112,3 +113,13 @@ def test_the_ablation_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     rows = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert set(rows) == {"with implicit steps", "without"}
     assert rows["without"]["commands"] == 3
+
+
+def test_who_sees_no_door_turns_round_to_look_for_one() -> None:
+    (clause,) = parse("leave the room").clauses
+    begin = (2.0, 1.0, 0.5)
+    goal = ground(clause, Scene((), ()), begin)
+    assert goal.pose == pytest.approx((2.0, 1.0, 0.5 - math.pi))
+    assert not goal.reached_by(begin)
+    with pytest.raises(GroundingError, match="by which door"):
+        ground(clause, Scene((), ()), begin, complete=True)

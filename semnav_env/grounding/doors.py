@@ -81,8 +81,7 @@ def ground_leave(situation: Situation) -> Goal:
     if door is None:
         around = doors_around(situation.scene, situation.begin)
         if not around and not situation.complete:
-            behind = compose(situation.begin, (-OUT_OF_DOORWAY, 0.0, math.pi))
-            return Goal(GoalKind.SEEK, behind, because="looking for the door of the room")
+            return _turn_round(situation)
         if len(around) != 1:
             raise GroundingError(
                 "leave the room: by which door? say which, or enter the room first"
@@ -93,6 +92,13 @@ def ground_leave(situation: Situation) -> Goal:
     line = CountedDoor(door, 0.0, Side.BEHIND, outward)
     because = "leave the room"
     return Goal(GoalKind.PASS, line.pose(STAND_OFF), door, because=because, onward=line.pose(0.0))
+
+
+def _turn_round(situation: Situation) -> Goal:
+    """Turn round to look for the door of the room; never done, for it is no end in itself."""
+    behind = compose(situation.begin, (0.0, 0.0, math.pi))
+    because = "looking for the door of the room"
+    return Goal(GoalKind.REACH, behind, None, 0.0, 0.0, because)
 
 
 def _leading_away(door: Door, pose: Pose) -> float:
