@@ -1,8 +1,7 @@
 """Steps that go without saying: who is in a room leaves it before counting the hallway's doors.
 
-MacMahon, Stankiewicz and Kuipers, "Walk the Talk" (AAAI 2006), section 4, infer such actions from
-what route instructions leave out; following them literally more than halved the instructions that
-were followed.
+MacMahon, Stankiewicz and Kuipers, "Walk the Talk" (AAAI 2006), infer such actions from what route
+instructions leave out.
 """
 
 from __future__ import annotations
