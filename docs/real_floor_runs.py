@@ -25,7 +25,7 @@ from semnav_env.verifier import plan_goals
 FLOORS = ("2", "3ne")
 STARTS, FARTHEST, EACH = 60, 12.0, 2
 FILM = "3ne", "go to room 3.512", (-14, -5.04, 3.1)
-FRAME_EVERY, SHARE = 8, 0.5
+FRAME_EVERY, SHARE = 10, 0.5
 
 
 def tasks(plan: FloorPlan) -> list[tuple[Command, tuple[float, float, float]]]:
