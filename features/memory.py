@@ -26,19 +26,20 @@ MAX_WALLS, MAX_DOORS = 512, 64
 class SceneMemory:
     """What was seen so far, in one fixed frame (the odometry frame).
 
-    A wall counts from its second sighting. A door counts while its sightings, by their confidence,
-    outweigh the scans that looked at its opening and found no door there, or found it filled
-    (`kernels.door_memory`); of two doors in one place, only the likelier one.
+    A wall counts from its second sighting, until scans pass through it (`kernels.seen_through`).
+    A door counts while its sightings, by their confidence, outweigh the scans that looked at its
+    opening and found no door there, or found it filled (`kernels.door_memory`); of two doors in
+    one place, only the likelier one.
     """
 
     def __init__(self) -> None:
         self._walls = np.zeros(MAX_WALLS, dtype=REMEMBERED_WALL)
         self._doors = np.zeros(MAX_DOORS, dtype=REMEMBERED_DOOR)
-        self._used = np.zeros(2, dtype=np.int64)
+        self._used = np.zeros(3, dtype=np.int64)
 
     @property
     def arrays(self) -> tuple[NDArray[np.void], NDArray[np.void], NDArray[np.int64]]:
-        """(walls, doors, used), for a kernel that updates them in place."""
+        """(walls, doors, used) for a kernel that updates them in place; see `kernels.memory`."""
         return self._walls, self._doors, self._used
 
     def clear(self) -> None:

@@ -191,6 +191,35 @@ def test_only_a_good_view_speaks_against_a_door(pose: Pose) -> None:
     assert memory.size[1] == 1
 
 
+WALL_AHEAD: Ends = (0.5, 2.0, -0.5, 2.0)
+
+
+def test_a_wall_that_scans_pass_through_is_given_up_and_comes_back() -> None:
+    memory = SceneMemory()
+    for _ in range(200):
+        see(memory, walls=[WALL_AHEAD])
+    for _ in range(40):
+        see(memory, ranges=beams_that_end_at(3.0))
+    assert memory.size[0] == 0
+    for _ in range(3):
+        see(memory, walls=[WALL_AHEAD])
+    assert memory.size[0] == 1
+
+
+@pytest.mark.parametrize(
+    "ranges",
+    [beams_that_end_at(1.0), beams_that_end_at(2.3), NOTHING, np.full(360, np.nan)],
+    ids=["hidden", "drifted", "no return", "nan"],
+)
+def test_a_scan_that_cannot_tell_says_nothing_of_a_wall(ranges: FloatArray) -> None:
+    memory = SceneMemory()
+    for _ in range(4):
+        see(memory, walls=[WALL_AHEAD])
+    for _ in range(80):
+        see(memory, ranges=ranges)
+    assert memory.size[0] == 1
+
+
 def test_of_two_doors_in_one_place_the_one_seen_more_often_counts() -> None:
     wide = (2.55, 1.05, 4.0, 1.0)
     memory = SceneMemory()
@@ -246,7 +275,7 @@ def test_a_full_memory_forgets_what_was_seen_least() -> None:
     scene = memory.scene()
     assert memory.size == (2, 2)
     assert scene.doors[0].start == pytest.approx(DOOR_A[:2])
-    assert [int(n) for n in memory.arrays[2]] == [MAX_WALLS, MAX_DOORS]
+    assert memory.arrays[2][:2].tolist() == [MAX_WALLS, MAX_DOORS]
 
 
 def test_a_cleared_memory_is_empty() -> None:

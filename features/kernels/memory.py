@@ -12,6 +12,7 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.door_memory import door_counts, doubt_doors, remember_door
 from semnav_env.features.kernels.layout import DOORS, WALLS
 from semnav_env.features.kernels.remembered import Ends, place_for_new
+from semnav_env.features.kernels.seen_through import is_seen_through
 
 REMEMBERED_WALL = np.dtype(
     [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y")] + [("hits", "i8")]
@@ -23,6 +24,9 @@ WALL_HITS = 2
 
 RECENT_HITS = 10
 """Older sightings together weigh no more than so many: odometry drifts."""
+
+TURNS, MISSED_HITS = 8, 3
+"""Every eighth scan looks whether beams pass through a wall; if so, it loses three sightings."""
 
 SAME_DIRECTION = math.cos(math.radians(8.0))
 """Walls that differ by less may be one."""
@@ -55,8 +59,8 @@ def remember(
         angle_min: of the scan, radians.
         angle_increment: of the scan, radians.
         pose: of the lidar in the memory's frame.
-        memory: `REMEMBERED_WALL` and `REMEMBERED_DOOR` arrays and how many of each are used,
-            changed in place.
+        memory: `REMEMBERED_WALL` and `REMEMBERED_DOOR` arrays and how many of each are used, and
+            how many scans were added, changed in place.
     """
     known_walls, known_doors, used = memory
     for i in range(counts[WALLS]):
@@ -68,6 +72,33 @@ def remember(
         ends = (door.start_x, door.start_y, door.end_x, door.end_y)
         used[1] = remember_door(placed(ends, pose), door.confidence, known_doors, used[1])
     doubt_doors(ranges, angle_min, angle_increment, pose, known_doors[: used[1]])
+    doubt_walls(
+        ranges, angle_min, angle_increment, pose, known_walls[used[2] % TURNS : used[0] : TURNS]
+    )
+    used[2] += 1
+
+
+@njit(cache=True, error_model="numpy")
+def doubt_walls(
+    ranges: FloatArray,
+    angle_min: float,
+    angle_increment: float,
+    pose: tuple[float, float, float],
+    walls: Any,
+) -> None:
+    """Let a scan speak against walls that its beams pass through: people walk on, odometry drifts.
+
+    Args:
+        ranges: of the scan, metres, shape (n,).
+        angle_min: of the scan, radians.
+        angle_increment: of the scan, radians.
+        pose: of the lidar in the memory's frame.
+        walls: `REMEMBERED_WALL`, changed in place.
+    """
+    for k in range(len(walls)):
+        wall = walls[k]
+        if wall.hits > 0 and is_seen_through(ranges, angle_min, angle_increment, pose, wall):
+            wall.hits = max(min(wall.hits, RECENT_HITS) - MISSED_HITS, 0)
 
 
 @njit(cache=True, error_model="numpy")
