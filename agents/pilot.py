@@ -34,9 +34,8 @@ SAME_DOOR = 0.5
 class Pilot:
     """Drives a robot to goals with the footprint-aware planner.
 
-    A robot that pushes without moving backs out the way it came and plans anew. It takes no short
-    cut through the next room: of the doors it knows it passes the goal's, and others only where no
-    way leads around them.
+    A robot that pushes without moving backs out the way it came and plans anew. To pass a door it
+    takes no way around through the next room, by other doors that it knows.
 
     Args:
         robot: the body.

@@ -137,34 +137,36 @@ def wall_with_two_gaps():
     return points_of_segments(wall), points_of_segments(across)
 
 
-def crossing(path):
-    """Where a path crosses the line x = 3."""
-    poses = path.poses
-    return poses[np.argmax(poses[:, 0] > 3.0), 1]
+GATES = {y: ((3.0, y - 0.5), (3.0, y + 0.5)) for y in (0.0, 4.0)}
 
 
-def test_a_way_around_a_barrier_is_taken_though_it_is_longer():
+def test_the_way_to_a_gate_leads_through_it_though_another_is_shorter():
     points, barrier = wall_with_two_gaps()
-    driver, target = Driver(WHEELCHAIR), Target((6.0, 0.0, 0.0), 0.2, None)
+    driver, target = Driver(WHEELCHAIR), Target((6.0, 0.0, 0.0), 0.2, None, gate=GATES[4.0])
     driver.drive(points, target, (0.0, 0.0, 0.0))
-    assert abs(crossing(driver.path)) < 0.5
+    assert driver.path.crosses(*GATES[0.0])
     driver.reset()
     driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
     assert driver.path.complete
-    assert abs(crossing(driver.path) - 4.0) < 0.5
-
-
-def test_a_barrier_is_passed_where_no_way_leads_around_it():
-    points, barrier = wall_with_two_gaps()
-    points = np.vstack((points, points_of_segments(np.array([[3.0, 3.5, 3.0, 4.5]]))))
-    driver = Driver(WHEELCHAIR)
-    driver.drive(points, Target((6.0, 0.0, 0.0), 0.2, None), (0.0, 0.0, 0.0), barriers=barrier)
-    assert driver.path.complete
-    assert abs(crossing(driver.path)) < 0.5
+    assert driver.path.crosses(*GATES[4.0])
+    assert not driver.path.crosses(*GATES[0.0])
     before = driver.path
     for _ in range(driver.check_every):
-        driver.drive(points, Target((6.0, 0.0, 0.0), 0.2, None), (0.0, 0.0, 0.0), barriers=barrier)
+        driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
     assert driver.path is before
+
+
+def test_a_barrier_is_passed_on_the_way_to_a_gate_and_where_no_other_way_leads_on():
+    points, barrier = wall_with_two_gaps()
+    beyond = ((5.0, -1.0), (5.0, 1.0))
+    driver, target = Driver(WHEELCHAIR), Target((6.0, 0.0, 0.0), 0.2, None, gate=beyond)
+    driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
+    assert driver.path.crosses(*GATES[0.0])
+    closed = np.vstack((points, points_of_segments(np.array([[3.0, 3.5, 3.0, 4.5]]))))
+    driver.reset()
+    driver.drive(closed, target, (0.0, 0.0, 0.0), barriers=barrier)
+    assert driver.path.complete
+    assert driver.path.crosses(*GATES[0.0])
 
 
 def test_doorways_are_barred_but_for_the_one_the_robot_stands_in():

@@ -45,7 +45,7 @@ def poses_through(
 
 
 def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
-    """Points across doorways that a robot is not to go through, where it does not stand in one.
+    """Points across doorways that are no way to another door, but for one the robot stands in.
 
     Args:
         doors: x and y of both jambs, metres, robot frame, shape (n, 4).
@@ -67,4 +67,5 @@ def target_before(door: Door, approach: Point) -> Target:
 
 def target_behind(door: Door, approach: Point) -> Target:
     """Be wholly through the door, in any heading: a leaf may bar the way along its axis."""
-    return Target(poses_through(door, approach, after=1.3)[1], 0.5, None)
+    behind = poses_through(door, approach, after=1.3)[1]
+    return Target(behind, 0.5, None, gate=(door.start, door.end))

@@ -67,7 +67,7 @@ class Driver:
         self._step = self._wait = 0
         self._braking = False
         self._refusals = 0
-        self._heeds_barriers = True
+        self._heeds_barriers = False
 
     def drive(
         self,
@@ -84,8 +84,8 @@ class Driver:
             target: where to go, in the frame of the points.
             pose: the centre's pose in that frame.
             velocity: (forward, left, turn) now, m/s and rad/s.
-            barriers: points that no path leads through unless there is no other way, metres,
-                shape (M, 2); nothing that one could run into.
+            barriers: points across what is no way to the target's gate, metres, shape (M, 2);
+                nothing that one could run into.
         """
         self._step += 1
         self._wait -= 1
@@ -168,15 +168,15 @@ class Driver:
     def _path_around(
         self, points: FloatArray, start: Pose, target: Target, barriers: FloatArray
     ) -> Path:
-        """A path around the barriers too, unless the target is reached only through one."""
-        solid = np.vstack((points, barriers))
-        path = plan(solid, start, target, self.robot, self.planner)
-        self._heeds_barriers = True
-        if path.complete or not len(barriers):
+        """A path through the target's gate; around the barriers, if only such a one leads there."""
+        path = plan(points, start, target, self.robot, self.planner)
+        self._heeds_barriers = False
+        if target.gate is None or not len(barriers) or path.crosses(*target.gate):
             return path
-        through = plan(points, start, target, self.robot, self.planner)
-        self._heeds_barriers = not through.complete
-        return through if through.complete else path
+        solid = np.vstack((points, barriers))
+        around = plan(solid, start, target, self.robot, self.planner)
+        self._heeds_barriers = around.complete and around.crosses(*target.gate)
+        return around if self._heeds_barriers else path
 
     def _path_to_stop(
         self, points: FloatArray, pose: Pose, velocity: tuple[float, float, float]

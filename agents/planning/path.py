@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,7 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.agents.planning.motion import kind_of, moved
-from semnav_env.features.frames import FloatArray, Pose, compose
+from semnav_env.features.frames import FloatArray, Point, Pose, compose, points_to_local
 
 SPACING = 0.04
 """Metres between the samples of a path."""
@@ -89,6 +90,14 @@ class Path:
             complete=False,
             clearance=self.clearance[first : last + 1],
         )
+
+    def crosses(self, a: Point, b: Point) -> bool:
+        """Whether the centre crosses the line from point `a` to point `b`."""
+        line = (*a, math.atan2(b[1] - a[1], b[0] - a[0]))
+        x, y = points_to_local(line, self.poses[:, :2]).T
+        k = np.flatnonzero((y[:-1] > 0.0) != (y[1:] > 0.0))
+        at = x[k] + (x[k + 1] - x[k]) * y[k] / (y[k] - y[k + 1])
+        return bool(((at > 0.0) & (at < math.dist(a, b))).any())
 
     @property
     def end(self) -> Pose:

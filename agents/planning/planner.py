@@ -30,11 +30,14 @@ class Target:
         pose: (x, y, heading) in the frame of the obstacle points.
         position_tolerance: metres.
         heading_tolerance: radians; None where any heading will do.
+        gate: both ends of a line that the way there should cross, as the jambs of a door; a
+            `Driver` sees to it, `plan` does not.
     """
 
     pose: Pose
     position_tolerance: float = 0.10
     heading_tolerance: float | None = 0.10
+    gate: tuple[Point, Point] | None = None
 
 
 @dataclass(frozen=True)

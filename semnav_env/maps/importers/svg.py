@@ -111,7 +111,8 @@ def _strokes(shape: Any, layer: str, unit: float) -> Iterator[Stroke]:
 
 def _without_repetition(points: FloatArray) -> FloatArray:
     """The points without those that are the same as the one before; pieces share their ends."""
-    return points[np.append(True, (points[1:] != points[:-1]).any(axis=1))]
+    kept: FloatArray = points[np.append(True, (points[1:] != points[:-1]).any(axis=1))]
+    return kept
 
 
 def _flat(piece: Any, unit: float) -> FloatArray:
