@@ -60,6 +60,8 @@ def test_numbers_of_rooms_are_said_in_full_or_in_short_where_that_is_clear() -> 
         ("go to room 3.508", "l3_508"),
         ("take me to 508", "l3_508"),
         ("go to l3 508", "l3_508"),
+        ("go to l3_508", "l3_508"),
+        ("go to room room_west_1", "room_west_1"),
         ("go to room 2.414a", "l2_414a"),
         ("go to west 1", "room_west_1"),
         ("go to the kitchen", "kitchen"),

@@ -36,12 +36,16 @@ def spoken_names(names: Sequence[str]) -> dict[str, str]:
     short = [(said, name) for name in plain for said in _in_short(name)]
     often = Counter(said for said, _ in short)
     once = {said: name for said, name in short if often[said] == 1}
-    return once | {_said(name): name for name in plain} | {name: name for name in plain}
+    as_written = {name: name for name in plain} | {_in_words(name): name for name in plain}
+    return once | {_said(name): name for name in plain} | as_written
+
+
+def _in_words(name: str) -> str:
+    return " ".join(piece.text for piece in pieces(name))
 
 
 def _said(name: str) -> str:
-    words = " ".join(piece.text for piece in pieces(re.sub("[_-]", " ", name)))
-    return words.removeprefix("room ")
+    return _in_words(re.sub("[_-]", " ", name)).removeprefix("room ")
 
 
 def _in_short(name: str) -> set[str]:
