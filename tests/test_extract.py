@@ -297,9 +297,12 @@ def test_bare_ranges_are_refused_with_the_way_to_a_scan(ranges: object) -> None:
         extract(ranges)  # type: ignore[arg-type]
 
 
-def test_enormous_ranges_give_a_scene() -> None:
-    scan = Scan(np.full(100, 1e300), 0.0, 0.01, range_max=1e308)
-    assert extract(scan, ExtractorSettings(rupture_range=1000.0)) == Scene()
+def test_enormous_ranges_are_no_returns() -> None:
+    farther, none = (
+        Scan([2.0] * 60 + [far] * 40, 0.0, 0.01, range_max=1000.0) for far in (1e300, math.inf)
+    )
+    settings = ExtractorSettings(rupture_range=1000.0)
+    assert extract(farther, settings) == extract(none, settings) != Scene()
 
 
 def test_beams_beyond_a_full_turn_are_left_out() -> None:
