@@ -1,6 +1,6 @@
 """Runs the scripted agent on imported floors: how often it gets there, and a film of one run.
 
-python docs/real_floor_runs.py ../shared/data
+python docs/real_floor_runs.py DATA, the folder that holds gdc_floors.
 """
 
 from __future__ import annotations

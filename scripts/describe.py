@@ -32,7 +32,7 @@ class Arguments:
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         approach: through a door that is named, or to it.
         robot: wheelchair or spot.
-        language: english or german.
+        language: of the command: en or de (english, german).
         paraphrases: how many other wordings to print.
         seed: of the wordings.
         plot: picture of the route to write (.png, .pdf or .svg).
@@ -44,7 +44,7 @@ class Arguments:
     map: str = "heidelberg_hallway"
     approach: Literal["through", "to"] = "through"
     robot: str = "wheelchair"
-    language: str = "english"
+    language: str = "en"
     paraphrases: int = 3
     seed: int = 0
     plot: Path | None = None

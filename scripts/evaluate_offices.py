@@ -15,7 +15,7 @@ from rich.table import Table
 
 from semnav_env.maps import DISTRIBUTIONS, generate_office
 from semnav_env.maps.check import check
-from semnav_env.maps.generator.naming import distribution
+from semnav_env.maps.generator.naming import distribution, office_name
 from semnav_env.robots import ROBOTS, RobotSpec, robot_spec
 from semnav_env.scripts.progress import tracked
 
@@ -88,6 +88,8 @@ class Arguments:
     def _offices(self, names: tuple[str, ...], robot: RobotSpec) -> list[Office]:
         """One of each distribution in turn, so that a run that is cut off can be used."""
         seeds = range(self.first_seed, self.first_seed + self.count)
+        if self.out is not None:
+            self.out.parent.mkdir(parents=True, exist_ok=True)
         total, offices = len(names) * self.count, list[Office]()
         drawn = (measure(name, seed, robot) for seed in seeds for name in names)
         with nullcontext() if self.out is None else self.out.open("w") as out:
@@ -141,6 +143,6 @@ def _show(rows: list[dict[str, Any]], faulty: list[Office]) -> None:
     console = Console()
     console.print(table)
     for office in faulty:
-        name = f"office:{office.distribution}:{office.seed}"
+        name = office_name(office.distribution, office.seed)
         for fault in office.faults:
             console.print(f"{name}: {fault}", highlight=False, soft_wrap=True)

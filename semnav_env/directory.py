@@ -21,6 +21,9 @@ BESIDE = 0.5
 ABOUT = 0.3
 """Outlines of rooms are as exact as this, metres."""
 
+IN_DOORWAY = 0.1
+"""So near to the middle of a door one stands in it, metres."""
+
 WIDE = 1.5
 """A way leads down the middle of what is less than twice as wide, metres."""
 
@@ -61,16 +64,17 @@ class Directory:
             raise GroundingError(f"{named}: {self._plan.name} has {there}")
         if self._geodesic is None:
             self._geodesic = Geodesic(self._plan)
-        self.ways[clause] = self._into(room, begin[:2], str(named))
+        self.ways[clause] = self._into(room, begin, str(named))
         return self.ways[clause]
 
-    def _into(self, room: Region, begin: Point, named: str) -> Way:
+    def _into(self, room: Region, pose: Pose, named: str) -> Way:
         """The shortest way into a room: through the door that it leads by, if there is one."""
         assert self._geodesic is not None
-        if room.polygon.contains(shapely.Point(begin)):
-            return Way((begin, begin))
+        begin = pose[:2]
         doors = [(door, *_inward(door, room)) for door in self._plan.doors if door.open]
         entries = [(door, heading) for door, leads, heading in doors if leads]
+        if room.polygon.contains(shapely.Point(begin)) or _has_come_in(pose, entries):
+            return Way((begin, begin), heading=pose[2])
         inside = room.polygon.representative_point()
         ends: list[Point] = [door.midpoint for door, _ in entries] or [(inside.x, inside.y)]
         lengths = [self._geodesic.to(end).length(begin) for end in ends]
@@ -87,6 +91,8 @@ class Directory:
     def _amid(self, way: FloatArray) -> tuple[Point, ...]:
         """The places of a way, each moved into the middle between what is left and right of it."""
         places = np.array(paced(way))
+        if len(places) < 3:
+            return tuple(zip(*places.T.tolist(), strict=True))
         ahead = np.gradient(places, axis=0)
         across = np.column_stack((-ahead[:, 1], ahead[:, 0]))
         across /= np.hypot(*across.T)[:, None]
@@ -114,6 +120,14 @@ def _room(segments: FloatArray, places: FloatArray, directions: FloatArray) -> F
         met = reach[(reach > 0.0) & (share >= 0.0) & (share <= 1.0)]
         free[k] = min(WIDE, met.min(initial=WIDE))
     return free
+
+
+def _has_come_in(pose: Pose, entries: list[tuple[PlanDoor, float]]) -> bool:
+    """Whether one stands in a door and looks in, as who has just been sent through it."""
+    return any(
+        math.dist(pose[:2], door.midpoint) < IN_DOORWAY and math.cos(heading - pose[2]) > 0.0
+        for door, heading in entries
+    )
 
 
 def _inward(door: PlanDoor, room: Region) -> tuple[bool, float]:

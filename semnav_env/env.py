@@ -126,8 +126,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self.render_mode = render_mode
         self.odometry = Odometry(odometry)
         self._observer = Observer(observation, self.lidar_spec.beams, self.lidar_spec.range_max)
-        self._stage = Stage(floor_plan, dynamics, self.robot)
-        self._enter(self._stage.plan())
+        self.stage = Stage(floor_plan, dynamics, self.robot)
+        self._enter(self.stage.plan())
         self._actions = Actions(self.robot)
         self.action_space = self._actions.space
         self.observation_space = self._observer.space
@@ -149,7 +149,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         options = dict(options or {})
         for unknown in options.keys() - set(OPTIONS):
             raise ValueError(f"no option {unknown!r}; there are: {', '.join(OPTIONS)}")
-        floor_plan = self._stage.plan(options, self.np_random)
+        floor_plan = self.stage.plan(options, self.np_random)
         if floor_plan is not self.floor_plan:
             self._enter(floor_plan)
         start = self.task.begin(options, self.np_random)
@@ -216,7 +216,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     def _enter(self, floor_plan: FloorPlan) -> None:
         """Set everything up that belongs to one floor plan."""
         self.floor_plan = floor_plan
-        self.world = World(floor_plan, self.robot, CONTROL_HZ, dynamics=self._stage.dynamics)
+        self.world = World(floor_plan, self.robot, CONTROL_HZ, dynamics=self.stage.dynamics)
         self.task = CommandTask(floor_plan, self.robot, self.rewards)
         self._scribe = Scribe(self.world.still)
         self._truth = self._observer.mode == "truth"

@@ -11,7 +11,9 @@ from semnav_env.agents.evaluation import SUITES, Trial, run_suite
 from semnav_env.agents.evaluation.runner import run_episode
 from semnav_env.agents.registry import make_agent
 from semnav_env.agents.scripted import ScriptedAgent
+from semnav_env.dynamics import Dynamics
 from semnav_env.env import SemNavEnv
+from semnav_env.maps.placement import placement_error
 from semnav_env.robots import ROBOTS
 from tests.episodes import START, fresh
 
@@ -79,6 +81,15 @@ def test_an_agent_can_be_used_for_one_episode_after_another() -> None:
     first = run_episode(env, agent, HEIDELBERG[0], seed=0)
     run_episode(env, agent, HEIDELBERG[1], seed=1)
     assert run_episode(env, agent, HEIDELBERG[0], seed=0) == first
+
+
+def test_an_episode_begins_where_no_added_box_stands() -> None:
+    trial, dynamics = SUITES["office_cross"][0], Dynamics(added_boxes=20)
+    env = SemNavEnv(observation="truth", dynamics=dynamics, max_seconds=0.5)
+    env.reset(seed=8, options={"floor_plan": trial.floor_plan})
+    assert placement_error(env.floor_plan, env.robot, trial.pose)  # where it was not asked for
+    run_episode(env, make_agent("oracle"), trial, seed=8)
+    assert placement_error(env.floor_plan, env.robot, trial.pose) is None
 
 
 def test_an_unknown_agent_is_an_error_that_lists_the_known_ones() -> None:

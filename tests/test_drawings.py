@@ -230,6 +230,18 @@ def test_a_drawing_without_units_asks_for_the_scale_and_a_wrong_layer_lists_thos
         import_map(path, drawing=Drawing(1.0, ("WALL",)))
 
 
+def test_an_error_of_the_reader_without_words_is_told_by_its_kind(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(path: Path) -> None:
+        raise TypeError
+
+    (tmp_path / "a.dxf").write_text("0")
+    monkeypatch.setattr("ezdxf.recover.readfile", fails)
+    with pytest.raises(FloorPlanError, match="no DXF drawing: TypeError"):
+        import_map(tmp_path / "a.dxf")
+
+
 def test_missing_files_and_libraries_are_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

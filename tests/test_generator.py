@@ -267,6 +267,10 @@ def test_settings_that_make_no_office_are_refused(change, words: str) -> None:
         generate_office(0, OfficeSettings(**change))
 
 
+def test_a_seed_may_be_a_number_of_numpys() -> None:
+    assert generate_office(np.int64(3), "small") == generate_office(3, "small")
+
+
 @pytest.mark.parametrize("seed", [-1, 2**63, 1.5, True, "7"])
 def test_a_seed_is_a_whole_number(seed) -> None:
     with pytest.raises(ValueError, match="give a whole number"):

@@ -12,11 +12,22 @@ from hypothesis import strategies as st
 from shapely import Point
 
 from semnav_env.agents.registry import make_agent
-from semnav_env.commands import Command, GoToRoom, encode, parse
+from semnav_env.commands import (
+    Command,
+    DoorReference,
+    GoToDoor,
+    GoToRoom,
+    Leave,
+    Side,
+    Turn,
+    Turning,
+    encode,
+    parse,
+)
 from semnav_env.commands.rooms import plain_name, spoken_names
 from semnav_env.directory import Directory
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Pose, compose, to_local
+from semnav_env.features.frames import Pose, compose, to_local, wrap_angle
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding import GoalKind, GroundingError, ground
 from semnav_env.grounding.follower import Follower
@@ -98,6 +109,25 @@ def test_who_is_in_the_room_already_is_there() -> None:
     begin = (inside.x, inside.y, 0.0)
     (goal,) = plan_goals(PLAN, Command((GoToRoom("room_west_south_2"),)), begin)
     assert goal.reached_by(begin)
+
+
+@pytest.mark.parametrize("heading", [0.0, 1.0, -2.5])
+def test_who_is_in_the_room_already_goes_on_from_how_they_stand(heading: float) -> None:
+    inside = PLAN.region("room_west_south_2").polygon.centroid
+    command = Command((GoToRoom("room_west_south_2"), Turn(Turning.LEFT)))
+    _, turn = plan_goals(PLAN, command, (inside.x, inside.y, heading))
+    assert turn.pose == pytest.approx((inside.x, inside.y, wrap_angle(heading + math.pi / 2)))
+
+
+def test_who_has_gone_through_the_door_of_a_room_is_in_it_and_who_has_left_by_it_is_not() -> None:
+    second = GoToDoor(DoorReference(2, Side.RIGHT))
+    room = GoToRoom("room_west_south_2")
+    through, there = plan_goals(PLAN, Command((second, room)), WEST)
+    assert there.kind is GoalKind.REACH
+    assert there.reached_by(through.pose)
+    back = plan_goals(PLAN, Command((second, Leave(), room)), WEST)[-1]
+    assert back.kind is GoalKind.PASS
+    assert back.door == through.door
 
 
 def test_a_room_that_is_not_there_is_named_with_those_that_are() -> None:

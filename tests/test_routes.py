@@ -208,6 +208,11 @@ def test_the_poses_of_a_route_are_near_each_other_and_lead_from_end_to_end(
         assert math.cos(route.poses[-1, 2] - facing) == pytest.approx(1.0)
 
 
+def test_the_heading_at_the_end_of_a_route_is_finite() -> None:
+    with pytest.raises(RouteError, match="finite numbers"):
+        Route((0.0, 0.0, 0.0), np.array([(0.0, 0.0), (1.0, 0.0)]), math.nan)
+
+
 @pytest.mark.parametrize(
     ("points", "message"),
     [

@@ -106,8 +106,8 @@ def run_episode(
     env: SemNavEnv, agent: Any, trial: Trial, seed: int, extras: Extras = NO_EXTRAS
 ) -> Result:
     """One episode from a start pose that the seed scatters."""
-    env.reset(seed=seed, options={"floor_plan": trial.floor_plan})
-    pose = scattered(trial, env.floor_plan, env.robot, np.random.default_rng(seed))
+    drawn = env.stage.plan({"floor_plan": trial.floor_plan})  # furniture keeps off the pose
+    pose = scattered(trial, drawn, env.robot, np.random.default_rng(seed))
     options = {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
     return conclude(drive(env, agent, seed, options), trial.command, seed, extras)
 

@@ -116,11 +116,10 @@ class Rearranged:
 
     def _placed(self, draw: Callable[[], Polygon], plan: FloorPlan) -> Surface | None:
         """The first drawn piece that stands free, at no door, and parts no way in two."""
-        inside = shapely.union_all([Polygon(s.points) for s in plan.surfaces if _is_piece(s)])
         ways: list[tuple[float, list[Polygon]]] = []
         for _ in range(TRIES):
             piece = draw()
-            if piece.intersects(self._kept_free) or piece.intersects(inside):
+            if piece.intersects(self._kept_free) or len(plan.furniture.query(piece, "intersects")):
                 continue
             if not plan.boundary.contains(piece) or len(plan.solids.query(piece, "dwithin", APART)):
                 continue
@@ -147,8 +146,7 @@ def _stay_whole(parts: list[Polygon], piece: Polygon) -> bool:
 
 
 def _is_piece(surface: Surface) -> bool:
-    closed = len(surface.points) > 3 and surface.points[0] == surface.points[-1]
-    return closed and surface.material is Material.FURNITURE
+    return surface.is_closed and surface.material is Material.FURNITURE
 
 
 def _outline(piece: Polygon) -> Surface:

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import shapely
-from shapely.affinity import rotate, translate
 
 from semnav_env.dynamics.crowd import Crowd
 from semnav_env.dynamics.doors import SwingingDoors
@@ -15,6 +14,7 @@ from semnav_env.dynamics.settings import Dynamics
 from semnav_env.dynamics.social import SocialRecord, gaps
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.placement import footprint
 from semnav_env.robots import RobotSpec
 
 
@@ -85,10 +85,12 @@ class Moving:
         """Distance from the footprint at `pose` to the nearest person or leaf, metres."""
         body = as_body(self._robot, pose, (0.0, 0.0, 0.0))
         people = gaps(body, self.discs).min(initial=math.inf)
-        outline = shapely.box(-body[3], -body[4], body[3], body[4])
-        turned = translate(rotate(outline, pose[2], (0.0, 0.0), use_radians=True), *pose[:2])
         leaves = shapely.linestrings(self.doors.segments.reshape(-1, 2, 2))
-        return float(min(people, shapely.distance(turned, leaves).min(initial=math.inf)))
+        return float(
+            min(
+                people, shapely.distance(footprint(self._robot, pose), leaves).min(initial=math.inf)
+            )
+        )
 
 
 def as_body(robot: RobotSpec, pose: Pose, velocity: Pose) -> FloatArray:

@@ -94,10 +94,10 @@ def _apart(door: Door, pointed_out: Pose) -> Point:
 
 
 def paced(points: FloatArray | Sequence[Point]) -> tuple[Point, ...]:
-    """Places `PACE` apart along a line, shape (k, 2); its ends included."""
+    """Places `PACE` apart along a line, shape (k, 2); its ends included, at least two."""
     line = np.asarray(points, dtype=np.float64)
     along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))))
-    stops = np.append(np.arange(0.0, along[-1], PACE), along[-1])
+    stops = np.append(PACE * np.arange(max(1, math.ceil(along[-1] / PACE))), along[-1])
     x, y = (np.interp(stops, along, line[:, axis]) for axis in (0, 1))
     return tuple(zip(x.tolist(), y.tolist(), strict=True))
 

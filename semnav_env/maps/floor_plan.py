@@ -41,6 +41,11 @@ class Surface:
     material: Material = Material.WALL
     assumed: bool = False
 
+    @property
+    def is_closed(self) -> bool:
+        """Whether it goes around an area."""
+        return len(self.points) > 3 and self.points[0] == self.points[-1]
+
 
 @dataclass(frozen=True)
 class PlanDoor:
@@ -153,11 +158,15 @@ class FloorPlan:
         closed = [
             surface.points
             for surface in self.surfaces
-            if surface.material is Material.FURNITURE
-            and len(surface.points) > 3
-            and surface.points[0] == surface.points[-1]
+            if surface.material is Material.FURNITURE and surface.is_closed
         ]
         return STRtree([Polygon(points) for points in closed])
+
+    @cached_property
+    def door_ends(self) -> FloatArray:
+        """The jambs of `doors`, open or not, shape (m, 4): x1, y1, x2, y2 in metres."""
+        rows = [(*door.start, *door.end) for door in self.doors]
+        return _frozen(np.array(rows, dtype=np.float64).reshape(-1, 4))
 
     @property
     def regions(self) -> tuple[Region, ...]:

@@ -67,7 +67,7 @@ def _feature(geometry: dict[str, Any], **properties: object) -> dict[str, Any]:
 def _solid(surface: Surface) -> dict[str, Any]:
     """A closed line is an area if it encloses what the rules call one, any other one a line."""
     points = list(surface.points)
-    if len(points) > 3 and points[0] == points[-1]:
+    if surface.is_closed:
         area = Polygon(points)
         if area.is_valid and area.area >= LEAST_AREA:
             return _area(area)

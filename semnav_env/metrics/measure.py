@@ -11,14 +11,15 @@ from semnav_env.grounding.follower import STANDSTILL
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.maps.geodesic import WaysTo
 from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
-from semnav_env.metrics.paths import cls, length, ndtw, resampled, soft_spl, spl
+from semnav_env.metrics.paths import THRESHOLD, cls, length, ndtw, resampled, soft_spl, spl
 from semnav_env.metrics.recording import Recording
 from semnav_env.metrics.results import Metrics
 from semnav_env.robots import RobotSpec
 from semnav_env.verifier import Verdict, Verifier, place
 
-NEAR, VLN = 1.0, 3.0
-"""A goal is reached within so much in the looser measures of success, metres."""
+NEAR = 1.0
+"""A goal is reached within this, or within the published `THRESHOLD`, in the looser measures of
+success, metres."""
 
 
 def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metrics:
@@ -41,10 +42,10 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
     return Metrics(
         success=success,
         within_1m=bool(distances[-1] < NEAR),
-        within_3m=bool(distances[-1] < VLN),
+        within_3m=bool(distances[-1] < THRESHOLD),
         oracle_success=success or (bool(goals) and ever_met(goals[-1], recording)),
         oracle_within_1m=bool(distances.min() < NEAR),
-        oracle_within_3m=bool(distances.min() < VLN),
+        oracle_within_3m=bool(distances.min() < THRESHOLD),
         spl=spl(success, path_length, route_length),
         soft_spl=soft_spl(float(distances[-1]), float(distances[0]), path_length, route_length),
         ndtw=alike,

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import shapely
+from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, points_to_parent
+from semnav_env.features.frames import FloatArray
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.placement import footprint
 from semnav_env.robots import RobotSpec
 
 FARTHEST = 10.0
@@ -55,12 +56,9 @@ def clearances(poses: FloatArray, robot: RobotSpec, floor_plan: FloorPlan) -> Fl
     return found
 
 
-def footprints(poses: FloatArray, robot: RobotSpec) -> FloatArray:
+def footprints(poses: FloatArray, robot: RobotSpec) -> NDArray[np.object_]:
     """The rectangles that a robot covers at some poses, as Shapely polygons, shape (n,)."""
-    x, y = robot.length / 2, robot.width / 2
-    corners = np.array([(x, y), (-x, y), (-x, -y), (x, -y)])
-    placed = np.array([points_to_parent(tuple(pose), corners) for pose in poses.tolist()])
-    return shapely.polygons(placed.reshape(-1, 4, 2))  # type: ignore[no-any-return]
+    return np.array([footprint(robot, (x, y, heading)) for x, y, heading in poses.tolist()])
 
 
 def collisions_per_100m(collisions: int, path_length: float) -> float:

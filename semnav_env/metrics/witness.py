@@ -66,10 +66,9 @@ def region_at(floor_plan: FloorPlan, point: Point) -> str:
 
 def _doors(recording: Recording, floor_plan: FloorPlan) -> Iterator[DoorCrossed]:
     doors = floor_plan.doors
-    ends = np.array([(*door.start, *door.end) for door in doors]).reshape(-1, 4)
     steps = pairwise(recording.path.tolist())
     for step, (before, after) in enumerate(steps, start=1):
-        index = first_crossed(ends, *before, *after)
+        index = first_crossed(floor_plan.door_ends, *before, *after)
         if index >= 0:
             from_left = _is_left(doors[index], before)
             left, right = (region_at(floor_plan, p) for p in _beside(doors[index]))

@@ -105,9 +105,11 @@ class _Search:
         queue = [(0, 0, next(order), self._farthest, False)]
         while queue and len(seen) < MOST_STATES:
             least, _, _, told, there = heapq.heappop(queue)
+            if least > MAX_CLAUSES:
+                break
             if there and follows(self._plan, Command(told.clauses), self._route):
                 return Command(told.clauses)
-            if told.key() in seen or least > MAX_CLAUSES or told.clauses[-1:] == (Follow(),):
+            if told.key() in seen or told.clauses[-1:] == (Follow(),):
                 continue
             seen.add(told.key())
             for further, ends in self._further(told):

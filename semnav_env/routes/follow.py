@@ -53,8 +53,7 @@ def with_rest(route: Route) -> FloatArray:
 
 def crossings(floor_plan: FloorPlan, poses: FloatArray) -> list[tuple[int, str]]:
     """The doors that poses lead through: at which pose, and the name."""
-    doors = floor_plan.doors
-    ends = np.array([(*d.start, *d.end) for d in doors], dtype=np.float64).reshape(-1, 4)
+    doors, ends = floor_plan.doors, floor_plan.door_ends
     steps = np.hstack((poses[:-1, :2], poses[1:, :2])).tolist()
     hits = ((k, first_crossed(ends, *step)) for k, step in enumerate(steps, 1))
     return [(k, doors[hit].name) for k, hit in hits if hit >= 0]

@@ -45,7 +45,7 @@ class Route:
         points = np.array(self.points, dtype=np.float64)
         if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
             raise RouteError(f"a route is at least two points (x, y), not shape {points.shape}")
-        if not (np.isfinite(points).all() and np.isfinite(self.start).all()):
+        if not np.isfinite((*points.ravel(), *self.start, self.facing or 0.0)).all():
             raise RouteError("a route needs finite numbers, metres and radians")
         if math.dist(points[0], self.start[:2]) > STEP:
             here, there = (f"({p[0]:.2f}, {p[1]:.2f})" for p in (self.start, points[0]))

@@ -81,9 +81,6 @@ class Verifier:
         self.path_length = 0.0
         self.geodesic = geodesic
         self._ways = self._ways_to_goal()
-        self._door_ends = np.array(
-            [(*door.start, *door.end) for door in floor_plan.doors], dtype=np.float64
-        ).reshape(-1, 4)
         self._met: list[Goal] = []
         self._still = 0.0
         self._in_contact = False
@@ -194,7 +191,7 @@ class Verifier:
         return went_astray(self.command.clauses[self.follower.active], goal, pose)
 
     def _crossed_door(self, pose: Pose) -> PlanDoor | None:
-        index = first_crossed(self._door_ends, *self._last[:2], *pose[:2])
+        index = first_crossed(self.floor_plan.door_ends, *self._last[:2], *pose[:2])
         return None if index < 0 else self.floor_plan.doors[index]
 
 

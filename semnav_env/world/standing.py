@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 
-from shapely import Polygon
-
-from semnav_env.features.frames import Point, Pose, to_parent
+from semnav_env.features.frames import Point, Pose
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.placement import footprint
 from semnav_env.robots import RobotSpec
 
 
@@ -26,7 +25,7 @@ def clearance(floor_plan: FloorPlan, robot: RobotSpec, pose: Pose) -> float:
     if len(solids) == 0:
         return math.inf
     _, distances = solids.query_nearest(
-        _footprint(robot, pose), return_distance=True, all_matches=False
+        footprint(robot, pose), return_distance=True, all_matches=False
     )
     return float(distances[0])
 
@@ -34,7 +33,7 @@ def clearance(floor_plan: FloorPlan, robot: RobotSpec, pose: Pose) -> float:
 def standing_error(floor_plan: FloorPlan, robot: RobotSpec, pose: Pose) -> str | None:
     """Why the robot cannot stand at a pose; None if it can."""
     where = f"the pose {tuple(round(value, 3) for value in pose)}"
-    if not floor_plan.boundary.covers(_footprint(robot, pose)):
+    if not floor_plan.boundary.covers(footprint(robot, pose)):
         return f"{where} puts the {robot.name} outside the boundary of {floor_plan.name}"
     if clearance(floor_plan, robot, pose) == 0.0:
         return (
@@ -42,7 +41,3 @@ def standing_error(floor_plan: FloorPlan, robot: RobotSpec, pose: Pose) -> str |
             f"it needs a free {robot.length} m x {robot.width} m"
         )
     return None
-
-
-def _footprint(robot: RobotSpec, pose: Pose) -> Polygon:
-    return Polygon([to_parent(pose, corner) for corner in corners(robot)])

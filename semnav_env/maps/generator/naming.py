@@ -7,6 +7,7 @@ shell; it holds all that the plan is made from, so that a process needs nothing 
 from __future__ import annotations
 
 import re
+from numbers import Integral
 
 from rapidfuzz import process
 
@@ -38,11 +39,11 @@ def generate_office(seed: int, settings: str | OfficeSettings = "medium") -> Flo
     Raises:
         ValueError: no such distribution, a seed that is none, or settings that no office meets.
     """
-    if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed <= MOST_SEED:
+    if isinstance(seed, bool) or not isinstance(seed, Integral) or not 0 <= seed <= MOST_SEED:
         raise ValueError(f"the seed is {seed!r}; give a whole number from 0 to {MOST_SEED}")
     ranges = distribution(settings) if isinstance(settings, str) else settings
     names = [name for name, fixed in DISTRIBUTIONS.items() if fixed == ranges]
-    return draw_office(seed, ranges, office_name(names[0] if names else CUSTOM, seed))
+    return draw_office(int(seed), ranges, office_name(names[0] if names else CUSTOM, seed))
 
 
 def office_name(distribution: str, seed: int) -> str:

@@ -81,7 +81,8 @@ def _read(path: Path) -> tuple[Any, int]:
     except (DXFError, ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
         if isinstance(error, FloorPlanError):
             raise
-        raise FloorPlanError(f"{path}: no DXF drawing: {str(error).splitlines()[0]}") from None
+        said = (str(error) or type(error).__name__).splitlines()[0]
+        raise FloorPlanError(f"{path}: no DXF drawing: {said}") from None
     return document, len(audit.errors) + len(audit.fixes)
 
 

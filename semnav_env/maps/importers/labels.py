@@ -58,7 +58,7 @@ class PlaceLabel:
 def read_door_labels(path: Path) -> tuple[DoorLabel, ...]:
     """The doors of a `doors.yaml`: a list of name, door_corner_pt_1 and door_corner_pt_2.
 
-    None if there is no such file.
+    Empty if there is no such file.
 
     Raises:
         FloorPlanError: not such a file; names what is wrong with which door.
@@ -74,7 +74,7 @@ def read_door_labels(path: Path) -> tuple[DoorLabel, ...]:
 def read_place_labels(path: Path) -> tuple[PlaceLabel, ...]:
     """The places of a `locations.yaml`: names in `locations`, as many rings in `polygons`.
 
-    And, which is this project's own, as many `KINDS` in `kinds`. None if there is no such file.
+    And, which is this project's own, as many `KINDS` in `kinds`. Empty if there is no such file.
 
     Raises:
         FloorPlanError: not such a file; names what is wrong with which place.
