@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import fmean, median
@@ -16,12 +17,16 @@ from semnav_env.agents.evaluation import (
     Extras,
     Result,
     Summary,
+    Trial,
+    asked,
+    common_causes,
     failure_line,
     run_suite,
     suite,
     summarise,
 )
 from semnav_env.dynamics import OFF, Dynamics
+from semnav_env.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.metrics import SHARES
 from semnav_env.scripts.progress import tracked
 
@@ -38,14 +43,16 @@ SHOWN = {
 
 @dataclass(frozen=True)
 class Arguments:
-    """Run a suite of commands many times and count.
+    """Run a suite of commands many times, or the episodes of a split once, and count.
 
     Attributes:
-        suite: heidelberg, office_cross, or "all".
+        suite: heidelberg, office_cross, or "all"; a split (`semnav episodes list`), or a file of
+            episodes.
         agent: scripted, oracle, or the path of a trained agent.
         robot: wheelchair or spot.
-        seeds: how many start poses and noises per command.
+        seeds: how many start poses and noises per command of a suite.
         first_seed: of them.
+        episodes: how many of a split, evenly spaced; all if not given.
         workers: processes.
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
@@ -59,6 +66,7 @@ class Arguments:
     robot: str = "wheelchair"
     seeds: int = 20
     first_seed: int = 0
+    episodes: int | None = None
     workers: int = 1
     recheck: bool = False
     pictures: Path | None = None
@@ -72,24 +80,49 @@ class Arguments:
             raise ValueError("seeds and workers must be at least 1")
         if self.first_seed < 0:
             raise ValueError(f"first_seed is {self.first_seed}; it must be 0 or more")
-        trials = suite(self.suite)
+        if self.episodes is not None and self.episodes < 1:
+            raise ValueError(f"--episodes is {self.episodes}; it must be at least 1")
+        trials = self._trials()
+        if any(isinstance(t, Episode) and t.expected is Expected.AMBIGUOUS for t in trials):
+            return self._ask([trial for trial in trials if isinstance(trial, Episode)])
         seeds = range(self.first_seed, self.first_seed + self.seeds)
-        total = len(trials) * len(seeds)
+        total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
         results: list[Result] = []
         extras = Extras(self.recheck, self.pictures)
         how = self.workers, extras, self.dynamics
         episodes = run_suite(trials, self.agent, self.robot, seeds, *how)
         for result in tracked(episodes, lambda n: f"{n} episodes", lambda: len(results) / total):
             results.append(result)
-        results.sort(
-            key=lambda result: ([t.command for t in trials].index(result.command), result.seed)
-        )
+        groups = list(dict.fromkeys(trial.group for trial in trials))
+        if isinstance(trials[0], Episode):
+            groups.sort()
+        results.sort(key=lambda result: (groups.index(result.group), result.seed))
         if self.out is not None:
             self.out.parent.mkdir(parents=True, exist_ok=True)
             self.out.write_text("".join(json.dumps(r.row()) + "\n" for r in results))
-        self._show([_summary(trial.command, results) for trial in trials], results)
+        self._show([_summary(group, results) for group in groups], results)
         if self.out is not None and not self.json:
             print(f"wrote {self.out}")
+        return 0
+
+    def _trials(self) -> Sequence[Trial | Episode]:
+        if not is_episodes(self.suite):
+            return suite(self.suite)
+        found = load_episodes(self.suite)
+        return found if self.episodes is None else evenly(found, self.episodes)
+
+    def _ask(self, episodes: Sequence[Episode]) -> int:
+        """What the grammar makes of commands that can mean several things."""
+        wrong = {episode: cause for episode in episodes if (cause := asked(episode))}
+        right = len(episodes) - len(wrong)
+        failures = [
+            f'{episode.id} "{episode.command}": {cause}' for episode, cause in wrong.items()
+        ]
+        if self.json:
+            print(json.dumps({"episodes": len(episodes), "right": right, "failures": failures}))
+            return 0
+        said = f"ambiguous commands: {right} of {len(episodes)} understood as all that they mean"
+        print("\n".join([said, *failures]))
         return 0
 
     def _show(self, summaries: list[Summary], results: list[Result]) -> None:
@@ -101,6 +134,8 @@ class Arguments:
         console.print(_commands_table([*summaries, everything]))
         console.print()
         console.print(_measures_table(everything))
+        for cause, count in common_causes(results):
+            console.print(f"{count} x {cause}", highlight=False)
         for row in summaries:
             for failure in row.failures:
                 line = f"{row.name}: {failure_line(failure)}"
@@ -156,5 +191,5 @@ def _written(value: float) -> str:
     return f"{value:.1f}" if abs(value) >= 10.0 else f"{value:.3f}"
 
 
-def _summary(command: str, results: list[Result]) -> Summary:
-    return summarise(command, [result for result in results if result.command == command])
+def _summary(group: str, results: list[Result]) -> Summary:
+    return summarise(group, [result for result in results if result.group == group])

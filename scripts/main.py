@@ -18,6 +18,8 @@ COMMANDS = {
     "demo": ("demo", "let a robot carry out a command"),
     "ground": ("ground", "say what a command refers to in a floor plan"),
     "describe": ("describe", "say the command that leads to a door or a room"),
+    "demonstrate": ("demonstrate", "write what an agent sees and does as a dataset"),
+    "episodes": ("episodes", "list, check and generate the frozen episodes"),
     "evaluate": ("evaluate", "measure an agent on a suite of commands"),
     "evaluate features": ("evaluate_features", "measure the feature extractor against truth"),
     "evaluate lines": ("evaluate_lines", "measure lines on real scans, walls on simulated ones"),

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from semnav_env.actions import Actions
 from semnav_env.dynamics import OFF, Dynamics, Stage
+from semnav_env.episodes.options import EpisodeOptions, Episodes
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Pose
 from semnav_env.lidar.lidar import Lidar
@@ -28,8 +29,6 @@ from semnav_env.world import World
 
 CONTROL_HZ = 15
 """Steps per second, the rate of the lidar."""
-
-OPTIONS = ("command", "language", "implicit_steps", "pose", "floor_plan")
 
 
 class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
@@ -76,7 +75,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     ## Starting State
     `reset(options=...)` takes "command" (text or `Command`), its "language", "implicit_steps" (or
     not), "pose" (x, y, heading; world frame) and "floor_plan". What is not given is drawn: a
-    free pose in a corridor looking along it, and a command that can be carried out from there.
+    free pose in a corridor looking along it, and a command that can be carried out from there. Or
+    "episode", an `Episode` or the id of one of `episodes`, which one is drawn from without options.
 
     ## Episode End
     Terminates when the command has been carried out, at a wrong door or a wrong turn, and after
@@ -86,8 +86,9 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     ## Arguments
     robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a
     `FloorPlan`. observation: see above. lidar: "tim561", "barbret" or a `LidarSpec`. odometry:
-    drift. extractor: limits of the feature extractor. rewards: weights. dynamics: what else
-    moves. max_seconds: of simulated time. render_mode: "rgb_array" or "human" (extra `render`).
+    drift. extractor: limits of the feature extractor. rewards: weights. dynamics: what else moves.
+    max_seconds: of simulated time. render_mode: "rgb_array" or "human" (extra `render`). episodes:
+    to draw from: the name of a split, a file, or `Episode`s.
 
     ## Version History
     v0: first version.
@@ -113,6 +114,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         dynamics: Dynamics = OFF,
         max_seconds: float = 120.0,
         render_mode: str | None = None,
+        episodes: Episodes | None = None,
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ValueError(f"no render mode {render_mode!r}; there are: rgb_array, human")
@@ -131,7 +133,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self._actions = Actions(self.robot)
         self.action_space = self._actions.space
         self.observation_space = self._observer.space
-        self._started = False
+        self._asked, self._started = EpisodeOptions(episodes), False
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -144,11 +146,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         """
         super().reset(seed=seed)
         self._started = False
-        if not isinstance(options, dict | None):
-            raise ValueError(f"options are a dict with {', '.join(OPTIONS)}, not {options!r}")
-        options = dict(options or {})
-        for unknown in options.keys() - set(OPTIONS):
-            raise ValueError(f"no option {unknown!r}; there are: {', '.join(OPTIONS)}")
+        options = self._asked.complete(options, self.np_random)
         floor_plan = self.stage.plan(options, self.np_random)
         if floor_plan is not self.floor_plan:
             self._enter(floor_plan)
@@ -243,6 +241,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             "lidar_spec": self.lidar_spec,
             "pose": start,
             **verifier.true_route(),
+            **self._asked.info,
         }
 
     def _info(self, pose: Pose, terms: dict[str, float], over: bool) -> dict[str, Any]:

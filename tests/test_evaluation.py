@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from semnav_env.agents.evaluation import SUITES, Result, runner, suite, summarise
+from semnav_env.agents.evaluation import SUITES, Result, asked, runner, suite, summarise
 from semnav_env.commands import parse
+from semnav_env.env import SemNavEnv
+from semnav_env.episodes import Expected, load_episodes
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.metrics import COLUMNS, Metrics
@@ -104,3 +106,46 @@ def test_the_office_suite_has_twenty_commands_of_one_to_three_clauses() -> None:
 def test_an_unknown_suite_is_an_error_that_lists_the_known_ones() -> None:
     with pytest.raises(ValueError, match="heidelberg, office_cross, all"):
         suite("moon")
+
+
+def test_a_split_is_evaluated_by_its_clauses_and_failures_are_told_by_their_episodes(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    out = tmp_path / "out.jsonl"
+    words = ["test_real", "--episodes", "2", "--pictures", str(tmp_path), "--out", str(out)]
+    assert main(["evaluate", *words, "--recheck"]) == 0
+    text = capsys.readouterr().out
+    assert "1 x stopped short in GoToDoor" in text
+    assert "test_real-00100" in text
+    assert "clause" in text
+    assert "second opinion: 0 of 2" in text
+    assert len(list(tmp_path.glob("*test_real_00000*.png"))) == 1
+    rows = [json.loads(line) for line in out.read_text().splitlines()]
+    assert [row["episode"] for row in rows] == ["test_real-00000", "test_real-00100"]
+
+
+def test_standing_still_is_no_answer_unless_the_robot_says_why(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On the truth the robot knows at once that a one-clause command is impossible, and says so."""
+    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    assert main(["evaluate", "test_infeasible", "--episodes", "1", "--json"]) == 0
+    *_, everything = json.loads(capsys.readouterr().out)
+    assert (everything["success"], everything["failures"]) == (1.0, [])
+    episode = replace(load_episodes("test_real")[0], expected=Expected.INFEASIBLE)
+    env = SemNavEnv(observation="truth")
+    result = runner.run_frozen(env, Statue(), episode)
+    assert not result.success
+    assert "did not say that it is impossible" in result.cause
+
+
+def test_an_ambiguous_command_counts_if_all_its_readings_are_found(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["evaluate", "test_ambiguous", "--episodes", "20"]) == 0
+    assert "20 of 20 understood" in capsys.readouterr().out
+    episode = load_episodes("test_ambiguous")[0]
+    assert asked(episode) == ""
+    assert "taken for" in asked(replace(episode, readings=episode.readings[:1] * 2))
+    assert "not understood" in asked(replace(episode, command="fly to the moon"))

@@ -1,7 +1,14 @@
 """Measuring agents: suites of episodes, a runner and a table."""
 
+from semnav_env.agents.evaluation.asking import asked, by_grammar
 from semnav_env.agents.evaluation.drive import Drive, drive
-from semnav_env.agents.evaluation.results import Result, Summary, failure_line, summarise
+from semnav_env.agents.evaluation.results import (
+    Result,
+    Summary,
+    common_causes,
+    failure_line,
+    summarise,
+)
 from semnav_env.agents.evaluation.runner import Extras, conclude, run_suite
 from semnav_env.agents.evaluation.suites import SUITES, Trial, suite
 
@@ -12,6 +19,9 @@ __all__ = [
     "Result",
     "Summary",
     "Trial",
+    "asked",
+    "by_grammar",
+    "common_causes",
     "conclude",
     "drive",
     "failure_line",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from semnav_env.metrics.events import Event
 from semnav_env.metrics.witness import events_of
 from semnav_env.recheck import recheck
 from semnav_env.robots import RobotSpec
-from semnav_env.verifier import Verifier
+from semnav_env.verifier import Verdict, Verifier
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +28,8 @@ class Drive:
         cause: why it failed, in words; empty after success.
         robot: that drove.
         social: how near people came, see `World.social`.
+        impossible: why the robot took the command for impossible when the episode ended; empty if
+            it did not.
     """
 
     recording: Recording
@@ -36,6 +38,24 @@ class Drive:
     cause: str
     robot: RobotSpec
     social: dict[str, float]
+    impossible: str = ""
+
+    @property
+    def kind(self) -> str:
+        """The kind of the clause that failed, as "Turn"; empty after success."""
+        clauses = self.verifier.command.clauses
+        active = min(self.verifier.follower.active, len(clauses) - 1)
+        return "" if self.metrics.success else type(clauses[active]).__name__
+
+    def as_infeasible(self) -> Drive:
+        """The same, where saying that the command is impossible is what was right.
+
+        That is so if the robot stood still and said so, and went wrong nowhere before.
+        """
+        right = bool(self.impossible) and self.verifier.verdict is Verdict.STOPPED_SHORT
+        said = self.impossible or "did not say that it is impossible"
+        cause = "" if right else f"{self.verifier.verdict}; robot: {said}"
+        return replace(self, metrics=replace(self.metrics, success=right), cause=cause)
 
     def rechecked(self) -> str:
         """The verdict of the second opinion where it is not the verifier's; else empty."""
@@ -63,7 +83,7 @@ def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> D
         env: whose `observation=` is the agent's.
         agent: the driver.
         seed: of the environment.
-        options: for `env.reset`: "command", "pose", "floor_plan".
+        options: for `env.reset`: "command", "pose", "floor_plan"; or "episode".
     """
     observation, info = env.reset(seed=seed, options=options)
     agent.reset(info)
@@ -75,5 +95,7 @@ def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> D
         over = terminated or truncated
     verifier, recording = env.task.verifier, recorder.recording()
     metrics = measure(recording, verifier, env.robot)
-    cause = cause_of(verifier, metrics, info["impossible"])
-    return Drive(recording, verifier, metrics, cause, env.robot, env.world.social())
+    impossible = info["impossible"]
+    cause = cause_of(verifier, metrics, impossible)
+    social = env.world.social()
+    return Drive(recording, verifier, metrics, cause, env.robot, social, impossible or "")

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 
 from semnav_env.dynamics.social import for_json
 from semnav_env.metrics import SHARES, Metrics, means, worst
+from semnav_env.verifier import FAILURES
 
 
 @dataclass(frozen=True)
@@ -21,6 +23,9 @@ class Result:
         cause: why it failed, in words; empty after success.
         rechecked: verdict of the second opinion where it is not the verifier's; else empty.
         social: how near people came, see `SocialRecord.outcome`; empty without people.
+        episode: its id, if it is one that was written down.
+        group: under which it is counted; the command if not given.
+        kind: of the clause that failed, as "Turn".
     """
 
     command: str
@@ -30,6 +35,9 @@ class Result:
     cause: str = ""
     rechecked: str = ""
     social: dict[str, float] = field(default_factory=dict)
+    episode: str = ""
+    group: str = ""
+    kind: str = ""
 
     @property
     def success(self) -> bool:
@@ -39,6 +47,7 @@ class Result:
     def row(self) -> dict[str, object]:
         """One flat object, as it is written to a file."""
         first = {"command": self.command, "seed": self.seed, "verdicts": self.verdicts}
+        first |= {"episode": self.episode} if self.episode else {}
         last = {"cause": self.cause, "rechecked": self.rechecked}
         return {**first, **asdict(self.metrics), **for_json(self.social), **last}
 
@@ -90,5 +99,17 @@ def summarise(name: str, results: Sequence[Result]) -> Summary:
 
 
 def failure_line(result: Result) -> str:
-    """A failed episode in one line: its seed, the verdicts and the cause."""
-    return f"seed {result.seed}: {' / '.join(result.verdicts)} ({result.cause})"
+    """A failed episode in one line: its id or seed, the verdicts and the cause."""
+    which = f'{result.episode} "{result.command}"' if result.episode else f"seed {result.seed}"
+    return f"{which}: {' / '.join(result.verdicts)} ({result.cause})"
+
+
+def common_causes(results: Sequence[Result]) -> list[tuple[str, int]]:
+    """What failed how often, the most common first: the verdict and the kind of clause."""
+    failed = (result for result in results if not result.success)
+    return Counter(_short_cause(result) for result in failed).most_common()
+
+
+def _short_cause(result: Result) -> str:
+    verdict = next((verdict for verdict in result.verdicts if verdict in FAILURES), "answered")
+    return f"{verdict} in {result.kind}" if result.kind else verdict

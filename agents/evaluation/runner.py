@@ -6,7 +6,7 @@ import multiprocessing
 import re
 import zlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,8 @@ from semnav_env.agents.evaluation.results import Result, failure_line
 from semnav_env.agents.evaluation.suites import Trial
 from semnav_env.agents.registry import make_agent
 from semnav_env.dynamics import OFF, Dynamics
-from semnav_env.env import SemNavEnv
+from semnav_env.env import CONTROL_HZ, SemNavEnv
+from semnav_env.episodes import Episode, Expected
 from semnav_env.features.frames import Pose
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import placement_error
@@ -39,15 +40,18 @@ class Extras:
 
 NO_EXTRAS = Extras()
 
+LONGEST = 300.0
+"""Frozen episodes may take so long, simulated seconds."""
+
 LONGEST_NAME = 90
 """Characters of a command in the name of a picture."""
 
 
 @dataclass(frozen=True)
 class Job:
-    """One trial with one agent on one body, for some seeds."""
+    """One trial or frozen episode with one agent on one body, for some seeds."""
 
-    trial: Trial
+    trial: Trial | Episode
     agent: str
     robot: str
     seeds: tuple[int, ...]
@@ -56,10 +60,10 @@ class Job:
 
 
 def run_suite(
-    trials: Sequence[Trial],
+    trials: Sequence[Trial | Episode],
     agent: str,
     robot: str,
-    seeds: Sequence[int],
+    seeds: Sequence[int] = (),
     workers: int = 1,
     extras: Extras = NO_EXTRAS,
     dynamics: Dynamics = OFF,
@@ -67,15 +71,19 @@ def run_suite(
     """The result of every trial with every seed, as they come.
 
     Args:
-        trials: what to run.
+        trials: what to run; an episode has one seed, its number.
         agent: name of an agent, or the path of a trained one.
         robot: name of a body.
-        seeds: each gives a start pose, sensor noise and odometry drift.
+        seeds: each gives a trial's start pose, sensor noise and odometry drift.
         workers: processes; results do not depend on it, but for their order.
         extras: what else to do with each episode.
         dynamics: what else moves.
     """
-    jobs = [Job(t, agent, robot, (seed,), extras, dynamics) for t in trials for seed in seeds]
+    jobs = [
+        Job(trial, agent, robot, (seed,), extras, dynamics)
+        for trial in trials
+        for seed in ((trial.number,) if isinstance(trial, Episode) else seeds)
+    ]
     if workers == 1:
         runner = Runner()
         yield from (result for job in jobs for result in runner.run(job))
@@ -99,6 +107,8 @@ class Runner:
             env = SemNavEnv(job.robot, observation=agent.observation, dynamics=job.dynamics)
             self._envs[key] = env, agent
         env, agent = self._envs[key]
+        if isinstance(job.trial, Episode):
+            return [run_frozen(env, agent, job.trial, job.extras)]
         return [run_episode(env, agent, job.trial, seed, job.extras) for seed in job.seeds]
 
 
@@ -112,7 +122,22 @@ def run_episode(
     return conclude(drive(env, agent, seed, options), trial.command, seed, extras)
 
 
-def conclude(driven: Drive, command: str, seed: int, extras: Extras = NO_EXTRAS) -> Result:
+def run_frozen(env: SemNavEnv, agent: Any, episode: Episode, extras: Extras = NO_EXTRAS) -> Result:
+    """An episode that was written down, with its number as the seed and time for long ways."""
+    usual, env.max_steps = env.max_steps, round(LONGEST * CONTROL_HZ)
+    try:
+        driven = drive(env, agent, episode.number, {"episode": episode})
+    finally:
+        env.max_steps = usual
+    if episode.expected is Expected.INFEASIBLE:
+        driven, extras = driven.as_infeasible(), replace(extras, recheck=False)
+    result = conclude(driven, episode.command, episode.number, extras, episode.id)
+    return replace(result, group=episode.group)
+
+
+def conclude(
+    driven: Drive, command: str, seed: int, extras: Extras = NO_EXTRAS, episode: str = ""
+) -> Result:
     """What came of a driven episode; asks for a second opinion and draws a failure if wanted.
 
     Args:
@@ -120,13 +145,14 @@ def conclude(driven: Drive, command: str, seed: int, extras: Extras = NO_EXTRAS)
         command: as the results name it.
         seed: of the episode.
         extras: what else to do.
+        episode: the id of one that was written down.
     """
     rechecked = driven.rechecked() if extras.recheck else ""
     verdicts = tuple(str(verdict) for verdict in driven.verifier.verdicts)
     measured = driven.metrics, driven.cause, rechecked, driven.social
-    result = Result(command, seed, verdicts, *measured)
+    result = Result(command, seed, verdicts, *measured, episode, command, driven.kind)
     if extras.pictures is not None and not result.success:
-        name = picture_name(driven, command, seed)
+        name = picture_name(driven, episode or command, seed)
         driven.save_picture(extras.pictures / name, f"{command}: {failure_line(result)}")
     return result
 

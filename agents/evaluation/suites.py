@@ -24,6 +24,11 @@ class Trial:
     pose: Pose
     scatter: Pose = (0.2, 0.2, 0.2)
 
+    @property
+    def group(self) -> str:
+        """Under which it is counted."""
+        return self.command
+
 
 def _trials(floor_plan: str, pose: Pose, *commands: str) -> tuple[Trial, ...]:
     return tuple(Trial(floor_plan, command, pose) for command in commands)

@@ -1,6 +1,8 @@
-"""Random commands that make sense where the robot stands."""
+"""Random starts, and random commands that make sense where the robot stands."""
 
 from __future__ import annotations
+
+from itertools import count
 
 import numpy as np
 
@@ -18,10 +20,12 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.features.frames import Pose
+from semnav_env.features.frames import Pose, wrap_angle
+from semnav_env.features.hallway import hallway
 from semnav_env.grounding import Goal, GoalKind, GroundingError
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.placement import is_clear
+from semnav_env.maps.placement import is_clear, placement_error, sample_pose
+from semnav_env.robots import RobotSpec
 from semnav_env.verifier import plan_goals
 
 TRIES = 50
@@ -29,6 +33,29 @@ TRIES = 50
 
 SPACE = 0.3
 """Around a place to go to, metres."""
+
+
+START_TRIES = 200
+"""Start poses drawn before any free one will do."""
+
+LEAST_AHEAD, WIDEST_HALF = 3.0, 1.5
+"""A random start has so much of a hallway ahead, no wider than twice that, metres; if there is any
+such place."""
+
+
+def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator) -> Pose:
+    """A free pose in a corridor, looking along it; not across it or from inside a junction."""
+    corridors = floor_plan.corridors
+    region = corridors[rng.integers(len(corridors))] if corridors else None
+    for attempt in count():
+        pose = sample_pose(floor_plan, robot, rng, region)
+        seen = hallway(floor_plan.scene, pose)
+        start = (*pose[:2], wrap_angle(seen.frame[2] + rng.uniform(-0.2, 0.2)))
+        along = seen.end > LEAST_AHEAD and seen.half_width < WIDEST_HALF
+        fits = placement_error(floor_plan, robot, start) is None
+        if fits and (along or attempt >= START_TRIES):
+            return start
+    raise AssertionError("count() never ends")
 
 
 def sample_feasible(

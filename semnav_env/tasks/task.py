@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from itertools import count
 from typing import Any
 
 import numpy as np
@@ -13,16 +12,15 @@ import shapely
 from semnav_env.commands import Command, parse
 from semnav_env.commands.language import language_of
 from semnav_env.directory import Directory
-from semnav_env.features.frames import Pose, wrap_angle
-from semnav_env.features.hallway import hallway
+from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
-from semnav_env.maps.placement import placement_error, sample_pose
+from semnav_env.maps.placement import placement_error
 from semnav_env.robots import RobotSpec
 from semnav_env.tasks.implicit import with_implicit_steps
 from semnav_env.tasks.rewards import RewardTerms, RewardWeights
-from semnav_env.tasks.sampling import sample_feasible
+from semnav_env.tasks.sampling import sample_feasible, sample_start
 from semnav_env.verifier import Motion, Verifier, plan_goals
 
 START_TRIES = 200
@@ -30,10 +28,6 @@ START_TRIES = 200
 
 MOST_TURNED = 2.0 * math.tau
 """Beyond it a heading is in degrees, not one that nobody wrapped; radians."""
-
-LEAST_AHEAD, WIDEST_HALF = 3.0, 1.5
-"""A random start has so much of a hallway ahead, no wider than twice that, metres; if there is any
-such place."""
 
 
 @dataclass
@@ -62,8 +56,8 @@ class CommandTask:
 
         Args:
             options: "command" (text or `Command`), "language" (of the text; "en"), "implicit_steps"
-                (whether to do what goes without saying; True) and "pose" (x, y, heading), each
-                optional.
+                (whether to do what goes without saying; True), "pose" (x, y, heading), and
+                "feasible" (False where it may be impossible to do; True), each optional.
             rng: for what is not given.
 
         Returns:
@@ -81,7 +75,8 @@ class CommandTask:
         start, command = self._complete(pose, command, rng)
         if options.get("implicit_steps", True):
             command = self._with_implicit_steps(command, start)
-        self.verifier = Verifier(self.floor_plan, self.geodesic, command, start)
+        feasible = bool(options.get("feasible", True))
+        self.verifier = Verifier(self.floor_plan, self.geodesic, command, start, feasible)
         self._remaining = self.verifier.remaining
         return start
 
@@ -106,7 +101,7 @@ class CommandTask:
         if pose is not None and command is not None:
             return pose, command
         for _ in range(START_TRIES):
-            start = pose or self._random_start(rng)
+            start = pose or sample_start(self.floor_plan, self.robot, rng)
             drawn = command or sample_feasible(self.floor_plan, start, rng)
             if drawn is not None and (command is None or self._is_feasible(command, start)):
                 return start, drawn
@@ -129,20 +124,6 @@ class CommandTask:
         except GroundingError:
             return False
         return True
-
-    def _random_start(self, rng: np.random.Generator) -> Pose:
-        """A free pose in a corridor, looking along it; not across it or from inside a junction."""
-        corridors = self.floor_plan.corridors
-        region = corridors[rng.integers(len(corridors))] if corridors else None
-        for attempt in count():
-            pose = sample_pose(self.floor_plan, self.robot, rng, region)
-            seen = hallway(self.floor_plan.scene, pose)
-            start = (*pose[:2], wrap_angle(seen.frame[2] + rng.uniform(-0.2, 0.2)))
-            along = seen.end > LEAST_AHEAD and seen.half_width < WIDEST_HALF
-            fits = placement_error(self.floor_plan, self.robot, start) is None
-            if fits and (along or attempt >= START_TRIES):
-                return start
-        raise AssertionError("count() never ends")
 
 
 def _command(options: dict[str, Any], rooms: tuple[str, ...]) -> Command | None:

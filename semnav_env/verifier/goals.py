@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from semnav_env.commands import Command
 from semnav_env.directory import Directory
 from semnav_env.features.frames import Point, Pose
@@ -26,19 +28,33 @@ def plan_goals(
     Raises:
         GroundingError: a clause cannot be carried out.
     """
+    return tuple(goals_in_turn(floor_plan, command, start, guide))
+
+
+def goals_in_turn(
+    floor_plan: FloorPlan, command: Command, start: Pose, guide: Guide | None = None
+) -> Iterator[Goal]:
+    """As `plan_goals`, but the goals before the clause that cannot be carried out come first."""
     guide = Directory(floor_plan, command) if guide is None else guide
     follower = Follower(command, complete=True, guide=guide)
     follower.start(floor_plan.scene, start)
-    goals = []
     while not follower.done:
-        if follower.impossible is not None:
-            raise GroundingError(follower.impossible)
-        if follower.goal.kind is GoalKind.SEEK:
-            what = follower.goal.because.removeprefix("looking for ")
-            raise GroundingError(f"{what}: the floor plan shows none there")
-        goals.append(follower.goal)
+        check_grounded(follower)
+        yield follower.goal
         follower.skip_to_next(floor_plan.scene)
-    return tuple(goals)
+
+
+def check_grounded(follower: Follower) -> None:
+    """Refuse a clause under way that the true scene has nothing for.
+
+    Raises:
+        GroundingError: says what is missing.
+    """
+    if follower.impossible is not None:
+        raise GroundingError(follower.impossible)
+    if follower.goal.kind is GoalKind.SEEK:
+        what = follower.goal.because.removeprefix("looking for ")
+        raise GroundingError(f"{what}: the floor plan shows none there")
 
 
 def place(goal: Goal) -> Point:

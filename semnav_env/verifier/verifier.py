@@ -15,11 +15,12 @@ from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, GoalKind, first_crossed
+from semnav_env.grounding.situation import GroundingError
 from semnav_env.grounding.ways import Told
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor
 from semnav_env.maps.geodesic import Geodesic, WaysTo
 from semnav_env.verifier.astray import went_astray
-from semnav_env.verifier.goals import place, plan_goals
+from semnav_env.verifier.goals import goals_in_turn, place
 from semnav_env.verifier.verdict import Verdict, verdicts
 
 STILL_FOR = 10.0
@@ -58,19 +59,32 @@ class Verifier:
         geodesic: its shortest ways.
         command: what the robot was told.
         start: its pose, world frame.
+        feasible: whether the command must be one that can be carried out. If not, the route and
+            the planned goals of one that cannot lead as far as it can.
 
     Raises:
         GroundingError: the command cannot be carried out from there; says what there is.
     """
 
     def __init__(
-        self, floor_plan: FloorPlan, geodesic: Geodesic, command: Command, start: Pose
+        self,
+        floor_plan: FloorPlan,
+        geodesic: Geodesic,
+        command: Command,
+        start: Pose,
+        feasible: bool = True,
     ) -> None:
         self.floor_plan = floor_plan
         self.command = command
         self.start = start
         directory = Directory(floor_plan, command, geodesic)
-        self.planned_goals = plan_goals(floor_plan, command, start, directory)
+        self.planned_goals: tuple[Goal, ...] = ()
+        try:
+            for goal in goals_in_turn(floor_plan, command, start, directory):
+                self.planned_goals += (goal,)
+        except GroundingError:
+            if feasible:
+                raise
         self.ways = dict(directory.ways)
         self.tokens = encode(command, floor_plan.room_names)
         self.follower = Follower(command, complete=True, guide=Told(self.ways))

@@ -1,0 +1,24 @@
+"""What an interpreter makes of ambiguous commands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from semnav_env.commands import CommandError, GrammarInterpreter, Interpreter
+from semnav_env.episodes import Episode
+
+
+def by_grammar(episode: Episode) -> Interpreter:
+    """The grammar of the episode's language, in its building."""
+    return GrammarInterpreter(episode.language, episode.plan().room_names)
+
+
+def asked(episode: Episode, interpreter: Callable[[Episode], Interpreter] = by_grammar) -> str:
+    """What an interpreter gets wrong of an episode; empty if it gives the right set of readings."""
+    try:
+        found = interpreter(episode).interpret(episode.command)
+    except CommandError as error:
+        return f"not understood: {error.summary}"
+    if set(found.readings) == set(episode.meanings()):
+        return ""
+    return f"taken for {found.echo!r}"

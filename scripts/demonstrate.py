@@ -1,0 +1,70 @@
+"""`semnav demonstrate`: what an agent sees and does, as a dataset to learn from."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tyro.conf import Positional
+
+from semnav_env.agents.demonstrations import Demonstration, DemonstrationFile, demonstrate
+from semnav_env.agents.registry import make_agent
+from semnav_env.env import SemNavEnv
+from semnav_env.episodes import Expected, evenly, load_episodes
+from semnav_env.scripts.progress import tracked
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Write an agent's observations, actions and rewards in frozen episodes as a Minari dataset.
+
+    Each episode is on disk when it has been driven, so an interruption loses none of them.
+
+    Attributes:
+        split: a split (`semnav episodes list`), or a file of episodes.
+        out: name of the dataset, as semnav/train-scripted-v0, or a new folder.
+        agent: scripted, oracle, or the path of a trained agent.
+        robot: wheelchair or spot.
+        episodes: how many, evenly spaced; all if not given.
+        failures: keep failed episodes as well.
+        max_seconds: of simulated time, for each episode.
+        json: print JSON.
+    """
+
+    split: Positional[str]
+    out: str
+    agent: str = "scripted"
+    robot: str = "wheelchair"
+    episodes: int | None = None
+    failures: bool = False
+    max_seconds: float = 300.0
+    json: bool = False
+
+    def run(self) -> int:
+        """Drive, write, and make sure that all is on disk."""
+        if self.episodes is not None and self.episodes < 1:
+            raise ValueError(f"--episodes is {self.episodes}; it must be at least 1")
+        episodes = load_episodes(self.split)
+        if any(episode.expected is not Expected.FEASIBLE for episode in episodes):
+            raise ValueError(f"{self.split} has commands that cannot be carried out; give another")
+        chosen = episodes if self.episodes is None else evenly(episodes, self.episodes)
+        agent = make_agent(self.agent)
+        env = SemNavEnv(self.robot, observation=agent.observation, max_seconds=self.max_seconds)
+        file = DemonstrationFile(self.out, env, self.agent)
+        kept: list[bool] = []
+        demonstrations: Iterator[Demonstration] = (demonstrate(env, agent, e) for e in chosen)
+        for each in tracked(
+            demonstrations, lambda n: f"{n} episodes", lambda: len(kept) / len(chosen)
+        ):
+            kept.append(each.success or self.failures)
+            if kept[-1]:
+                file.add(each)
+        count = sum(kept)
+        if file.count != count:
+            raise OSError(f"{file.folder}: {count} episodes were written, {file.count} are there")
+        if self.json:
+            print(json.dumps({"folder": str(file.folder), "driven": len(kept), "kept": count}))
+        else:
+            print(f"drove {len(kept)} episodes, kept {count} in {file.folder}")
+        return 0

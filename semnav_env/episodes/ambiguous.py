@@ -1,0 +1,122 @@
+"""Texts that can mean several things, put together from what docs/language.md says of them.
+
+What they can mean is written here by hand, not asked of the grammar, so that the grammar can err.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+
+from semnav_env.commands import (
+    Approach,
+    Clause,
+    Command,
+    DoorReference,
+    Follow,
+    GoBack,
+    GoToDoor,
+    Side,
+    Turn,
+    Turning,
+)
+from semnav_env.commands.language import language_of
+
+Readings: TypeAlias = tuple[tuple[Clause, ...], ...]
+Recipe: TypeAlias = Callable[[np.random.Generator, str], tuple[str, Readings]]
+
+SIDES = {"en": ("left", "right"), "de": ("links", "rechts")}
+
+
+def ambiguous_text(
+    first: Command | None, rng: np.random.Generator, code: str
+) -> tuple[str, tuple[Command, ...]]:
+    """A text and all that it can mean.
+
+    Args:
+        first: what is said before it, unambiguously.
+        rng: source of randomness.
+        code: of the language.
+    """
+    text, readings = RECIPES[int(rng.integers(len(RECIPES)))](rng, code)
+    before = () if first is None else first.clauses
+    said = text
+    if first is not None:
+        said = first.say(code) + {"en": ", then ", "de": ", dann "}[code] + text
+    return said, tuple(Command((*before, *reading)) for reading in readings)
+
+
+def _bare_door(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
+    """A door without a verb: to it, or through it?"""
+    ordinal, side = _ordinal(rng), int(rng.integers(2))
+    door = DoorReference(ordinal, _SIDE[side])
+    word = language_of(code).ordinal(ordinal)
+    text = {
+        "en": f"the {word} door on the {SIDES['en'][side]}",
+        "de": f"die {word} Tür {SIDES['de'][side]}",
+    }[code]
+    return text, ((GoToDoor(door, Approach.TO),), (GoToDoor(door),))
+
+
+def _back(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
+    """To the start, or round and down the hallway?"""
+    text = {"en": "go back", "de": "geh zurück"}[code]
+    return text, ((GoBack(),), (Turn(Turning.AROUND), Follow()))
+
+
+def _quarter(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
+    """A turn without a side."""
+    degrees = (45, 90, 135)[int(rng.integers(3))]
+    text = {"en": f"turn {degrees} degrees", "de": f"dreh dich um {degrees} Grad"}[code]
+    return text, ((Turn(Turning.LEFT, degrees=degrees),), (Turn(Turning.RIGHT, degrees=degrees),))
+
+
+def _at_door(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
+    """Turning aside at a door: through it, or beside it?"""
+    ordinal, side = _ordinal(rng), int(rng.integers(2))
+    word = language_of(code).ordinal(ordinal)
+    text = {
+        "en": f"turn {SIDES['en'][side]} at the {word} door",
+        "de": f"bieg an der {word}n Tür {SIDES['de'][side]} ab",
+    }[code]
+    beside = Follow(DoorReference(ordinal)), Turn(_TURNING[side])
+    return text, (beside, (GoToDoor(DoorReference(ordinal, _SIDE[side])),))
+
+
+def _comma_side(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
+    """A side behind a comma: which door, or where to turn behind it?"""
+    ordinal, side = _ordinal(rng), int(rng.integers(2))
+    word = language_of(code).ordinal(ordinal)
+    text = {
+        "en": f"take the {word} door, {SIDES['en'][side]}",
+        "de": f"nimm die {word} Tür, {SIDES['de'][side]}",
+    }[code]
+    turned = GoToDoor(DoorReference(ordinal)), Turn(_TURNING[side])
+    return text, (turned, (GoToDoor(DoorReference(ordinal, _SIDE[side])),))
+
+
+def _counting(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
+    """Past one door and through a later one: counted from the start, or from there?"""
+    passed = 1 + int(rng.integers(2))
+    ordinal = passed + 1 + int(rng.integers(2))
+    language = language_of(code)
+    first, second = language.ordinal(passed), language.ordinal(ordinal)
+    text = {
+        "en": f"go past the {first} door and go through the {second} door",
+        "de": f"geh an der {first}n Tür vorbei und dann durch die {second} Tür",
+    }[code]
+    past = Follow(DoorReference(passed), past=True)
+    anew, on = DoorReference(ordinal), DoorReference(ordinal - passed)
+    return text, ((past, GoToDoor(anew)), (past, GoToDoor(on)))
+
+
+RECIPES: tuple[Recipe, ...] = (_bare_door, _back, _quarter, _at_door, _comma_side, _counting)
+
+_SIDE = (Side.LEFT, Side.RIGHT)
+_TURNING = (Turning.LEFT, Turning.RIGHT)
+
+
+def _ordinal(rng: np.random.Generator) -> int:
+    return (1, 1, 2, 2, 3)[int(rng.integers(5))]

@@ -1,0 +1,49 @@
+"""Whether episodes keep what their split promises, found out anew."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from semnav_env.commands import readings
+from semnav_env.directory import Directory
+from semnav_env.episodes.episode import Episode, Expected, StaleEpisodeError
+from semnav_env.grounding import GroundingError
+from semnav_env.maps import FloorPlan
+from semnav_env.maps.geodesic import Geodesic
+from semnav_env.maps.placement import placement_error
+from semnav_env.robots import ROBOTS
+from semnav_env.verifier import plan_goals
+
+
+def faults(episodes: Iterable[Episode]) -> Iterator[tuple[Episode, tuple[str, ...]]]:
+    """Every episode with what is wrong with it, which is nothing for most."""
+    plan: FloorPlan | None = None
+    for episode in episodes:
+        try:
+            found = episode.plan()
+        except StaleEpisodeError as error:
+            yield episode, (str(error),)
+            continue
+        if found is not plan:
+            plan, geodesic = found, Geodesic(found)
+        yield episode, tuple(_faults(episode, found, geodesic))
+
+
+def _faults(episode: Episode, plan: FloorPlan, geodesic: Geodesic) -> Iterator[str]:
+    for robot in ROBOTS.values():
+        problem = placement_error(plan, robot, episode.start)
+        if problem is not None:
+            yield f"{episode.id}: {problem}"
+    meanings = episode.meanings()
+    understood = readings(episode.command, episode.language, plan.room_names)
+    if set(understood) != set(meanings):
+        meant = " or ".join(f'"{m.say(episode.language)}"' for m in understood)
+        yield f'{episode.id}: "{episode.command}" now means {meant}'
+    for command in meanings:
+        try:
+            plan_goals(plan, command, episode.start, Directory(plan, command, geodesic))
+            impossible = ""
+        except GroundingError as error:
+            impossible = str(error)
+        if bool(impossible) != (episode.expected is Expected.INFEASIBLE):
+            yield f"{episode.id}: {impossible or 'it can be carried out'}"

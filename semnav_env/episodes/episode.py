@@ -1,0 +1,86 @@
+"""An episode that is written down: where, from where, what is said, and what is right."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from semnav_env.commands import Command, parse
+from semnav_env.episodes.fingerprint import fingerprint
+from semnav_env.features.frames import Point, Pose
+from semnav_env.maps import FloorPlan, load_floor_plan
+
+
+class Expected(StrEnum):
+    """What is right to do: carry the command out, say that it is impossible, or ask which."""
+
+    FEASIBLE = "feasible"
+    INFEASIBLE = "infeasible"
+    AMBIGUOUS = "ambiguous"
+
+
+class StaleEpisodeError(ValueError):
+    """The floor plan is no longer the one that the episode was made in."""
+
+
+@dataclass(frozen=True)
+class Episode:
+    """One frozen episode; it is the same for every body.
+
+    Attributes:
+        id: of the split and a number, as "train-00017".
+        floor_plan: bundled or generated name, or a path.
+        plan_hash: `fingerprint` of its geometry.
+        start: pose of the robot's centre (x, y, heading), world frame.
+        command: what is said.
+        language: in which, "en" or "de".
+        readings: canonical words, in that language, of all that the command can mean.
+        route: the true route as (x, y), simplified to 5 cm; as far as a command can be carried
+            out that is impossible; empty where it is ambiguous.
+        expected: what is right.
+    """
+
+    id: str
+    floor_plan: str
+    plan_hash: str
+    start: Pose
+    command: str
+    language: str
+    readings: tuple[str, ...]
+    route: tuple[Point, ...]
+    expected: Expected = Expected.FEASIBLE
+
+    @property
+    def number(self) -> int:
+        """In its split; the seed of its noise."""
+        return int(self.id.rpartition("-")[2])
+
+    @property
+    def clauses(self) -> int:
+        """How many there are in the first reading."""
+        return len(self.meanings()[0].clauses)
+
+    @property
+    def group(self) -> str:
+        """Under which it is counted: by its clauses, "1 clause" or "2 clauses"."""
+        return f"{self.clauses} clause{'s' if self.clauses > 1 else ''}"
+
+    def plan(self) -> FloorPlan:
+        """The floor plan.
+
+        Raises:
+            StaleEpisodeError: it is not the one that the episode was made in.
+            FloorPlanError: there is none of that name.
+        """
+        plan = load_floor_plan(self.floor_plan)
+        found = fingerprint(plan)
+        if found != self.plan_hash:
+            raise StaleEpisodeError(
+                f"{self.id}: {self.floor_plan} has changed since the episode was made (its "
+                f"fingerprint is {found}, not {self.plan_hash}); generate the episodes anew"
+            )
+        return plan
+
+    def meanings(self) -> tuple[Command, ...]:
+        """The readings as commands."""
+        return tuple(parse(reading, self.language) for reading in self.readings)

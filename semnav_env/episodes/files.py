@@ -1,0 +1,164 @@
+"""Files of episodes: one JSON object a line, gzip-compressed where the name ends in .gz."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import math
+import zlib
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, fields, replace
+from pathlib import Path
+from typing import Any
+
+from semnav_env.commands.language import languages
+from semnav_env.episodes.episode import Episode, Expected
+
+SUFFIXES = (".jsonl", ".jsonl.gz")
+PLAN = ".geojson"
+
+
+class EpisodeFileError(ValueError):
+    """A file is none of episodes; names the line, the field and what would be right."""
+
+
+def to_line(episode: Episode) -> str:
+    """An episode as a line of JSON, always the same bytes."""
+    return json.dumps(asdict(episode), ensure_ascii=False, separators=(",", ":")) + "\n"
+
+
+def write_episodes(episodes: Iterable[Episode], path: str | Path) -> None:
+    """Write a file; the same episodes give the same bytes.
+
+    Raises:
+        EpisodeFileError: the name does not end in .jsonl or .jsonl.gz.
+        OSError: it cannot be written.
+    """
+    where = Path(path)
+    _check_name(where)
+    text = "".join(map(to_line, episodes)).encode()
+    where.parent.mkdir(parents=True, exist_ok=True)
+    where.write_bytes(gzip.compress(text, mtime=0) if where.suffix == ".gz" else text)
+
+
+def read_episodes(path: str | Path) -> tuple[Episode, ...]:
+    """All episodes of a file.
+
+    Floor plans that are files lie beside it, if their paths are not absolute.
+
+    Raises:
+        EpisodeFileError: what is wrong first, and what would be right.
+        OSError: it cannot be read.
+    """
+    where = Path(path)
+    _check_name(where)
+    text = _text(where)
+    episodes = tuple(_read(line, f"{where}:{n}") for n, line in enumerate(text.splitlines(), 1))
+    seen: set[str] = set()
+    for n, episode in enumerate(episodes, 1):
+        if episode.id in seen:
+            raise EpisodeFileError(f"{where}:{n}: there is another episode {episode.id!r}")
+        seen.add(episode.id)
+    if not episodes:
+        raise EpisodeFileError(f"{where}: holds no episode; one JSON object a line is one")
+    return tuple(_found_beside(where, episode) for episode in episodes)
+
+
+def _found_beside(where: Path, episode: Episode) -> Episode:
+    plan = Path(episode.floor_plan)
+    if plan.suffix != PLAN or plan.is_absolute():
+        return episode
+    return replace(episode, floor_plan=str(where.parent / plan))
+
+
+def _check_name(where: Path) -> None:
+    if not where.name.endswith(SUFFIXES):
+        raise EpisodeFileError(f"{where}: a file of episodes ends in {' or '.join(SUFFIXES)}")
+
+
+def _text(where: Path) -> str:
+    raw = where.read_bytes()
+    try:
+        return (gzip.decompress(raw) if where.suffix == ".gz" else raw).decode()
+    except (OSError, EOFError, zlib.error):
+        raise EpisodeFileError(f"{where}: is not gzip-compressed, or is cut off") from None
+    except UnicodeDecodeError:
+        raise EpisodeFileError(f"{where}: is not text in UTF-8") from None
+
+
+def _read(line: str, place: str) -> Episode:
+    try:
+        row = json.loads(line)
+    except ValueError as error:
+        raise EpisodeFileError(f"{place}: is no JSON: {error}") from None
+    if not isinstance(row, dict):
+        raise EpisodeFileError(f"{place}: is a {type(row).__name__}; an episode is an object")
+    for problem in _problems(row):
+        raise EpisodeFileError(f"{place}: {problem}")
+    values = {name: _frozen(value) for name, value in row.items()}
+    return Episode(**values | {"expected": Expected(row["expected"])})
+
+
+def _problems(row: dict[str, Any]) -> Iterator[str]:
+    """What keeps a row from being an episode, in the order of the fields."""
+    for name in FIELDS:
+        if name not in row:
+            yield f"has no {name!r}; an episode has {', '.join(FIELDS)}"
+    for name in row.keys() - FIELDS.keys():
+        yield f"has a {name!r}; an episode has only {', '.join(FIELDS)}"
+    for name, (fits, right) in FIELDS.items():
+        if not fits(row[name]):
+            yield f"{name} is {_shown(row[name])}; it must be {right}"
+    readings, expected = len(row["readings"]), row["expected"]
+    if (readings > 1) != (expected == Expected.AMBIGUOUS):
+        yield f"has {readings} readings and is expected to be {expected}"
+
+
+def _shown(value: object) -> str:
+    text = json.dumps(value, ensure_ascii=False)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _frozen(value: Any) -> Any:
+    """Lists as tuples, numbers in them as floats."""
+    if isinstance(value, list):
+        return tuple(map(_frozen, value))
+    return float(value) if isinstance(value, int) else value
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str) and bool(value.strip())
+
+
+def _numbers(value: object, count: int) -> bool:
+    return (
+        isinstance(value, list)
+        and len(value) == count
+        and all(type(v) in (int, float) and math.isfinite(v) for v in value)
+    )
+
+
+def _all(value: object, fits: Callable[[Any], bool]) -> bool:
+    return isinstance(value, list) and all(map(fits, value))
+
+
+FIELDS: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "id": (
+        lambda v: _is_text(v) and v.rpartition("-")[2].isdecimal() and v.isascii(),
+        'a split and a number, as "train-00017"',
+    ),
+    "floor_plan": (_is_text, "the name or path of a floor plan"),
+    "plan_hash": (lambda v: _is_text(v) and len(v) == 16, "16 hexadecimal digits"),
+    "start": (lambda v: _numbers(v, 3), "[x, y, heading], finite, metres and radians"),
+    "command": (_is_text, "text"),
+    "language": (
+        lambda v: isinstance(v, str) and v in languages(),
+        'the code of a language, as "en" or "de"',
+    ),
+    "readings": (lambda v: _all(v, _is_text) and len(v) > 0, "a list of texts, at least one"),
+    "route": (lambda v: _all(v, lambda p: _numbers(p, 2)), "a list of [x, y], finite, metres"),
+    "expected": (lambda v: v in list(Expected), f"one of {', '.join(Expected)}"),
+}
+"""What every field must be, and how that is said."""
+
+assert tuple(FIELDS) == tuple(field.name for field in fields(Episode))

@@ -1,0 +1,233 @@
+"""Makes episodes from a seed; each depends on nothing but the seed, its split and its number."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.random import PCG64, Generator, SeedSequence
+
+from semnav_env.commands import Command, paraphrases, readings
+from semnav_env.commands.errors import CommandError
+from semnav_env.episodes.ambiguous import ambiguous_text
+from semnav_env.episodes.drafts import Drafter, Verb, verbs_of
+from semnav_env.episodes.episode import Episode, Expected
+from semnav_env.episodes.fingerprint import fingerprint
+from semnav_env.episodes.splits import SEED, Split
+from semnav_env.episodes.walk import carries_out
+from semnav_env.features.frames import FloatArray, Point, Pose
+from semnav_env.maps import FloorPlan, load_floor_plan
+from semnav_env.maps.geodesic import Geodesic
+from semnav_env.maps.placement import placement_error, sample_pose
+from semnav_env.maps.reach import Reach, reach
+from semnav_env.robots import ROBOTS, WHEELCHAIR
+from semnav_env.tasks.sampling import sample_start
+from semnav_env.verifier import Verifier, place
+
+STARTS, DRAFTS = 15, 4
+"""Starts tried for what an episode should be about, before it is about something else, and commands
+drawn from each."""
+
+BODY = replace(
+    WHEELCHAIR,
+    name="body",
+    length=max(robot.length for robot in ROBOTS.values()),
+    width=max(robot.width for robot in ROBOTS.values()),
+)
+"""As long as the longest and as wide as the widest: where it gets to, every body does."""
+
+SHORTEST, LONGEST = 1.5, 120.0
+"""Of true routes, metres."""
+
+NEAR = 0.3
+"""A body must get so near to every goal, metres."""
+
+SIMPLE = 0.05
+"""True routes are simplified by at most so much, metres."""
+
+GERMAN, OTHER_WORDS = 0.2, 0.6
+"""Shares of the episodes in German, and in other than canonical words."""
+
+
+class TooBareError(ValueError):
+    """A floor plan offers too little to give a command in."""
+
+
+@dataclass(frozen=True)
+class Site:
+    """A floor plan and what is worked out once for all its episodes.
+
+    Attributes:
+        plan: the floor plan.
+        name: by which it is found again.
+    """
+
+    plan: FloorPlan
+    name: str
+
+    @cached_property
+    def geodesic(self) -> Geodesic:
+        """Shortest ways of a robot's centre."""
+        return Geodesic(self.plan)
+
+    @cached_property
+    def reach(self) -> Reach:
+        """Where every body gets to."""
+        return reach(self.plan, BODY.length, BODY.width)
+
+    @cached_property
+    def plan_hash(self) -> str:
+        """Its fingerprint."""
+        return fingerprint(self.plan)
+
+
+def generate_split(
+    split: Split, seed: int = SEED, first: int = 0, last: int | None = None
+) -> Iterator[Episode]:
+    """The episodes of a split, or those from number `first` up to before `last`, in order."""
+    site: Site | None = None
+    for number in range(first, split.episodes if last is None else last):
+        plan = load_floor_plan(split.floor_plan(number))
+        if site is None or site.plan is not plan:
+            site = Site(plan, split.floor_plan(number))
+        yield generate_episode(site, split, number, seed)
+
+
+def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) -> Episode:
+    """One episode of a split.
+
+    Its number says how many clauses it should have and what it should be about; where the floor
+    plan offers no such thing, it is about what comes up.
+
+    Raises:
+        TooBareError: no command was found there.
+    """
+    rng = Generator(PCG64(SeedSequence((seed, zlib.crc32(split.name.encode()), number))))
+    wanted = [(n, verb) for n in split.clauses for verb in verbs_of(n)]
+    maker = _MAKERS[split.expected]
+    for shift in range(len(wanted)):
+        clauses, verb = wanted[(number + shift) % len(wanted)]
+        for _ in range(STARTS):
+            start = _start(site, split, verb, rng)
+            for _ in range(0 if start is None else DRAFTS):
+                assert start is not None
+                language = "de" if rng.random() < GERMAN else "en"
+                drafter = Drafter(site.plan, site.geodesic, start, rng)
+                said = maker(site, drafter, clauses, verb, language)
+                if said is not None:
+                    return _episode(f"{split.name}-{number:05d}", site, start, language, said)
+    raise TooBareError(f"{site.plan.name}: found no command of the kind of {split.name} there")
+
+
+@dataclass(frozen=True)
+class Said:
+    """What is said, all that it means, and the way that it leads."""
+
+    text: str
+    meanings: tuple[Command, ...]
+    route: tuple[Point, ...]
+    expected: Expected
+
+
+def _feasible(site: Site, drafter: Drafter, clauses: int, verb: Verb, language: str) -> Said | None:
+    command = drafter.feasible(clauses, verb)
+    route = None if command is None else _route(site, command, drafter.start)
+    if command is None or route is None:
+        return None
+    return _worded(site, drafter, command, language, route, Expected.FEASIBLE)
+
+
+def _infeasible(
+    site: Site, drafter: Drafter, clauses: int, verb: Verb, language: str
+) -> Said | None:
+    command = drafter.infeasible(clauses)
+    if command is None:
+        return None
+    route: tuple[Point, ...] | None = (drafter.start[:2],)
+    if clauses > 1:
+        route = _route(site, Command(command.clauses[:-1]), drafter.start)
+    if route is None:
+        return None
+    return _worded(site, drafter, command, language, route, Expected.INFEASIBLE)
+
+
+def _ambiguous(
+    site: Site, drafter: Drafter, clauses: int, verb: Verb, language: str
+) -> Said | None:
+    """A text all of whose readings can be carried out there."""
+    first = drafter.turns(clauses - 1) if clauses > 1 else None
+    if clauses > 1 and first is None:
+        return None
+    text, meanings = ambiguous_text(first, drafter.rng, language)
+    if any(drafter.problem(meaning.clauses) for meaning in meanings):
+        return None
+    return Said(text, meanings, (), Expected.AMBIGUOUS)
+
+
+_MAKERS = {
+    Expected.FEASIBLE: _feasible,
+    Expected.INFEASIBLE: _infeasible,
+    Expected.AMBIGUOUS: _ambiguous,
+}
+
+
+def _episode(name: str, site: Site, start: Pose, language: str, said: Said) -> Episode:
+    readings = tuple(meaning.say(language) for meaning in said.meanings)
+    where = site.name, site.plan_hash, start
+    return Episode(name, *where, said.text, language, readings, said.route, said.expected)
+
+
+def _start(site: Site, split: Split, verb: Verb, rng: Generator) -> Pose | None:
+    """Where every body can stand, rounded as it is written; in a room if that is to be left."""
+    if verb is Verb.LEAVE and split.expected is Expected.FEASIBLE and site.plan.rooms:
+        room = site.plan.rooms[int(rng.integers(len(site.plan.rooms)))]
+        try:
+            pose = sample_pose(site.plan, BODY, rng, room)
+        except ValueError:
+            return None
+    else:
+        pose = sample_start(site.plan, BODY, rng)
+    start = round(pose[0], 2), round(pose[1], 2), round(pose[2], 3)
+    stands = placement_error(site.plan, BODY, start) is None
+    return start if stands and site.reach.near(shapely.Point(start[:2])) else None
+
+
+def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | None:
+    """The true route, if bodies get along and the verifier accepts it."""
+    verifier = Verifier(site.plan, site.geodesic, command, start)
+    if not SHORTEST <= verifier.route_length <= LONGEST:
+        return None
+    places = [shapely.Point(place(goal)) for goal in verifier.planned_goals]
+    if not all(site.reach.near(point, NEAR) for point in places):
+        return None
+    route = _simple(verifier.route)
+    return route if carries_out(verifier) else None
+
+
+def _simple(route: FloatArray) -> tuple[Point, ...]:
+    """Fewer points, in whole centimetres."""
+    line = shapely.LineString(route).simplify(SIMPLE, preserve_topology=False)
+    return tuple((float(x), float(y)) for x, y in np.round(line.coords, 2).tolist())
+
+
+def _worded(
+    site: Site,
+    drafter: Drafter,
+    command: Command,
+    language: str,
+    route: tuple[Point, ...],
+    expected: Expected,
+) -> Said | None:
+    """Words that mean the command and nothing else where the rooms are called as they are."""
+    text = command.say(language)
+    if drafter.rng.random() < OTHER_WORDS:
+        text = next(iter(paraphrases(command, drafter.rng, 1, language)), text)
+    try:
+        clear = readings(text, language, site.plan.room_names) == (command,)
+    except CommandError:
+        return None
+    return Said(text, (command,), route, expected) if clear else None

@@ -1,0 +1,127 @@
+"""The splits: how many episodes each has, in which buildings, of how many clauses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import as_file, files
+from pathlib import Path
+
+from semnav_env.episodes.episode import Episode, Expected
+from semnav_env.episodes.files import read_episodes
+from semnav_env.maps.generator.distributions import DISTRIBUTIONS
+from semnav_env.maps.generator.naming import office_name
+
+FROZEN = files("semnav_env.episodes") / "frozen"
+SUFFIX = ".jsonl.gz"
+
+SEED = 2026
+"""That the frozen episodes are made from."""
+
+
+@dataclass(frozen=True)
+class Split:
+    """Episodes that are used for one thing.
+
+    Attributes:
+        name: its name.
+        about: what it is for.
+        episodes: how many.
+        buildings: how many floor plans, each with the same number of episodes.
+        clauses: how many clauses a command has; each, with each verb, equally often.
+        first: seed of the first office; None for the plan that `plan` names.
+        plan: a bundled plan instead of generated ones.
+        expected: what is right.
+    """
+
+    name: str
+    about: str
+    episodes: int
+    buildings: int
+    clauses: tuple[int, ...]
+    first: int | None
+    plan: str = ""
+    expected: Expected = Expected.FEASIBLE
+
+    def floor_plan(self, number: int) -> str:
+        """The name of the floor plan of an episode: the distributions take turns."""
+        if self.first is None:
+            return self.plan
+        office = number * self.buildings // self.episodes
+        kinds = tuple(DISTRIBUTIONS)
+        return office_name(kinds[office % len(kinds)], self.first + office)
+
+
+TRAIN_SEED, UNSEEN_SEED, LONG_SEED, ASK_SEED, HOPELESS_SEED = (k * 1_000_000 for k in range(1, 6))
+
+SPLITS = {
+    split.name: split
+    for split in (
+        Split("train", "to learn from", 6000, 120, (1, 2, 3), TRAIN_SEED),
+        Split("val_seen", "other episodes in offices of train", 800, 40, (1, 2, 3), TRAIN_SEED),
+        Split("val_unseen", "in other offices", 1200, 48, (1, 2, 3), UNSEEN_SEED),
+        Split("test_long", "three to six clauses", 1000, 40, (3, 4, 5, 6), LONG_SEED),
+        Split(
+            "test_real",
+            "in a hallway that was measured",
+            200,
+            1,
+            (1, 2, 3),
+            None,
+            "heidelberg_hallway",
+        ),
+        Split(
+            "test_ambiguous",
+            "what can mean several things",
+            400,
+            20,
+            (1, 2, 3),
+            ASK_SEED,
+            expected=Expected.AMBIGUOUS,
+        ),
+        Split(
+            "test_infeasible",
+            "what cannot be done there",
+            400,
+            20,
+            (1, 2, 3),
+            HOPELESS_SEED,
+            expected=Expected.INFEASIBLE,
+        ),
+    )
+}
+
+
+def load_episodes(name: str | Path) -> tuple[Episode, ...]:
+    """The frozen episodes of a split, or those of a file.
+
+    Raises:
+        ValueError: no such split; lists those there are.
+        EpisodeFileError: the file is none of episodes.
+    """
+    if isinstance(name, str) and name in SPLITS:
+        return _frozen(name)
+    if is_episodes(name):
+        return read_episodes(name)
+    raise ValueError(
+        f"no split {name!r:.80}; there are: {', '.join(SPLITS)}, or the path of a .jsonl or "
+        ".jsonl.gz file"
+    )
+
+
+def is_episodes(name: str | Path) -> bool:
+    """Whether a name is that of a split, or may be the path of a file of episodes."""
+    return isinstance(name, Path) or name in SPLITS or name.endswith((".jsonl", ".gz"))
+
+
+def evenly(episodes: Sequence[Episode], count: int) -> tuple[Episode, ...]:
+    """So many episodes, all as far apart as whole numbers allow; all if there are no more."""
+    count = min(count, len(episodes))
+    return tuple(episodes[k * len(episodes) // count] for k in range(count))
+
+
+@lru_cache(maxsize=len(SPLITS))
+def _frozen(name: str) -> tuple[Episode, ...]:
+    with as_file(FROZEN / f"{name}{SUFFIX}") as path:
+        return read_episodes(path)
