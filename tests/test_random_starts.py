@@ -7,7 +7,7 @@ from semnav_env.features.hallway import hallway
 from semnav_env.maps import load_floor_plan
 from semnav_env.robots import robot_spec
 from semnav_env.tasks import CommandTask, RewardWeights
-from semnav_env.tasks.task import LEAST_AHEAD, WIDEST_HALF
+from semnav_env.tasks.sampling import LEAST_AHEAD, WIDEST_HALF
 
 
 @pytest.mark.parametrize("plan", ["heidelberg_hallway", "office_cross"])
