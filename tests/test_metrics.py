@@ -292,6 +292,18 @@ def test_to_pass_the_goal_is_success_only_for_the_oracle() -> None:
     assert found.within_3m
 
 
+def test_a_robot_that_never_leaves_its_start_has_waited_nowhere_else() -> None:
+    command = "go through the second door on the left and wait for 2 seconds"
+    judge = Verifier(PLAN, GEODESIC, parse(command), START)
+    there = judge.planned_goals[-1].pose
+    rows = 31  # two seconds
+    for place, met in ((START, False), (there, True)):
+        still = np.zeros((rows, 3))
+        poses = np.tile(np.array(place), (rows, 1))
+        recording = Recording(poses, still, np.zeros(rows, int), np.zeros(rows), 1 / 15)
+        assert measure(recording, judge, SPOT).oracle_success is met
+
+
 def test_the_shortest_way_scores_near_one_everywhere() -> None:
     judge = Verifier(PLAN, GEODESIC, parse("go through the fourth door on the left"), START)
     recording = ghost(judge, [judge.planned_goals[0].pose[:2]], np.random.default_rng(0))

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+import shapely
 
 from semnav_env.dynamics import Dynamics, Swinging
 from semnav_env.dynamics.leaves import swinging_leaves, with_leaves
@@ -40,9 +41,9 @@ def test_a_leaf_swings_where_nothing_stands_and_fills_its_door_when_closed(name:
         for end, jamb in zip(ends, sorted((door.start, door.end)), strict=True):
             assert math.dist(end, jamb) < 0.12
         for share in np.linspace(0.1, 0.95, 9):
-            x, y = leaf.tip(share * leaf.swing)
-            middle = (leaf.hinge[0] + x) / 2, (leaf.hinge[1] + y) / 2
-            assert all(math.dist(middle, (a, b)) > 0.01 for a, b, _, _ in still.segments.tolist())
+            hinge, tip = np.array(leaf.hinge), np.array(leaf.tip(share * leaf.swing))
+            swept = shapely.LineString((hinge + 0.2 * (tip - hinge), tip))
+            assert len(still.solids.query(swept, predicate="intersects")) == 0
 
 
 def test_a_closed_door_opens_again_and_an_open_one_closes() -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,9 +61,12 @@ def unsaid_trials(
     floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator
 ) -> tuple[Unsaid, ...]:
     """Commands said in every room, and on sending the robot into a room from a corridor."""
-    starts = [(sample_pose(floor_plan, robot, rng, room), True) for room in floor_plan.rooms]
-    starts += [(sample_pose(floor_plan, robot, rng, way), False) for way in floor_plan.corridors]
-    trials = [trial for start in starts for trial in _trials_from(*start)]
+    regions = [(room, True) for room in floor_plan.rooms]
+    regions += [(corridor, False) for corridor in floor_plan.corridors]
+    trials: list[Unsaid] = []
+    for region, is_room in regions:
+        with suppress(ValueError):  # no room for the robot in there
+            trials += _trials_from(sample_pose(floor_plan, robot, rng, region), is_room)
     return tuple(trial for trial in trials if _is_feasible(floor_plan, trial))
 
 

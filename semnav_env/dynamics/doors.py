@@ -40,7 +40,7 @@ class SwingingDoors:
         """Open all of them and draw which ones will change, and when first."""
         self._rng = rng
         chosen = rng.random(len(self.leaves)) < self._dynamics.changing_doors
-        self._closing = np.zeros(len(self.leaves), dtype=bool)
+        self._closing = chosen.copy()
         self._wait = np.full(len(self.leaves), np.inf)
         self._wait[chosen] = rng.uniform(0.0, self._dynamics.swinging.open_for[1], chosen.sum())
         for i, leaf in enumerate(self.leaves):

@@ -10,7 +10,7 @@ import shapely
 from semnav_env.dynamics.crowd import Crowd
 from semnav_env.dynamics.doors import SwingingDoors
 from semnav_env.dynamics.leaves import swinging_leaves
-from semnav_env.dynamics.settings import Dynamics
+from semnav_env.dynamics.settings import FASTEST, Dynamics
 from semnav_env.dynamics.social import SocialRecord, gaps
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.maps.floor_plan import FloorPlan
@@ -48,7 +48,7 @@ class Moving:
         self._robot, self._seconds = robot, seconds
         self._radius = dynamics.walking.radius
         fastest = dynamics.walking.speed + 2.0 * dynamics.walking.spread
-        self._guard = seconds * (_fastest(robot) + 1.3 * fastest) + 0.05
+        self._guard = seconds * (_fastest(robot) + FASTEST * fastest) + 0.05
 
     @property
     def shapes(self) -> tuple[FloatArray, FloatArray]:

@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 
 from semnav_env.dynamics.nearby import MOST, on_body, walls_near
+from semnav_env.dynamics.settings import FASTEST
 from semnav_env.features.frames import FloatArray
 
 HORIZON = 2.5
@@ -21,9 +22,6 @@ HORIZON = 2.5
 
 WALL_HORIZON = 0.5
 """The same for walls, s: shorter, or nobody would walk through a door."""
-
-FASTEST = 1.3
-"""Largest speed as a multiple of the desired one."""
 
 HALVINGS = 16
 """Bisections that find how far the half-planes must be moved where they leave no velocity."""

@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 
 MODELS = ("social_force", "orca")
 
+FASTEST = 1.3
+"""Largest speed of people as a multiple of the desired one (Helbing and Molnar 1995, at (12))."""
+
 
 @dataclass(frozen=True)
 class Walking:

@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 
 from semnav_env.dynamics.nearby import MOST, on_body, walls_near
+from semnav_env.dynamics.settings import FASTEST
 from semnav_env.features.frames import FloatArray
 
 TAU = 0.5
@@ -31,9 +32,6 @@ STEP = 2.0
 
 COS_SIGHT, UNSEEN = math.cos(math.radians(100.0)), 0.5
 """Cosine of half the angle of sight (200 degrees), and weight c of what lies outside, (7)."""
-
-FASTEST = 1.3
-"""Largest speed as a multiple of the desired one, below (12)."""
 
 
 @njit(cache=True, error_model="numpy")

@@ -85,5 +85,16 @@ def ever_met(goal: Goal, recording: Recording) -> bool:
     if goal.kind is GoalKind.PASS:
         return any(goal.crossed_between(before, after) for before, after in pairwise(poses))
     if goal.kind is GoalKind.STOP:
-        return bool((recording.speeds[1:] < STANDSTILL).any())
+        return stood_there(goal, recording)
     return any(map(goal.reached_by, poses[1:]))
+
+
+def stood_there(goal: Goal, recording: Recording) -> bool:
+    """Whether the robot stood still within `NEAR` of a goal for as long as the goal says."""
+    away = np.hypot(*(recording.path[1:] - goal.pose[:2]).T)
+    stands = (recording.speeds[1:] < STANDSTILL) & (away < NEAR)
+    since = steps = 0
+    for stood in stands.tolist():
+        since = since + 1 if stood else 0
+        steps = max(steps, since)
+    return steps > 0 and steps * recording.period >= goal.wait

@@ -61,13 +61,19 @@ class OfficeSettings:
                 _check_chance(field.name, value)
             elif field.name != "crossings":
                 _check_range(field.name, value)
-        for counts in self.crossings:
-            _check_range("crossings", counts)
+        for least, most in self.crossings:
+            if not 1 <= least <= most <= MOST_CROSSINGS:
+                raise ValueError(
+                    f"crossings are {self.crossings}; each must lie within 1 and {MOST_CROSSINGS}"
+                )
         for name, least, most in LIMITS:
             low, high = getattr(self, name)
             if not least <= low <= high <= most:
                 raise ValueError(f"{name} is {(low, high)}; it must lie within {least} and {most}")
 
+
+MOST_CROSSINGS = 8
+"""Lines of corridors one way, at most."""
 
 LIMITS: tuple[tuple[str, float, float], ...] = (
     ("rooms", 2, 100),
