@@ -61,8 +61,8 @@ class OfficeSettings:
                 _check_chance(field.name, value)
             elif field.name != "crossings":
                 _check_range(field.name, value)
-        for least, most in self.crossings:
-            if not 1 <= least <= most <= MOST_CROSSINGS:
+        for fewest, many in self.crossings:
+            if not 1 <= fewest <= many <= MOST_CROSSINGS:
                 raise ValueError(
                     f"crossings are {self.crossings}; each must lie within 1 and {MOST_CROSSINGS}"
                 )
