@@ -1,4 +1,9 @@
-"""Gaps in the walls of a plan: to the outside, and out of rooms other than through their doors."""
+"""Gaps in the walls of a plan: to the outside, and out of rooms other than through their doors.
+
+A space is what one can get to without touching a wall, be a gap as small as it may. What is too
+narrow for any robot is no place, though: the hollow between the two faces of a wall, or the strip
+by which the outline of a room misses its wall.
+"""
 
 from __future__ import annotations
 
@@ -8,56 +13,103 @@ import shapely
 from shapely import LineString, Point, Polygon, STRtree
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.maps.doorways import TOUCH
+from semnav_env.maps.doorways import NARROWEST_ROBOT, TOUCH
 from semnav_env.maps.finding import Finding, point_in, written
 from semnav_env.maps.floor_plan import FloorPlan
 
 LINE = 0.0005
 """Half the thickness, in metres, that walls get to tell the spaces between them apart."""
 
+WIDEST_GAP = 2.0
+"""Where nothing else tells the inside, what walls enclose but for gaps up to this is, metres."""
+
+NICHE = 0.3
+"""By less than this the outline of a room only misses its wall, metres."""
+
+SHEET = WIDEST_GAP
+"""So far around the boundary lies the outside, metres."""
+
 
 def leaks(plan: FloorPlan) -> Iterator[Finding]:
     """All of them."""
     walls = shapely.union_all(shapely.linestrings(plan.segments.reshape(-1, 2, 2)))
-    yield from _leaks_outside(plan, walls)
+    at = _way_out(plan, walls)
+    if at is not None:
+        problem = f"one can walk out of the building at {written(at)}; close the walls"
+        yield Finding(plan.name, problem, at)
     yield from _leaks_of_rooms(plan, walls)
 
 
-def _leaks_outside(plan: FloorPlan, walls: BaseGeometry) -> Iterator[Finding]:
-    """Spaces that hold both the outside and something well inside the boundary."""
-    outside = next(s for s in _spaces(plan, walls) if s.contains(_far_corner(plan)))
-    inside = plan.boundary.buffer(-2 * TOUCH)
-    leak = outside.intersection(inside)
-    if leak.area > TOUCH**2:
-        gap = outside.intersection(inside.boundary)
-        at = point_in(leak if gap.is_empty else gap)
-        problem = f"one can walk out of the building at {written(at)}; close the walls"
-        yield Finding(plan.name, problem, at)
+def _way_out(plan: FloorPlan, walls: BaseGeometry) -> tuple[float, float] | None:
+    """Where the outside and something inside are one space."""
+    outside = _outside(plan, walls.buffer(LINE, quad_segs=1))
+    on_walls = plan.boundary.exterior.intersection(walls.buffer(2 * TOUCH))
+    if on_walls.length > plan.boundary.exterior.length / 2:
+        return _gap(outside, plan.boundary)
+    ways = (_gap(outside, region.polygon) for region in plan.regions)
+    return next((at for at in ways if at is not None), None) or _gap_in_walls(plan, walls, outside)
+
+
+def _gap(outside: Polygon, inside: Polygon) -> tuple[float, float] | None:
+    """Where the outside gets into something."""
+    leak = outside.intersection(inside.buffer(-2 * TOUCH))
+    return _at(outside, inside, leak) if _fits(NARROWEST_ROBOT, leak) else None
+
+
+def _gap_in_walls(
+    plan: FloorPlan, walls: BaseGeometry, outside: Polygon
+) -> tuple[float, float] | None:
+    """The gap through which the outside gets into what the walls enclose but for gaps."""
+    thick = walls.buffer(WIDEST_GAP / 2)
+    around = _outside(plan, thick)
+    for enclosed in _spaces(plan, thick):
+        if not enclosed.equals(around) and outside.intersects(enclosed):
+            across = shapely.shortest_line(enclosed, around)  # shorter than through any wall
+            return point_in(across.interpolate(0.5, normalized=True))
+    return None
 
 
 def _leaks_of_rooms(plan: FloorPlan, walls: BaseGeometry) -> Iterator[Finding]:
     """With all doors sealed, no space may reach from a room to somewhere else."""
     doors = [LineString((door.start, door.end)) for door in plan.doors]
-    spaces = STRtree(_spaces(plan, shapely.union_all([walls, *doors])))
+    solid = shapely.union_all([walls, *doors]).buffer(LINE, quad_segs=1)
+    spaces = STRtree(_spaces(plan, solid))
     for room in plan.rooms:
         core = room.polygon.buffer(-TOUCH)
         for index in sorted(spaces.query(core, "intersects").tolist()):
             space = spaces.geometries[index]
-            leak = space.difference(room.polygon.buffer(TOUCH))
-            if space.intersection(core).area > TOUCH**2 and leak.area > TOUCH**2:
-                gap = space.intersection(room.polygon.boundary)
-                at = point_in(leak if gap.is_empty else gap)
+            if not _fits(NARROWEST_ROBOT, space.intersection(core)):
+                continue
+            near = shapely.clip_by_rect(space, *room.polygon.buffer(WIDEST_GAP).bounds)
+            leak = near.difference(room.polygon.buffer(TOUCH))
+            if _fits(NICHE, leak):
+                at = _at(space, room.polygon, leak)
                 problem = f"leaks at {written(at)} other than through a door; close it"
                 yield Finding(room.name, problem, at)
 
 
-def _spaces(plan: FloorPlan, walls: BaseGeometry) -> list[Polygon]:
-    """The connected spaces between the walls, the outside among them."""
-    solid = walls.buffer(LINE, quad_segs=1)
-    sheet = shapely.box(*plan.boundary.bounds).buffer(1.0, join_style="mitre")
+def _fits(width: float, space: BaseGeometry) -> bool:
+    """Whether a disc so wide fits in."""
+    return not space.buffer(-width / 2).is_empty
+
+
+def _at(space: Polygon, region: BaseGeometry, leak: BaseGeometry) -> tuple[float, float]:
+    """The middle of the widest gap through which a space crosses the edge of a region."""
+    edge = shapely.line_merge(space.intersection(region.boundary))
+    gaps = [part for part in shapely.get_parts(edge) if part.length > 0.0]
+    if not gaps:
+        return point_in(leak)
+    return point_in(max(gaps, key=lambda gap: gap.length).interpolate(0.5, normalized=True))
+
+
+def _spaces(plan: FloorPlan, solid: BaseGeometry) -> list[Polygon]:
+    """The connected spaces beside what is solid, the outside among them."""
+    sheet = shapely.box(*plan.boundary.bounds).buffer(SHEET, join_style="mitre")
     return list(shapely.get_parts(sheet.difference(solid)))
 
 
-def _far_corner(plan: FloorPlan) -> Point:
+def _outside(plan: FloorPlan, solid: BaseGeometry) -> Polygon:
+    """The space that holds the corner of the sheet."""
     west, south, _, _ = plan.boundary.bounds
-    return Point(west - 0.9, south - 0.9)
+    corner = Point(west - 0.95 * SHEET, south - 0.95 * SHEET)
+    return next(space for space in _spaces(plan, solid) if space.contains(corner))
