@@ -18,6 +18,7 @@ from semnav_env.dynamics import OFF, Dynamics
 from semnav_env.dynamics.social import for_json
 from semnav_env.env import CONTROL_HZ, SemNavEnv
 from semnav_env.features.frames import Pose
+from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
 
 FRAME_EVERY = 3
@@ -35,7 +36,7 @@ class Arguments:
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         language: of the command: en or de (english, german).
         robot: wheelchair or spot.
-        agent: scripted, oracle, or the path of a trained agent.
+        agent: scripted, oracle, quick, office (trained ones), or the path of a trained agent.
         pose: where it starts, x,y,heading in metres and radians; drawn from the seed if not given.
         seed: of everything that is drawn.
         dynamics: what else moves.
@@ -96,6 +97,8 @@ class Arguments:
         """Before the drive, which takes its time."""
         from semnav_env.rendering.video import check_suffix
 
+        check_file(self.save, "--save")
+        check_file(self.picture, "--picture")
         if self.save is not None:
             check_suffix(self.save)
         if self.picture is not None:

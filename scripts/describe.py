@@ -19,6 +19,7 @@ from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
 from semnav_env.routes import describe, route_to
 from semnav_env.scripts.demo import parse_pose
+from semnav_env.scripts.outputs import check_file
 from semnav_env.verifier import plan_goals
 
 
@@ -32,7 +33,7 @@ class Arguments:
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         approach: through a door that is named, or to it.
         robot: wheelchair or spot.
-        language: of the command: en or de (english, german).
+        language: of the words: en or de (english, german).
         paraphrases: how many other wordings to print.
         seed: of the wordings.
         plot: picture of the route to write (.png, .pdf or .svg).
@@ -52,6 +53,10 @@ class Arguments:
 
     def run(self) -> int:
         """Find the way, and the words for it."""
+        for name in ("seed", "paraphrases"):
+            if getattr(self, name) < 0:
+                raise ValueError(f"--{name} is {getattr(self, name)}; it must be 0 or more")
+        check_file(self.plot, "--plot")
         floor_plan, start = load_floor_plan(self.map), parse_pose(self.start)
         language = language_of(self.language)
         error = placement_error(floor_plan, robot_spec(self.robot), start)

@@ -28,6 +28,7 @@ from semnav_env.agents.evaluation import (
 from semnav_env.dynamics import OFF, Dynamics
 from semnav_env.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.metrics import SHARES
+from semnav_env.scripts.outputs import check_file, check_folder, counted
 from semnav_env.scripts.progress import tracked
 
 SHOWN = {
@@ -48,7 +49,7 @@ class Arguments:
     Attributes:
         suite: heidelberg, office_cross, or "all"; a split (`semnav episodes list`), or a file of
             episodes.
-        agent: scripted, oracle, or the path of a trained agent.
+        agent: scripted, oracle, quick, office (trained ones), or the path of a trained agent.
         robot: wheelchair or spot.
         seeds: how many start poses and noises per command of a suite.
         first_seed: of them.
@@ -82,6 +83,8 @@ class Arguments:
             raise ValueError(f"first_seed is {self.first_seed}; it must be 0 or more")
         if self.episodes is not None and self.episodes < 1:
             raise ValueError(f"--episodes is {self.episodes}; it must be at least 1")
+        check_file(self.out, "--out")
+        check_folder(self.pictures, "--pictures")
         trials = self._trials()
         if any(isinstance(t, Episode) and t.expected is Expected.AMBIGUOUS for t in trials):
             return self._ask([trial for trial in trials if isinstance(trial, Episode)])
@@ -158,7 +161,7 @@ class Arguments:
                 print(f"{result.command}: seed {result.seed}: {said}")
         if self.pictures is not None:
             drawn = sum(not result.success for result in results)
-            print(f"drew {drawn} failures into {self.pictures}")
+            print(f"drew {counted(drawn, 'failure')} into {self.pictures}")
 
 
 def _commands_table(summaries: list[Summary]) -> Table:

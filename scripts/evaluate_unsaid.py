@@ -19,8 +19,8 @@ class Arguments:
 
     Attributes:
         map: a floor plan with rooms: a bundled name or a path.
-        agent: drives what is understood: scripted, oracle, or the path of a trained one; with
-            "none" it is only counted.
+        agent: drives what is understood: scripted, oracle, quick, office (trained ones), or the
+            path of a trained one; with "none" it is only counted.
         robot: wheelchair or spot.
         trials: at most so many commands; 0 for all.
         seed: of the start poses.

@@ -69,6 +69,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def in_one_line(error: Exception) -> str:
     """What an error says, in one line that a user understands."""
+    if isinstance(error, FileExistsError):
+        return f"{os.fspath(error.filename)!r} is a file, not a folder"
     if isinstance(error, OSError) and error.strerror:
         where = f" {os.fspath(error.filename)!r}" if error.filename else ""
         return f"cannot open{where}: {error.strerror}"
@@ -90,7 +92,7 @@ def _run(words: list[str]) -> int:
         return 0
     if rest and f"{name} {rest[0]}" in COMMANDS:
         name, rest = f"{name} {rest[0]}", rest[1:]
-    elif rest and not rest[0].startswith("-"):
+    elif rest and rest[0].strip() and not rest[0].startswith("-"):
         near = difflib.get_close_matches(f"{name} {rest[0]}", COMMANDS, n=1, cutoff=0.9)
         if near:
             raise ValueError(f"no command '{name} {rest[0]}'; did you mean '{near[0]}'?")

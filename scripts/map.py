@@ -15,6 +15,7 @@ from semnav_env.scripts.map_check import Check
 from semnav_env.scripts.map_export import Export
 from semnav_env.scripts.map_generate import Generate
 from semnav_env.scripts.map_import import Import
+from semnav_env.scripts.outputs import counted
 
 
 @dataclass(frozen=True)
@@ -104,8 +105,8 @@ def _draw(plan: FloorPlan, path: Path) -> None:
 
 def _line(plan: dict[str, Any]) -> str:
     width, height = plan["size"]
-    doors, rooms = len(plan["doors"]), len(plan["rooms"])
-    return f"{plan['name']:<20} {width:5.1f} x {height:.1f} m, {doors} doors, {rooms} rooms"
+    doors, rooms = counted(len(plan["doors"]), "door"), counted(len(plan["rooms"]), "room")
+    return f"{plan['name']:<20} {width:5.1f} x {height:.1f} m, {doors}, {rooms}"
 
 
 def _paragraph(plan: dict[str, Any]) -> str:

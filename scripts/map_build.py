@@ -24,6 +24,7 @@ from semnav_env.features.readers import (
 )
 from semnav_env.maps import FloorPlan, save_floor_plan
 from semnav_env.maps.line_map_plan import plan_of_scene
+from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
 
 
@@ -120,6 +121,8 @@ class Build:
                 raise ValueError(f"--{name} is {value}; it must be at least 1")
         if self.out.resolve() == self.log.resolve():
             raise ValueError(f"--out is the log itself, {self.log}; give another file")
+        check_file(self.out, "--out")
+        check_file(self.picture, "--picture")
         if self.picture:
             check_suffix(self.picture)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from semnav_env.maps import generate_office, save_floor_plan
+from semnav_env.scripts.outputs import counted
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,9 @@ class Generate:
             counts = {"rooms": len(plan.rooms), "doors": len(plan.doors)}
             print(json.dumps({"name": plan.name, **counts, "files": list(map(str, written))}))
             return 0
-        print(f"{plan.name}: {len(plan.rooms)} rooms, {len(plan.doors)} doors")
+        print(
+            f"{plan.name}: {counted(len(plan.rooms), 'room')}, {counted(len(plan.doors), 'door')}"
+        )
         for path in written:
             print(f"wrote {path}")
         return 0

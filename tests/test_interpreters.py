@@ -222,3 +222,9 @@ def test_another_embedding_can_be_given() -> None:
     understood = TemplateInterpreter(embed=lengths).interpret("thruogh the first door please")
     assert understood.by == "template"
     assert asked
+
+
+def test_an_interpretation_is_shown_without_its_language():
+    shown = repr(GrammarInterpreter().interpret("turn left"))
+    assert "turn" in shown
+    assert len(shown) < 300

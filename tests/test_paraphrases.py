@@ -77,3 +77,12 @@ def test_what_can_be_said_in_few_ways_gives_few_texts() -> None:
 def test_no_negative_number_of_texts_is_asked_for() -> None:
     with pytest.raises(ValueError, match="n is -1; it must be 0 or more"):
         paraphrases(OFFICE, np.random.default_rng(6), -1)
+
+
+def test_things_of_another_kind_are_refused_by_what_was_meant() -> None:
+    with pytest.raises(TypeError, match="needs a Command, as parse makes it"):
+        paraphrases("turn left", np.random.default_rng(0), 3)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="rng is 5; give a generator"):
+        paraphrases(OFFICE, 5, 3)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="rng is 5; give a generator"):
+        sample_command(5)  # type: ignore[arg-type]

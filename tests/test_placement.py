@@ -117,3 +117,10 @@ def test_where_nothing_is_free_sampling_ends_with_an_error() -> None:
     with pytest.raises(ValueError, match="no corridor to start in"):
         sample_pose(empty_hall(), WHEELCHAIR, np.random.default_rng(0))
     assert "; (" not in str(placement_error(cell, WHEELCHAIR, (0.3, 0.3, 0.0)))
+
+
+def test_a_robot_can_be_given_by_its_name() -> None:
+    plan = load_floor_plan("heidelberg_hallway")
+    assert placement_error(plan, "wheelchair", (-2.5, -0.3, 0.24)) is None
+    with pytest.raises(ValueError, match="no robot named 'car'"):
+        placement_error(plan, "car", (-2.5, -0.3, 0.24))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 from semnav_env.commands.command import Command
@@ -34,7 +34,7 @@ class Interpretation:
 
     text: str
     readings: tuple[Command, ...]
-    language: Language
+    language: Language = field(repr=False)
     by: str
     likeness: float = 1.0
 

@@ -11,6 +11,7 @@ from semnav_env.commands.command import Command
 from semnav_env.commands.errors import CommandError
 from semnav_env.commands.language import Language, language_of
 from semnav_env.commands.parser import readings
+from semnav_env.commands.sampling import check_generator
 
 TRIES = 20
 """Texts made for each one that is asked for, before a command is taken to have no more."""
@@ -61,7 +62,11 @@ def paraphrases(
 
     Raises:
         ValueError: `n` is negative, or there is no such language.
+        TypeError: the command is a text, or `rng` is no generator.
     """
+    if not isinstance(command, Command):
+        raise TypeError(f"paraphrases needs a Command, as parse makes it, not {command!r}")
+    check_generator(rng)
     if n < 0:
         raise ValueError(f"n is {n}; it must be 0 or more")
     spoken = language_of(language)

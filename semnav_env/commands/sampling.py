@@ -44,6 +44,16 @@ CONDITIONAL = 0.1
 """How often a sampled clause is a condition, where there is room for what hangs on it."""
 
 
+def check_generator(rng: object) -> None:
+    """Refuse what is no source of randomness, such as a bare seed.
+
+    Raises:
+        TypeError: says how to make one.
+    """
+    if not isinstance(rng, np.random.Generator):
+        raise TypeError(f"rng is {rng!r}; give a generator: np.random.default_rng(0)")
+
+
 def sample_command(
     rng: np.random.Generator, max_clauses: int = MAX_CLAUSES, max_ordinal: int = MAX_ORDINAL
 ) -> Command:
@@ -53,7 +63,11 @@ def sample_command(
         rng: source of randomness.
         max_clauses: 1 to `MAX_CLAUSES`.
         max_ordinal: the highest ordinal to use, 1 to `MAX_ORDINAL`.
+
+    Raises:
+        TypeError: `rng` is no generator.
     """
+    check_generator(rng)
     number = int(rng.integers(1, max_clauses + 1))
     clauses: list[Clause] = []
     while len(clauses) < number:

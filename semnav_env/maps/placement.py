@@ -10,7 +10,7 @@ from shapely import Polygon
 
 from semnav_env.features.frames import Point, Pose, points_to_parent
 from semnav_env.maps.floor_plan import FloorPlan, Region
-from semnav_env.robots import RobotSpec
+from semnav_env.robots import RobotSpec, robot_spec
 
 TRIES = 2000
 
@@ -23,16 +23,20 @@ def footprint(robot: RobotSpec, pose: Pose) -> Polygon:
 
 
 def placement_error(
-    plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float = 0.0
+    plan: FloorPlan, robot: str | RobotSpec, pose: Pose, margin: float = 0.0
 ) -> str | None:
     """Why a robot cannot stand at a pose, and a pose where it can; None if nothing is wrong.
 
     Args:
         plan: the plan.
-        robot: its footprint must lie in the boundary and touch nothing solid.
+        robot: its name or spec; its footprint must lie in the boundary and touch nothing solid.
         pose: of its centre, world frame.
         margin: metres to keep free all around it.
+
+    Raises:
+        ValueError: no such robot.
     """
+    robot = robot_spec(robot)
     if len(pose) != 3 or not all(map(math.isfinite, pose)):
         return f"the pose is {tuple(pose)}; give finite x and y in metres and heading in radians"
     problem = _problem(plan, robot, pose, margin)

@@ -82,7 +82,10 @@ def describe(floor_plan: FloorPlan, route: Route) -> Command:
         RouteError: the route leads through something solid, or nowhere.
         UndescribableError: no command of up to eight clauses leads along the route; says how far
             one can be told.
+        TypeError: it is no route.
     """
+    if not isinstance(route, Route):
+        raise TypeError(f"describe needs a Route, as route_to makes it, not {route!r}")
     check_route(floor_plan, route)
     return _Search(floor_plan, route).best()
 

@@ -48,10 +48,14 @@ def route_to(
         geodesic: of the floor plan, as `comfortable` makes it; give it where many routes are made.
 
     Raises:
-        RouteError: there is no such goal, which lists those there are, or no way there.
+        RouteError: there is no such goal, which lists those there are, or no way there; or a point
+            lies outside the floor plan.
     """
+    if len(start) != 3:
+        raise RouteError(f"start is {tuple(start)}; give x, y and heading, metres and radians")
     geodesic = geodesic or comfortable(floor_plan)
     if not isinstance(goal, str):
+        _check_inside(floor_plan, goal)
         return Route(start, _way(geodesic, start, goal, "that place"))
     door = next((door for door in floor_plan.doors if door.name == goal), None)
     if door is None:
@@ -67,6 +71,15 @@ def route_to(
     route = _to_door(start, way, door, approach)
     straight = not len(floor_plan.solids.query(shapely.LineString(route.points), "intersects"))
     return route if straight or approach is Approach.TO else _winding(geodesic, route)
+
+
+def _check_inside(floor_plan: FloorPlan, goal: Point) -> None:
+    if not shapely.intersects_xy(floor_plan.boundary, *goal):
+        west, south, east, north = floor_plan.boundary.bounds
+        raise RouteError(
+            f"({goal[0]:g}, {goal[1]:g}) is outside {floor_plan.name}, "
+            f"which spans x {west:g} to {east:g} and y {south:g} to {north:g}"
+        )
 
 
 def _winding(geodesic: Geodesic, route: Route) -> Route:
@@ -122,11 +135,10 @@ def _region(floor_plan: FloorPlan, name: str) -> Region:
     try:
         return floor_plan.region(name)
     except KeyError:
-        doors = ", ".join(door.name for door in floor_plan.doors)
-        regions = ", ".join(region.name for region in floor_plan.regions)
+        doors = [door.name for door in floor_plan.doors]
+        names = dict.fromkeys([*doors, *(region.name for region in floor_plan.regions)])
         raise RouteError(
-            f"{floor_plan.name} has no door, room or place {name!r}; "
-            f"there are: {', '.join(filter(None, (doors, regions)))}"
+            f"{floor_plan.name} has no door, room or place {name!r}; there are: {', '.join(names)}"
         ) from None
 
 

@@ -1,0 +1,112 @@
+import json
+
+import pytest
+
+from semnav_env.maps import load_floor_plan
+from semnav_env.routes import RouteError, describe, route_to
+from semnav_env.scripts import main as cli
+from semnav_env.scripts.outputs import check_file, check_folder, counted
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "afile").write_text("kept")
+    (tmp_path / "folder").mkdir()
+    return tmp_path
+
+
+def refusal(capsys, *words):
+    code = cli.main([str(word) for word in words])
+    out, err = capsys.readouterr()
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    return err.removeprefix("semnav: ").strip()
+
+
+DEMO = ("demo", "turn around")
+EVALUATE = ("evaluate", "heidelberg", "--seeds", "1")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ((*DEMO, "--save", "afile/x.gif"), "--save: 'afile' is a file, not a folder"),
+        ((*DEMO, "--picture", "afile/x.png"), "--picture: 'afile' is a file, not a folder"),
+        ((*EVALUATE, "--out", "folder"), "--out: 'folder' is a folder; give a file"),
+        ((*EVALUATE, "--out", "afile/a/b.jsonl"), "--out: 'afile' is a file, not a folder"),
+        ((*EVALUATE, "--pictures", "afile"), "--pictures: 'afile' is a file, not a folder"),
+        (("extract", "a.log", "--out", "folder"), "--out: 'folder' is a folder; give a file"),
+        (("extract", "a.log", "--plot", "afile/x.png"), "--plot: 'afile' is a file"),
+        (("map", "build", "a.log", "--out", "folder"), "--out: 'folder' is a folder; give a file"),
+        (("map", "show", "villa_hall", "--out", "afile/x.png"), "'afile' is a file, not a folder"),
+    ],
+)
+def test_a_path_that_cannot_be_written_is_refused_before_the_work(
+    capsys, monkeypatch, here, words, message
+):
+    for name in ("evaluate.run_suite", "demo.SemNavEnv", "extract.open_log", "map_build.open_log"):
+        monkeypatch.delattr(f"semnav_env.scripts.{name}")
+    assert message in refusal(capsys, *words)
+    assert (here / "afile").read_text() == "kept"
+
+
+def test_folders_that_are_missing_can_be_made(here):
+    check_file(None, "--out")
+    check_file(here / "new" / "and" / "newer.jsonl", "--out")
+    check_file(here / "afile", "--out")
+    check_folder(here / "new" / "one", "--pictures")
+    check_folder(here / "folder", "--pictures")
+    assert sorted(path.name for path in here.iterdir()) == ["afile", "folder"]
+
+
+def test_one_thing_is_singular():
+    assert [counted(n, "door") for n in (0, 1, 2)] == ["0 doors", "1 door", "2 doors"]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("ground", "", "--pose", "0,0,0"), "the command is empty"),
+        (("evaluate", ""), "no suite ''"),
+        (("describe", "--from=-2.5,-0.3,0.24", "--to", "south_1", "--seed=-1"), "--seed is -1"),
+        (
+            ("describe", "--from=-2.5,-0.3,0.24", "--to", "south_1", "--paraphrases=-1"),
+            "--paraphrases is -1; it must be 0 or more",
+        ),
+        (
+            ("describe", "--from=-2.5,-0.3,0.24", "--to", "100,100"),
+            "(100, 100) is outside heidelberg_hallway, which spans x",
+        ),
+    ],
+)
+def test_a_refusal_names_what_is_wrong(capsys, words, message):
+    assert message in refusal(capsys, *words)
+
+
+def test_a_place_that_is_not_there_lists_each_name_once(capsys):
+    plan = "office:medium:17"
+    said = refusal(capsys, "describe", "--from=-9,7.7,0", "--to", "nowhere", "--map", plan)
+    names = said.split("there are: ")[1].split(", ")
+    assert len(set(names)) == len(names) > 10
+
+
+@pytest.mark.parametrize("command", ["demo", "evaluate"])
+def test_the_help_names_the_trained_agents(capsys, command):
+    assert cli.main([command, "--help"]) == 0
+    assert "quick, office" in " ".join(capsys.readouterr().out.replace("│", " ").split())
+
+
+def test_describe_takes_a_language_by_its_code(capsys):
+    words = ["describe", "--from=-2.5,-0.3,0.24", "--to", "south_1", "--language", "de", "--json"]
+    assert cli.main(words) == 0
+    assert "Tür" in json.loads(capsys.readouterr().out)["command"]
+
+
+def test_routes_and_descriptions_refuse_things_of_another_kind():
+    plan = load_floor_plan("heidelberg_hallway")
+    with pytest.raises(TypeError, match="needs a Route, as route_to makes it"):
+        describe(plan, None)
+    with pytest.raises(RouteError, match="give x, y and heading"):
+        route_to(plan, (-2.5, -0.3), "south_1")
+    with pytest.raises(RouteError, match=r"\(500, 500\) is outside"):
+        route_to(plan, (-2.5, -0.3, 0.24), (500, 500))
