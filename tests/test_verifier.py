@@ -131,6 +131,41 @@ def test_a_failure_shows_even_if_the_last_clause_was_done_in_that_step() -> None
     assert verdicts(2, 2, None) == (Verdict.DONE, Verdict.DONE)
     assert verdicts(2, 1, Verdict.WRONG_TURN) == (Verdict.DONE, Verdict.WRONG_TURN)
     assert verdicts(2, 0, None) == (Verdict.ACTIVE, Verdict.PENDING)
+    assert verdicts(0, 0, None) == ()
+
+
+def test_the_branch_not_taken_is_skipped_and_never_fails() -> None:
+    skips = frozenset({2})
+    assert verdicts(3, 3, None, skips) == (Verdict.DONE, Verdict.DONE, Verdict.SKIPPED)
+    assert verdicts(3, 3, Verdict.WRONG_DOOR, skips) == (
+        Verdict.DONE,
+        Verdict.WRONG_DOOR,
+        Verdict.SKIPPED,
+    )
+
+
+@pytest.mark.parametrize(
+    ("command", "points", "verdicts"),
+    [
+        (
+            "if you see an intersection, turn right, otherwise turn around",
+            [(15.0, 9.1), (15.0, 6.5)],
+            ["done", "done", "skipped"],
+        ),
+        (
+            "if you do not see an intersection, turn around, otherwise turn right at the "
+            "intersection",
+            [(15.0, 9.1), (15.0, 6.5)],
+            ["done", "skipped", "done"],
+        ),
+    ],
+)
+def test_the_clause_of_the_other_branch_is_skipped(
+    command: str, points: list[tuple[float, float]], verdicts: list[str]
+) -> None:
+    judge = walk(verifier(command), *points)
+    assert list(judge.verdicts) == verdicts
+    assert judge.success
 
 
 def test_the_verdict_on_the_whole_is_that_of_the_clause_that_decides() -> None:

@@ -41,6 +41,7 @@ class Follower:
         begin: where that clause began.
         goal: where it leads.
         impossible: why the clause cannot be carried out, if it cannot.
+        skipped: indices of the clauses that a condition ruled out.
     """
 
     command: Command
@@ -52,6 +53,7 @@ class Follower:
     begin: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     goal: Goal = field(default=Goal(GoalKind.STOP, (0.0, 0.0, 0.0)), init=False)
     impossible: str | None = field(default=None, init=False)
+    skipped: frozenset[int] = field(default=frozenset(), init=False)
     _last: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     _farthest: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     _farthest_along: float = field(default=0.0, init=False)
@@ -62,6 +64,7 @@ class Follower:
     def start(self, scene: Scene, pose: Pose) -> None:
         """Begin with the first clause."""
         self.active, self._last, self._trail = 0, pose, Trail(pose)
+        self.skipped = frozenset()
         self._begin_clause(scene, pose, pose)
 
     @property
@@ -105,7 +108,7 @@ class Follower:
             if isinstance(goal, Goal):
                 self.goal = goal
             else:
-                self.active = after(self.command.clauses, self.active, goal)
+                self._go_on(after(self.command.clauses, self.active, goal))
                 self._begin_clause(scene, self.begin, pose)
         except GroundingError as error:
             self.impossible = str(error)
@@ -128,8 +131,14 @@ class Follower:
 
     def _begin_next(self, scene: Scene, pose: Pose) -> None:
         """Begin where the clause before leads, so that counting does not depend on the driving."""
-        self.active = after(self.command.clauses, self.active)
+        self._go_on(after(self.command.clauses, self.active))
         self._begin_clause(scene, self.goal.onward or self.goal.pose, pose)
+
+    def _go_on(self, index: int) -> None:
+        """Make that clause the active one; what lies between is skipped."""
+        if index > self.active + 1:
+            self.skipped |= frozenset(range(self.active + 1, index))
+        self.active = index
 
     def _begin_clause(self, scene: Scene, begin: Pose, pose: Pose) -> None:
         while not self.done and self._is_only_a_direction(self.active):

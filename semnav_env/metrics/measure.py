@@ -51,7 +51,7 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
         ndtw=alike,
         sdtw=success * alike,
         cls=cls(driven, wanted),
-        clauses=verdicts.count(Verdict.DONE) / len(verdicts) if verdicts else 1.0,
+        clauses=sum(map(_settled, verdicts)) / len(verdicts) if verdicts else 1.0,
         contact_free=recording.collisions == 0,
         collisions=recording.collisions,
         collisions_per_100m=collisions_per_100m(recording.collisions, path_length),
@@ -98,3 +98,7 @@ def stood_there(goal: Goal, recording: Recording) -> bool:
         since = since + 1 if stood else 0
         steps = max(steps, since)
     return steps > 0 and steps * recording.period >= goal.wait
+
+
+def _settled(verdict: Verdict) -> bool:
+    return verdict in (Verdict.DONE, Verdict.SKIPPED)

@@ -32,12 +32,14 @@ class Frame:
         trail: past positions, oldest first, shape (k, 2).
         route: the true route, shape (m, 2); None hides it.
         command: the text of each clause.
-        active_clause: index into `command`; those before are done. len(command): all are done.
+        active_clause: index into `command`; those before are done or
+            skipped. len(command): all are done.
         status: lines of text below the command, such as "t = 12.4 s".
         people: x, y and radius of everybody, shape (n, 3).
         leaves: hinge and tip of the leaves that can move, shape (m, 4).
         in_contact: the body touches something.
         failed: the active clause has failed.
+        skipped: indices of clauses that a condition ruled out; they keep their number.
 
     Raises:
         ValueError: a pose that is not finite, points that are not of shape (n, 2), or numbers for
@@ -57,6 +59,7 @@ class Frame:
     route: FloatArray | None = None
     command: tuple[str, ...] = ()
     active_clause: int = 0
+    skipped: frozenset[int] = frozenset()
     status: tuple[str, ...] = ()
     people: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     leaves: FloatArray = field(default_factory=lambda: np.zeros((0, 4)))

@@ -150,7 +150,8 @@ def _draw_entry(column: Column, inner: Column, y: float, entry: Entry, frame: Fr
     if entry.index == active and frame.failed:
         _draw_cross(canvas, at)
     else:
-        _draw_mark(canvas, at, entry.index - active, entry.index + 1)
+        relative = 1 if entry.index in frame.skipped else entry.index - active
+        _draw_mark(canvas, at, relative, entry.index + 1)
     colour = palette.INK if entry.index == active else palette.MUTED
     y += 15.0
     for line in entry.lines:

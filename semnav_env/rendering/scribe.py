@@ -101,6 +101,7 @@ class Scribe:
             route=verifier.route,
             command=tuple(str(clause) for clause in verifier.command.clauses),
             active_clause=verifier.follower.active,
+            skipped=verifier.follower.skipped,
             status=_status(env.seconds, verifier),
             people=people.copy(),
             leaves=leaves.copy(),
@@ -128,8 +129,11 @@ def _moved(goal: Goal, frame: Pose) -> Goal:
     return Goal(goal.kind, compose(frame, goal.pose), door, because=goal.because)
 
 
+_SETTLED = (Verdict.DONE, Verdict.SKIPPED, Verdict.PENDING)
+
+
 def _status(seconds: float, verifier: Verifier) -> tuple[str, ...]:
-    current = [v for v in verifier.verdicts if v not in (Verdict.DONE, Verdict.PENDING)]
+    current = [v for v in verifier.verdicts if v not in _SETTLED]
     verdict = str(current[0]) if current else "done"
     return (
         f"t = {seconds:.1f} s   {verdict}",

@@ -12,6 +12,7 @@ class Verdict(StrEnum):
     PENDING = "pending"
     ACTIVE = "active"
     DONE = "done"
+    SKIPPED = "skipped"
     WRONG_DOOR = "wrong door"
     WRONG_TURN = "wrong turn"
     STOPPED_SHORT = "stopped short"
@@ -22,13 +23,21 @@ FAILURES = (Verdict.WRONG_DOOR, Verdict.WRONG_TURN, Verdict.STOPPED_SHORT, Verdi
 
 
 @lru_cache(maxsize=256)
-def verdicts(clauses: int, active: int, failure: Verdict | None) -> tuple[Verdict, ...]:
-    """Done, then what became of the active clause, then pending.
+def verdicts(
+    clauses: int, active: int, failure: Verdict | None, skipped: frozenset[int] = frozenset()
+) -> tuple[Verdict, ...]:
+    """Done or skipped, then what became of the active clause, then pending.
 
     A failure in the very step that carries out the last clause is that clause's.
+
+    Args:
+        clauses: how many there are.
+        active: index of the active one; `clauses` when none is left.
+        failure: of the command, if it failed.
+        skipped: indices of those that a condition ruled out.
     """
+    found = [Verdict.DONE] * active + [Verdict.ACTIVE] + [Verdict.PENDING] * (clauses - active - 1)
+    found = [Verdict.SKIPPED if i in skipped else v for i, v in enumerate(found[:clauses])]
     if failure is not None:
-        active = min(active, clauses - 1)
-    rest = clauses - active - 1
-    done = (Verdict.DONE,) * active
-    return done if rest < 0 else (*done, failure or Verdict.ACTIVE, *(Verdict.PENDING,) * rest)
+        found[max(i for i in range(clauses) if i <= active and i not in skipped)] = failure
+    return tuple(found)

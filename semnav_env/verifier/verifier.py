@@ -153,7 +153,8 @@ class Verifier:
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
         """One per clause."""
-        return verdicts(len(self.command.clauses), self.follower.active, self.failure)
+        follower = self.follower
+        return verdicts(len(self.command.clauses), follower.active, self.failure, follower.skipped)
 
     @property
     def remaining(self) -> float:
