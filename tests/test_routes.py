@@ -311,7 +311,10 @@ def test_the_command_line_leads_to_a_place(capsys: pytest.CaptureFixture[str]) -
     [
         (("--to", "kitchen"), "has no door, room or place 'kitchen'"),
         (("--to", "west_south_2", "--language", "latin"), "no language 'latin'; there are: "),
-        (("--to", "west_south_2", "--paraphrases", "-1"), "n is -1; it must be 0 or more"),
+        (
+            ("--to", "west_south_2", "--paraphrases", "-1"),
+            "--paraphrases is -1; it must be 0 or more",
+        ),
         ((), "--to"),
     ],
 )
