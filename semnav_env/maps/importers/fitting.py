@@ -22,6 +22,9 @@ ACROSS = 0.25
 JAMB = 0.1
 """How rough the face of a jamb is, metres."""
 
+EXACT = 1e-6
+"""Points whose distances differ by less are equally near, metres."""
+
 
 @dataclass(frozen=True)
 class Fit:
@@ -101,9 +104,12 @@ class Band:
         return bool(gap[0] > -ALONG and gap[1] < self.length + ALONG)
 
     def jambs(self, gap: FloatArray) -> tuple[Point, Point]:
-        """On both sides of a gap the solid point nearest to the line within `JAMB`."""
+        """On both sides of a gap the solid point nearest to the line within `JAMB`.
+
+        Of several as near, as those of a wall that runs along the line, that at the gap.
+        """
         first, last = gap.tolist()
-        start = _jamb(self.pieces, first - JAMB, first)
+        start = _jamb(self.pieces, first, first - JAMB)
         end = _jamb(self.pieces, last, last + JAMB)
         return to_parent(self.frame, start), to_parent(self.frame, end)
 
@@ -130,9 +136,12 @@ def _joined(intervals: FloatArray) -> FloatArray:
     return np.stack((rows[begins, 0], reach[np.append(begins[1:] - 1, len(rows) - 1)]), axis=1)
 
 
-def _jamb(pieces: FloatArray, first: float, last: float) -> Point:
-    """The solid point nearest to the marked line between two places along it."""
+def _jamb(pieces: FloatArray, edge: float, far: float) -> Point:
+    """The solid point nearest to the marked line between the edge of a gap and a place beyond."""
+    first, last = sorted((edge, far))
     solid = shapely.multilinestrings(shapely.linestrings(pieces))
     there = solid.intersection(shapely.box(first, -ACROSS, last, ACROSS))
-    _, (x, y) = shapely.shortest_line(shapely.LineString(((first, 0.0), (last, 0.0))), there).coords
+    away = there.distance(shapely.LineString(((first, 0.0), (last, 0.0)))) + EXACT
+    nearest = there.intersection(shapely.box(first, -away, last, away))
+    x, y = min(shapely.get_coordinates(nearest).tolist(), key=lambda point: abs(point[0] - edge))
     return x, y
