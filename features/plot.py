@@ -86,16 +86,18 @@ def save_page(
 
 
 def check_suffix(path: str | os.PathLike[str]) -> None:
-    """Refuse a path whose suffix is not that of a picture.
+    """Refuse a path whose suffix is not that of a picture, or that is a folder.
 
     Raises:
-        ValueError: names the suffix, and those that would do.
+        ValueError: names the path, and the suffixes that would do.
     """
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in (".png", ".pdf", ".svg"):
         raise ValueError(
             f"{os.fspath(path)!r} is no picture's name; it must end in .png, .pdf or .svg"
         )
+    if os.path.isdir(path):
+        raise ValueError(f"{os.fspath(path)!r} is a folder; give the name of a picture")
 
 
 def _points(scan: Scan) -> FloatArray:

@@ -14,6 +14,7 @@ from tyro.conf import arg
 from semnav_env.commands import Approach, paraphrases, to_program
 from semnav_env.commands.language import language_of
 from semnav_env.features.frames import Point
+from semnav_env.features.plot import check_suffix
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
@@ -57,6 +58,8 @@ class Arguments:
             if getattr(self, name) < 0:
                 raise ValueError(f"--{name} is {getattr(self, name)}; it must be 0 or more")
         check_file(self.plot, "--plot")
+        if self.plot is not None:
+            check_suffix(self.plot)
         floor_plan, start = load_floor_plan(self.map), parse_pose(self.start)
         language = language_of(self.language)
         error = placement_error(floor_plan, robot_spec(self.robot), start)

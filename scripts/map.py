@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from tyro.conf import Positional, subcommand
 
+from semnav_env.features.plot import check_suffix
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
 from semnav_env.scripts.map_build import Build
 from semnav_env.scripts.map_check import Check
@@ -51,6 +52,8 @@ class Show:
 
     def run(self) -> int:
         """Print the summary, and draw the plan if asked to."""
+        if self.out:
+            check_suffix(self.out)
         plan = load_floor_plan(self.plan)
         if self.out:
             _draw(plan, self.out)

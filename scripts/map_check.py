@@ -8,6 +8,7 @@ from pathlib import Path
 
 from tyro.conf import Positional
 
+from semnav_env.features.plot import check_suffix
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.check import check
 from semnav_env.robots import robot_spec
@@ -31,6 +32,8 @@ class Check:
 
     def run(self) -> int:
         """Print one line for each fault."""
+        if self.plot:
+            check_suffix(self.plot)
         plan, robot = load_floor_plan(self.plan), robot_spec(self.robot)
         findings = check(plan, robot)
         if self.plot:

@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
+from semnav_env.features.plot import check_suffix
 from semnav_env.maps import generate_office, save_floor_plan
 from semnav_env.scripts.outputs import counted
 
@@ -30,6 +31,8 @@ class Generate:
 
     def run(self) -> int:
         """Generate, write what was asked for, and say what there is."""
+        if self.plot:
+            check_suffix(self.plot)
         plan = generate_office(self.seed, self.distribution)
         written = [path for path in (self.out, self.plot) if path is not None]
         for path in written:

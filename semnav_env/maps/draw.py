@@ -12,6 +12,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from shapely import Polygon, union_all
 
+from semnav_env.features.plot import check_suffix
 from semnav_env.maps.doorways import TOUCH
 from semnav_env.maps.finding import Finding
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
@@ -73,8 +74,9 @@ def save_picture(
         findings: what is wrong with it: numbered circles, and what they mean below.
 
     Raises:
-        ValueError: a suffix that matplotlib does not know; it lists those it does.
+        ValueError: another suffix, or a folder.
     """
+    check_suffix(path)
     west, south, east, north = plan.boundary.bounds
     inch = LONGEST_SIDE / max(east - west, north - south)
     figure = Figure(

@@ -11,6 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from semnav_env.features.frames import Pose
+from semnav_env.features.plot import check_suffix
 from semnav_env.maps.draw import draw_floor_plan
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.routes.route import Route
@@ -46,8 +47,9 @@ def save_routes(
     """Write a picture of routes; the suffix of `path` says the format (png, svg, pdf).
 
     Raises:
-        ValueError: a suffix that matplotlib does not know; it lists those it does.
+        ValueError: another suffix, or a folder.
     """
+    check_suffix(path)
     west, south, east, north = floor_plan.boundary.bounds
     inch = LONGEST_SIDE / max(east - west, north - south)
     size = (east - west) * inch + 1.0, (north - south) * inch + 1.0 + 0.3 * len(routes)
