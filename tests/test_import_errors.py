@@ -1,6 +1,8 @@
 """Maps that cannot be imported are refused in one line that names what is wrong."""
 
 import math
+import re
+from pathlib import Path
 
 import pytest
 
@@ -85,3 +87,20 @@ def test_a_huge_image_is_refused_before_it_is_decoded(tmp_path):
     path.write_bytes(b"P5 60000 60000 255\n")
     with pytest.raises(FloorPlanError, match="25,000,000"):
         import_map(path, resolution=0.05)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("bad.csv", "0,0,1,0\n1,2\n", "line 2: has 2 values, not 4; each line has x1, y1, x2, y2"),
+        ("bad.json", '{"a": 1}', "not a vector map (no list of objects); it must be a list of"),
+        ("bad.json", '["x"]', "not a vector map (no list of objects); it must be a list of"),
+        ("empty.dxf", "", "is empty; give a DXF drawing"),
+    ],
+)
+def test_what_holds_something_else_is_said_in_words_of_the_file(
+    name: str, text: str, words: str, tmp_path: Path
+) -> None:
+    (tmp_path / name).write_text(text)
+    with pytest.raises(FloorPlanError, match=re.escape(words)):
+        import_map(tmp_path / name)

@@ -73,6 +73,8 @@ def _read(path: Path) -> tuple[Any, int]:
         raise FloorPlanError("DXF needs ezdxf: pip install 'semnav-env[import]'") from None
     try:
         size = path.stat().st_size
+        if size == 0:
+            raise FloorPlanError(f"{path}: is empty; give a DXF drawing")
         if size > MAX_BYTES:
             raise FloorPlanError(f"{path}: {size:,} bytes; at most {MAX_BYTES:,} are read")
         document, audit = recover.readfile(path)

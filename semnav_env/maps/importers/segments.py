@@ -32,6 +32,8 @@ def load_vector_map(path: str | Path) -> Imported:
     text = read_text(where)
     try:
         rows = json.loads(text)
+        if not (isinstance(rows, list) and all(isinstance(row, dict) for row in rows)):
+            raise TypeError("no list of objects")
         ends = [
             (finite(a["x"]), finite(a["y"]), finite(b["x"]), finite(b["y"]))
             for a, b in ((row["p0"], row["p1"]) for row in rows)
@@ -112,6 +114,8 @@ def _is_number(text: str) -> bool:
 
 def _row(path: Path, number: int, cells: list[str]) -> Row:
     try:
+        if len(cells) != 4:
+            raise ValueError(f"has {len(cells)} values, not 4")
         x1, y1, x2, y2 = map(finite, cells)
     except ValueError as error:
         raise FloorPlanError(
