@@ -151,7 +151,7 @@ def test_labels_give_doors_with_the_maps_own_jambs_and_rooms(tmp_path):
     assert [room.name for room in plan.rooms] == ["west", "east"]
     assert plan.region("west").polygon.area == pytest.approx(9.0)
     assert report.left_out == ("door 'nowhere': no wall beside one of its jambs",)
-    assert "1 open doors, 1 closed doors, 2 rooms" in str(report)
+    assert "1 open door, 1 closed door, 2 rooms" in str(report)
 
 
 def test_a_door_has_the_corridor_on_its_left(tmp_path):

@@ -38,10 +38,15 @@ class ImportReport:
 
     def __str__(self) -> str:
         """As lines of text."""
-        taken = ", ".join(f"{count} {name}" for name, count in self.taken.items())
+        taken = ", ".join(counted(count, name) for name, count in self.taken.items())
         lines = [f"{self.kind}: {', '.join(self.source)}", f"taken: {taken or 'nothing'}"]
         lines += [f"left out: {line}" for line in self.left_out]
         return "\n".join([*lines, *(f"note: {line}" for line in self.notes)])
+
+
+def counted(number: int, things: str) -> str:
+    """A number of things, as "1 open door" and "2 open doors"."""
+    return f"{number} {things.removesuffix('s') if number == 1 else things}"
 
 
 class Imported(NamedTuple):
