@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.planning.doorway import barriers_across, target_behind
-from semnav_env.agents.planning.driver import Driver
+from semnav_env.agents.planning.driver import NOTHING, Driver
 from semnav_env.agents.planning.planner import Target
 from semnav_env.features.frames import (
     FloatArray,
@@ -34,8 +34,8 @@ SAME_DOOR = 0.5
 class Pilot:
     """Drives a robot to goals with the footprint-aware planner.
 
-    A robot that pushes without moving backs out the way it came and plans anew. To pass a door it
-    takes no way around through the next room, by other doors that it knows.
+    A robot that pushes without moving backs out the way it came and plans anew. It takes no way
+    around through the next room, by doors that it knows and that are not its goal's.
 
     Args:
         robot: the body.
@@ -67,8 +67,10 @@ class Pilot:
             return self._action(-0.2 * sign(forward), -0.2 * sign(left), -0.3 * sign(turn))
         if goal.door is not None:
             points = np.vstack((points, [to_parent(pose, jamb) for jamb in goal.door]))
-        barriers = barriers_across(_other_doors(doors, goal), self.robot)
-        barriers = points_to_parent(pose, barriers)
+        barriers = NOTHING
+        if goal.kind is not GoalKind.SEEK:  # where the goal is no place, doors may be none either
+            others = barriers_across(_other_doors(doors, goal), self.robot)
+            barriers = points_to_parent(pose, others)
         steering = self.driver.drive(points, _target(goal, pose), pose, velocity, barriers)
         self._last = steering.command
         return self._action(*steering.command)

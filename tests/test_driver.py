@@ -169,6 +169,15 @@ def test_a_barrier_is_passed_on_the_way_to_a_gate_and_where_no_other_way_leads_o
     assert driver.path.crosses(*GATES[0.0])
 
 
+def test_a_place_is_reached_around_a_barrier_where_that_is_no_great_detour():
+    points, barrier = wall_with_two_gaps()
+    for y, gate in ((1.5, 4.0), (0.0, 0.0)):
+        driver, target = Driver(WHEELCHAIR), Target((6.0, y, 0.0), 0.2, None)
+        driver.drive(points, target, (0.0, y, 0.0), barriers=barrier)
+        assert driver.path.complete
+        assert driver.path.crosses(*GATES[gate])
+
+
 def test_doorways_are_barred_but_for_the_one_the_robot_stands_in():
     beside, here = (2.0, 1.0, 3.0, 1.0), (0.3, -0.5, 0.3, 0.5)
     barriers = barriers_across(np.array([beside, here]), WHEELCHAIR)

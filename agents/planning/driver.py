@@ -43,6 +43,7 @@ class Driver:
         tolerance: metres by which a path may lose clearance before it is planned anew.
         insist_after: how often in a row a steering may be refused before it is let through.
         retry_after: steps to stand still where no way leads on.
+        detour: how many times as long a way around barriers may be.
     """
 
     robot: RobotSpec
@@ -52,6 +53,7 @@ class Driver:
     tolerance: float = 0.03
     insist_after: int = 4
     retry_after: int = 8
+    detour: float = 1.5
 
     def __post_init__(self) -> None:
         self.reset()
@@ -168,15 +170,26 @@ class Driver:
     def _path_around(
         self, points: FloatArray, start: Pose, target: Target, barriers: FloatArray
     ) -> Path:
-        """A path through the target's gate; around the barriers, if only such a one leads there."""
+        """A path through the target's gate, if it has one; around the barriers, if that helps.
+
+        Without a gate a path leads around them where that is no great `detour`.
+        """
         path = plan(points, start, target, self.robot, self.planner)
         self._heeds_barriers = False
-        if target.gate is None or not len(barriers) or path.crosses(*target.gate):
+        if not len(barriers) or self._is_the_way(path, target, barriers):
             return path
         solid = np.vstack((points, barriers))
         around = plan(solid, start, target, self.robot, self.planner)
-        self._heeds_barriers = around.complete and around.crosses(*target.gate)
-        return around if self._heeds_barriers else path
+        near = target.gate is not None or around.length < self.detour * path.length
+        leads = around.complete and near and self._is_the_way(around, target, barriers)
+        self._heeds_barriers = leads
+        return around if leads else path
+
+    def _is_the_way(self, path: Path, target: Target, barriers: FloatArray) -> bool:
+        """Whether a path crosses the target's gate, or without one no barrier."""
+        if target.gate is not None:
+            return path.crosses(*target.gate)
+        return is_free(barriers, path.poses, self.robot)
 
     def _path_to_stop(
         self, points: FloatArray, pose: Pose, velocity: tuple[float, float, float]
