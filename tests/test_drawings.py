@@ -262,6 +262,6 @@ def test_the_command_takes_scale_and_layers(
     words = ["map", "import", str(dxf(tmp_path / "a.dxf")), "--out", str(out)]
     layers = ["--drawing.walls", "A-WALL", "--drawing.doors", "A-DOOR"]
     assert cli.main([*words, *layers]) == 0
-    assert "1 doors" in capsys.readouterr().out
+    assert ", 1 door" in capsys.readouterr().out
     assert [door.name for door in load_floor_plan(str(out)).doors] == ["door 1"]
     assert cli.main([*words, "--drawing.walls", "nowhere"]) == 2
