@@ -47,6 +47,12 @@ def to_local(frame: Pose, point: Point) -> Point:
     return c * dx + s * dy, c * dy - s * dx
 
 
+def path_length(points: FloatArray) -> float:
+    """Length of the line through points, shape (n, 2), metres."""
+    steps = np.diff(points, axis=0)
+    return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
+
+
 def points_to_parent(frame: Pose, points: FloatArray) -> FloatArray:
     """`to_parent` for an array of points, shape (..., 2)."""
     c, s = math.cos(frame[2]), math.sin(frame[2])

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from semnav_env.commands import parse
-from semnav_env.features.frames import FloatArray, points_to_parent
+from semnav_env.features.frames import FloatArray, path_length, points_to_parent
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.metrics import (
@@ -26,7 +26,6 @@ from semnav_env.metrics import (
     collisions_per_100m,
     cvar,
     dtw,
-    length,
     means,
     measure,
     ndtw,
@@ -187,7 +186,7 @@ def test_resampling_keeps_the_ends_and_spaces_evenly(path: FloatArray, spacing: 
     assert points[0] == pytest.approx(path[0])
     assert points[-1] == pytest.approx(path[-1])
     assert (gaps <= spacing + TOL).all()
-    assert length(points) <= length(path) + TOL
+    assert path_length(points) <= path_length(path) + TOL
 
 
 def test_jerk_worked_by_hand() -> None:

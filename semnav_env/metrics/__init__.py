@@ -2,7 +2,7 @@
 
 from semnav_env.metrics.measure import measure
 from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
-from semnav_env.metrics.paths import cls, dtw, length, ndtw, resampled, sdtw, soft_spl, spl
+from semnav_env.metrics.paths import cls, dtw, ndtw, resampled, sdtw, soft_spl, spl
 from semnav_env.metrics.recording import Recorder, Recording
 from semnav_env.metrics.results import COLUMNS, HIGH_IS_BAD, Metrics, means, worst
 from semnav_env.metrics.risk import SHARES, cvar
@@ -19,7 +19,6 @@ __all__ = [
     "collisions_per_100m",
     "cvar",
     "dtw",
-    "length",
     "means",
     "measure",
     "ndtw",

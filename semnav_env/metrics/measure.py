@@ -6,12 +6,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, path_length
 from semnav_env.grounding.follower import STANDSTILL
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.maps.geodesic import WaysTo
 from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
-from semnav_env.metrics.paths import THRESHOLD, cls, length, ndtw, resampled, soft_spl, spl
+from semnav_env.metrics.paths import THRESHOLD, cls, ndtw, resampled, soft_spl, spl
 from semnav_env.metrics.recording import Recording
 from semnav_env.metrics.results import Metrics
 from semnav_env.robots import RobotSpec
@@ -31,7 +31,7 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
         robot: that drove.
     """
     path, route = recording.path, verifier.route
-    path_length, route_length = length(path), verifier.route_length
+    driven_length, route_length = path_length(path), verifier.route_length
     goals = verifier.planned_goals
     goal = place(goals[-1]) if goals else verifier.start[:2]
     distances = geodesic_distances(verifier.geodesic.to(goal), path)
@@ -46,20 +46,20 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
         oracle_success=success or (bool(goals) and ever_met(goals[-1], recording)),
         oracle_within_1m=bool(distances.min() < NEAR),
         oracle_within_3m=bool(distances.min() < THRESHOLD),
-        spl=spl(success, path_length, route_length),
-        soft_spl=soft_spl(float(distances[-1]), float(distances[0]), path_length, route_length),
+        spl=spl(success, driven_length, route_length),
+        soft_spl=soft_spl(float(distances[-1]), float(distances[0]), driven_length, route_length),
         ndtw=alike,
         sdtw=success * alike,
         cls=cls(driven, wanted),
         clauses=sum(map(_settled, verdicts)) / len(verdicts) if verdicts else 1.0,
         contact_free=recording.collisions == 0,
         collisions=recording.collisions,
-        collisions_per_100m=collisions_per_100m(recording.collisions, path_length),
+        collisions_per_100m=collisions_per_100m(recording.collisions, driven_length),
         least_clearance=float(clear.min()),
         mean_clearance=float(clear.mean()),
         jerk=rms_jerk(path, recording.period),
         goal_distance=float(distances[-1]),
-        path_length=path_length,
+        path_length=driven_length,
         route_length=route_length,
         seconds=recording.seconds,
     )
@@ -73,7 +73,7 @@ def geodesic_distances(ways: WaysTo, points: FloatArray) -> FloatArray:
     known = [ways.length((x, y)) for x, y in points.tolist()]
     return np.array(
         [
-            distance if np.isfinite(distance) else length(ways.way((x, y)))
+            distance if np.isfinite(distance) else path_length(ways.way((x, y)))
             for distance, (x, y) in zip(known, points.tolist(), strict=True)
         ]
     )

@@ -9,19 +9,13 @@ import numpy as np
 from numba import njit
 from scipy.spatial.distance import cdist
 
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, path_length
 
 THRESHOLD = 3.0
 """Distance at which the published measures call a place reached, metres."""
 
 SPACING = 0.25
 """Of the points of a path and a route that are compared, metres."""
-
-
-def length(path: FloatArray) -> float:
-    """Length of a path, Euclidean, metres."""
-    steps = np.diff(path, axis=0)
-    return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
 
 def resampled(path: FloatArray, spacing: float = SPACING) -> FloatArray:
@@ -96,8 +90,8 @@ def cls(path: FloatArray, route: FloatArray, threshold: float = THRESHOLD) -> fl
     neither has a length, LS is 1.
     """
     coverage = float(np.exp(-cdist(route, path).min(axis=1) / threshold).mean())
-    expected = coverage * length(route)
-    longer = abs(expected - length(path))
+    expected = coverage * path_length(route)
+    longer = abs(expected - path_length(path))
     score = expected / (expected + longer) if expected + longer > 0.0 else 1.0
     return coverage * score
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from semnav_env.commands import MAX_CLAUSES, Approach, Clause, Command, Follow, Turn, Turning
 from semnav_env.commands.command import may_count_on
-from semnav_env.features.frames import Pose, wrap_angle
+from semnav_env.features.frames import Pose, path_length, wrap_angle
 from semnav_env.grounding import Goal, GoalKind, GroundingError
 from semnav_env.grounding.ground import goal_of
 from semnav_env.grounding.situation import Situation
@@ -161,8 +161,7 @@ class _Search:
 
     def _length(self, start: int, stop: int) -> float:
         """Of the route between two poses, metres."""
-        steps = np.diff(self._poses[start : stop + 1, :2], axis=0)
-        return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
+        return path_length(self._poses[start : stop + 1, :2])
 
     def _crosses(self, goal: Goal, stop: int) -> bool:
         before, after = (tuple(pose.tolist()) for pose in self._poses[stop - 1 : stop + 1])

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from semnav_env.commands import Approach, Command
-from semnav_env.features.frames import FloatArray, to_parent
+from semnav_env.features.frames import FloatArray, path_length, to_parent
 from semnav_env.grounding.doors import STAND_OFF
 from semnav_env.grounding.goal import first_crossed
 from semnav_env.maps.floor_plan import FloorPlan
@@ -65,8 +65,7 @@ def destination(floor_plan: FloorPlan, route: Route) -> tuple[str, Approach] | N
     crossed = crossings(floor_plan, poses)
     if crossed:
         index, name = crossed[-1]
-        steps = np.diff(poses[index:, :2], axis=0)
-        if float(np.hypot(steps[:, 0], steps[:, 1]).sum()) <= BEHIND_DOOR:
+        if path_length(poses[index:, :2]) <= BEHIND_DOOR:
             return name, Approach.THROUGH
     if route.facing is not None:
         x, y, heading = poses[-1].tolist()

@@ -11,7 +11,7 @@ import numpy as np
 
 from semnav_env.commands import Command, encode
 from semnav_env.directory import Directory
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import FloatArray, Pose, path_length
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, GoalKind, first_crossed
@@ -181,8 +181,7 @@ class Verifier:
     @property
     def route_length(self) -> float:
         """Length of the true route, metres."""
-        steps = np.diff(self.route, axis=0)
-        return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
+        return path_length(self.route)
 
     def _ways_to_goal(self) -> WaysTo:
         return self.geodesic.to(place(self.follower.goal))
