@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from semnav_env.commands.clauses import Clause, IfThere, Turn
-from semnav_env.commands.references import OTHER, DoorReference, Place, PlaceReference
-from semnav_env.grounding.doors import check_side, doors_along
+from semnav_env.commands.references import OTHER, DoorReference, Place, PlaceReference, Side
+from semnav_env.grounding.doors import doors_named
 from semnav_env.grounding.goal import Goal
 from semnav_env.grounding.junctions import junctions_ahead
+from semnav_env.grounding.opposite import doors_opposite
 from semnav_env.grounding.situation import Situation
 
 
@@ -16,10 +17,13 @@ def is_met(condition: IfThere, situation: Situation) -> bool | Goal:
     """Whether a condition is met, or the goal of looking for what it speaks of.
 
     What is there is known as soon as it is seen; that nothing is there, at the end of the hallway.
-
-    Raises:
-        GroundingError: it speaks of a door on a side where none are found.
     """
+    situation = situation.towards(condition.what)
+    if isinstance(condition.what, DoorReference) and condition.what.side is Side.OPPOSITE:
+        found = doors_opposite(condition.what, situation)
+        if isinstance(found, Goal):
+            return found
+        return (bool(found) and condition.what.ordinal <= 1) is not condition.absent
     count, wanted = _count(condition.what, situation), condition.what.ordinal
     from_start = wanted > OTHER
     if (from_start or situation.seen_to_end) and count >= max(1, abs(wanted)):
@@ -34,8 +38,7 @@ def is_met(condition: IfThere, situation: Situation) -> bool | Goal:
 def _count(what: DoorReference | PlaceReference, situation: Situation) -> int:
     """How many of the kind have been seen so far."""
     if isinstance(what, DoorReference):
-        check_side(what)
-        return len(doors_along(situation.scene, situation.hallway, what.side))
+        return len(doors_named(what, situation)[0])
     if what.place is Place.END:
         return int(situation.seen_to_end)
     return len(junctions_ahead(situation.hallway, what.place))

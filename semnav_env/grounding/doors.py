@@ -1,18 +1,18 @@
-"""Which doors count, on which side and in which order; and the goals of door clauses."""
+"""Which doors count, on which side and in which order."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from semnav_env.commands.clauses import Approach, GoToDoor
 from semnav_env.commands.references import OTHER, DoorReference, Side
-from semnav_env.features.frames import Point, Pose, compose, to_local, wrap_angle
+from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
 from semnav_env.features.hallway import Hallway, doorway_at
 from semnav_env.features.scene import Door, Scene
-from semnav_env.grounding.goal import Goal, GoalKind
-from semnav_env.grounding.situation import GroundingError, Situation
-from semnav_env.grounding.surroundings import doors_around
+from semnav_env.grounding.goal import Goal
+from semnav_env.grounding.opposite import find_opposite
+from semnav_env.grounding.situation import GroundingError, Situation, is_behind
+from semnav_env.grounding.surroundings import doors_across, heading_through
 
 STAND_OFF = 0.9
 """How far before a door, and behind it, the robot's centre comes to stand, metres."""
@@ -28,6 +28,9 @@ AT_THE_END = 0.6
 
 ABREAST = 0.3
 """Doors so close along the hallway are not one before the other, metres."""
+
+CORRIDOR = 3.0
+"""No corridor is wider, metres; what is wider has a wall behind one, as a room has."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,93 +56,73 @@ class CountedDoor:
         return x + beyond * c, y + beyond * s, self.outward
 
 
-def ground_door(clause: GoToDoor, situation: Situation) -> Goal:
-    """The goal of "go through the second door on the right"."""
-    found = find_door(clause.door, situation)
-    if isinstance(found, Goal):
-        return found
-    if clause.approach is Approach.TO:
-        goal = Goal(GoalKind.REACH, found.pose(-STAND_OFF), found.door, 0.7, 0.6)
-    else:
-        goal = Goal(GoalKind.PASS, found.pose(STAND_OFF), found.door, onward=found.pose(0.0))
-    return replace(goal, because=str(clause.door), hallway=situation.hallway)
-
-
-def ground_leave(situation: Situation) -> Goal:
-    """The goal of "leave the room": back through the doorway that the robot has just come by.
-
-    Who has not come by one leaves by the only door in view.
-
-    Raises:
-        GroundingError: there is none, or there are several.
-    """
-    inward = situation.begin
-    door = doorway_at(situation.scene, inward)
-    if door is None:  # it has turned around behind it
-        inward = compose(situation.begin, (OUT_OF_DOORWAY, 0.0, math.pi))
-        door = doorway_at(situation.scene, inward)
-    if door is None:
-        around = doors_around(situation.scene, situation.begin)
-        if not around and not situation.complete:
-            return _turn_round(situation)
-        if len(around) != 1:
-            raise GroundingError(
-                "leave the room: by which door? say which, or enter the room first"
-            )
-        door = around[0]
-        inward = (*door.midpoint, wrap_angle(_leading_away(door, situation.begin) + math.pi))
-    outward = wrap_angle(inward[2] + math.pi)
-    line = CountedDoor(door, 0.0, Side.BEHIND, outward)
-    because = "leave the room"
-    return Goal(GoalKind.PASS, line.pose(STAND_OFF), door, because=because, onward=line.pose(0.0))
-
-
-def _turn_round(situation: Situation) -> Goal:
-    """Turn round to look for the door of the room; never done, for it is no end in itself."""
-    behind = compose(situation.begin, (0.0, 0.0, math.pi))
-    because = "looking for the door of the room"
-    return Goal(GoalKind.REACH, behind, None, 0.0, 0.0, because)
-
-
-def _leading_away(door: Door, pose: Pose) -> float:
-    """The heading through a door for one who comes from a pose."""
-    (ax, ay), (bx, by) = door.start, door.end
-    left = (bx - ax) * (pose[1] - ay) - (by - ay) * (pose[0] - ax) > 0.0
-    return math.atan2(by - ay, bx - ax) + (-math.pi / 2 if left else math.pi / 2)
-
-
 def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | Goal:
     """The door that a reference names, or the goal of looking for it.
+
+    Args:
+        reference: to a door.
+        situation: of one who looks towards it, see `Situation.towards`.
 
     Raises:
         GroundingError: the hallway ended before, or the side is open and doors on both fit.
     """
-    check_side(reference)
-    doors = doors_along(situation.scene, situation.hallway, reference.side)
-    if reference.ordinal <= OTHER and not situation.seen_to_end:
+    if reference.side is Side.OPPOSITE:
+        found = find_opposite(reference, situation)
+        return (
+            found
+            if isinstance(found, Goal)
+            else CountedDoor(found[0], 0.0, Side.OPPOSITE, found[1])
+        )
+    doors, counted_on = doors_named(reference, situation)
+    if counted_on and reference.ordinal <= OTHER and not situation.seen_to_end:
         return situation.seek(reference)
     index = _index(reference, len(doors))
     if not 0 <= index < len(doors):
+        if not counted_on:
+            raise GroundingError(f"no {str(reference).removeprefix('the ')}: there is {len(doors)}")
         if situation.seen_to_end:
             raise situation.missing(str(reference), len(doors))
         return situation.seek(reference)
+    side = None if situation.back else reference.side
     if situation.complete:
         _check_order(reference, doors, index)
-    elif _may_hide_a_door(situation, reference.side, doors[index].along):
+    elif counted_on and _may_hide_a_door(situation, side, doors[index].along):
         return situation.seek(f"doors before {reference}", doors[index].along)
     return doors[index]
 
 
-def check_side(reference: DoorReference) -> None:
-    """Refuse a side on which no doors are found.
+def doors_named(reference: DoorReference, situation: Situation) -> tuple[list[CountedDoor], bool]:
+    """The doors that a reference may name, in order, and whether there may be more farther on.
 
-    Raises:
-        GroundingError: it is one.
+    Behind one who stands in a doorway is only that door. Behind one in a room, where it is wider
+    than `CORRIDOR`, are the doors in the wall there; elsewhere, or if it has none, those that one
+    would come by on turning around.
+
+    Args:
+        reference: to a door on any side but opposite.
+        situation: of one who looks towards it.
     """
-    if reference.side in (Side.BEHIND, Side.OPPOSITE):
-        raise GroundingError(
-            f"{reference}: only doors to the left, to the right and ahead are found"
-        )
+    if not situation.back:
+        return doors_along(situation.scene, situation.hallway, reference.side), True
+    scene, begin, hallway = situation.scene, situation.begin, situation.hallway
+    doorway = doorway_at(scene, begin)
+    if doorway is not None:
+        outward = heading_through(doorway, begin[2])
+        return [CountedDoor(doorway, 0.0, Side.BEHIND, outward)], False
+    if hallway.half_width > CORRIDOR / 2:
+        if math.isinf(hallway.end) and not situation.complete:
+            return [], True
+        axis = (*begin[:2], hallway.frame[2])
+        across = [_behind(door, axis) for door in doors_across(scene, axis)]
+        if across:
+            return across, False
+    return doors_along(scene, hallway), True
+
+
+def _behind(door: Door, pose: Pose) -> CountedDoor:
+    """A door in the wall behind; they are ordered by how far beside straight behind they lie."""
+    beside = abs(to_local(pose, door.midpoint)[1])
+    return CountedDoor(door, beside, Side.BEHIND, heading_through(door, pose[2]))
 
 
 def _index(reference: DoorReference, count: int) -> int:
@@ -176,9 +159,12 @@ def _check_order(reference: DoorReference, doors: list[CountedDoor], index: int)
     """Refuse to choose between doors that are not one before the other."""
     for other in doors[max(0, index - 1) : index + 2]:
         facing = abs(other.along - doors[index].along) < ABREAST
+        if facing and other is not doors[index] and other.side is Side.BEHIND:
+            raise GroundingError(f"{reference}: two there are equally nearly straight behind")
         if facing and other.side is not doors[index].side:
             sides = " and ".join(sorted((other.side, doors[index].side)))
-            raise GroundingError(f"{reference}: there is one {sides} there; say on which side")
+            say = "turn around first, and say" if is_behind(reference) else "say"
+            raise GroundingError(f"{reference}: there is one {sides} there; {say} on which side")
 
 
 def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> bool:

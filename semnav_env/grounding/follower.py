@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 
 from semnav_env.commands import Command
 from semnav_env.commands.clauses import Follow, GoBack, GoToDoor, IfThere, Turn, Turning
+from semnav_env.commands.command import reference_of
 from semnav_env.features.frames import Pose, to_local
-from semnav_env.features.scene import Scene
+from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.conditions import after, hangs_on_condition, in_context, is_met
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.ground import goal_of
-from semnav_env.grounding.situation import GroundingError, Situation
+from semnav_env.grounding.situation import GroundingError, Situation, is_behind, turned
 from semnav_env.grounding.ways import Guide, Told, Trail, Way
 
 STANDSTILL = 0.05
@@ -58,13 +59,15 @@ class Follower:
     _farthest: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     _farthest_along: float = field(default=0.0, init=False)
     _still: float = field(default=0.0, init=False)
+    _ahead: Pose = field(default=(0.0, 0.0, 0.0), init=False)
+    _beside: Door | None = field(default=None, init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
     _trail: Trail = field(default_factory=lambda: Trail((0.0, 0.0, 0.0)), init=False, repr=False)
 
     def start(self, scene: Scene, pose: Pose) -> None:
         """Begin with the first clause."""
         self.active, self._last, self._trail = 0, pose, Trail(pose)
-        self.skipped = frozenset()
+        self.skipped, self._beside = frozenset(), None
         self._begin_clause(scene, pose, pose)
 
     @property
@@ -90,7 +93,7 @@ class Follower:
         completed = not self.done and self._completed(pose)
         self._last = pose
         self._trail.note(pose)
-        along = to_local(self.begin, (pose[0], pose[1]))[0]
+        along = to_local(self._ahead, (pose[0], pose[1]))[0]
         if along > self._farthest_along:
             self._farthest, self._farthest_along = pose, along
         if completed:
@@ -117,9 +120,9 @@ class Follower:
     def _ground(self, scene: Scene, pose: Pose) -> Goal | bool:
         """The goal of the active clause, or whether its condition is met."""
         here = pose if self._way else self._farthest  # what was looked at stays so on coming back
-        situation = Situation(
-            scene, self.begin, here, self.complete, self._after_hallway, self._way
-        )
+        here = (*here[:2], pose[2])
+        after_hallway, way, beside = self._after_hallway, self._way, self._beside
+        situation = Situation(scene, self.begin, here, self.complete, after_hallway, way, beside)
         clause = in_context(self.command.clauses, self.active)
         return (
             is_met(clause, situation) if isinstance(clause, IfThere) else goal_of(clause, situation)
@@ -131,6 +134,9 @@ class Follower:
 
     def _begin_next(self, scene: Scene, pose: Pose) -> None:
         """Begin where the clause before leads, so that counting does not depend on the driving."""
+        if self.goal.kind is not GoalKind.STOP:
+            led_to = self.goal.door if self.goal.kind is GoalKind.REACH else None
+            self._beside = self.goal.beside or led_to
         self._go_on(after(self.command.clauses, self.active))
         self._begin_clause(scene, self.goal.onward or self.goal.pose, pose)
 
@@ -144,7 +150,9 @@ class Follower:
         while not self.done and self._is_only_a_direction(self.active):
             self.active += 1
         self.begin, self._farthest, self._still = begin, pose, 0.0
-        self._farthest_along = to_local(begin, (pose[0], pose[1]))[0]
+        back = not self.done and is_behind(reference_of(self.command.clauses[self.active]))
+        self._ahead = turned(begin) if back else begin
+        self._farthest_along = to_local(self._ahead, (pose[0], pose[1]))[0]
         self._way = None if self.done else self._way_from(begin, pose)
         self.look(scene, pose)
 

@@ -54,6 +54,7 @@ class Goal:
             crossed, or the mouth of the arm that was turned into.
         places: of the way there, from its begin on, if it is known; (x, y) in metres.
         wait: how long to stand still, seconds; of a STOP.
+        beside: the door beside which it ends, of "until the second door".
     """
 
     kind: GoalKind
@@ -67,6 +68,7 @@ class Goal:
     onward: Pose | None = None
     places: tuple[Point, ...] = field(default=(), compare=False, repr=False)
     wait: float = 0.0
+    beside: Door | None = field(default=None, compare=False, repr=False)
 
     def towards(self, pose: Pose) -> Goal:
         """The goal, or while the way there is long the next place on it."""

@@ -13,9 +13,10 @@ from semnav_env.commands.clauses import (
     Stop,
     Turn,
 )
+from semnav_env.commands.command import reference_of
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
-from semnav_env.grounding.doors import ground_door, ground_leave
+from semnav_env.grounding.door_goals import ground_door, ground_leave
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.junctions import ground_follow, ground_turn
 from semnav_env.grounding.rooms import ground_way
@@ -61,6 +62,7 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
     Raises:
         GroundingError: the referent cannot be there, or the clause is a condition.
     """
+    situation = situation.towards(reference_of(clause))
     match clause:
         case GoToDoor():
             return ground_door(clause, situation)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from semnav_env.commands.clauses import Follow, Turn, Turning
 from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference, Side
@@ -65,11 +66,7 @@ def ground_follow(clause: Follow, situation: Situation) -> Goal:
     if isinstance(until, Distance):
         return _go_on(situation, _distance_along(until, situation), str(until))
     if isinstance(until, DoorReference):
-        door = find_door(until, situation)
-        if isinstance(door, Goal):
-            return door
-        beside = JUST_BEHIND if clause.past else -JUST_BEFORE
-        return _go_on(situation, min(door.along + beside, end), _past(clause))
+        return _follow_to_door(clause, until, situation)
     if until is None or until.place is Place.END:
         if math.isinf(end):
             return situation.seek("the end of the hallway")
@@ -81,6 +78,22 @@ def ground_follow(clause: Follow, situation: Situation) -> Goal:
         raise GroundingError(f"the hallway does not go on behind {until}")
     along = min(junction.far + JUST_BEHIND, end) if clause.past else junction.centre
     return _go_on(situation, along, _past(clause))
+
+
+def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) -> Goal:
+    """Up to a door or past it.
+
+    Raises:
+        GroundingError: it is opposite, across the hallway and not along it.
+    """
+    if until.side is Side.OPPOSITE:
+        raise GroundingError(f"{clause}: it lies across; say to go to it, or through it")
+    door = find_door(until, situation)
+    if isinstance(door, Goal):
+        return door
+    beside = JUST_BEHIND if clause.past else -JUST_BEFORE
+    along = min(door.along + beside, situation.hallway.end - END_MARGIN)
+    return replace(_go_on(situation, along, _past(clause)), beside=door.door)
 
 
 def _past(clause: Follow) -> str:
@@ -135,9 +148,7 @@ def _faces_a_door(situation: Situation) -> bool:
 
 
 def _turn_by(turning: Turning, degrees: int, situation: Situation) -> Goal:
-    """Turn by an angle where the clause began."""
-    if degrees > 180:
-        raise GroundingError(f"turn by {degrees} degrees: turns of up to 180 degrees are made")
+    """Turn by an angle where the clause began; what counts is where one looks in the end."""
     angle = math.radians(degrees)
     return Goal(
         GoalKind.REACH,

@@ -6,11 +6,10 @@ import math
 
 from semnav_env.commands.clauses import GoBack, GoToRoom
 from semnav_env.commands.references import Side
-from semnav_env.features.frames import wrap_angle
-from semnav_env.features.scene import Door
 from semnav_env.grounding.doors import STAND_OFF, CountedDoor
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import GroundingError, Situation
+from semnav_env.grounding.surroundings import heading_through
 from semnav_env.grounding.ways import door_near
 
 
@@ -38,7 +37,7 @@ def ground_way(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
             places=way.places,
         )
     door = door_near(situation.scene, way, situation.pose) or way.door
-    line = CountedDoor(door, 0.0, Side.AHEAD, _through(door, way.heading))
+    line = CountedDoor(door, 0.0, Side.AHEAD, heading_through(door, way.heading))
     return Goal(
         GoalKind.PASS,
         line.pose(STAND_OFF),
@@ -47,9 +46,3 @@ def ground_way(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
         onward=line.pose(0.0),
         places=way.places,
     )
-
-
-def _through(door: Door, about: float) -> float:
-    """The heading at right angles to a door that is nearest to another one."""
-    normal = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0]) + math.pi / 2
-    return wrap_angle(normal if math.cos(normal - about) > 0 else normal + math.pi)

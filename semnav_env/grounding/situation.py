@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
-from semnav_env.features.frames import Pose
+from semnav_env.commands.references import DoorReference, Side
+from semnav_env.features.frames import Pose, compose
 from semnav_env.features.hallway import Hallway, hallway
-from semnav_env.features.scene import Scene
+from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.ways import Way
 
@@ -20,6 +21,12 @@ END_MARGIN = 1.0
 
 AT_END = 1.7
 """Within this distance of its end a hallway has been seen to its end, metres."""
+
+LOOKED_AT = math.radians(60.0)
+"""Who is turned by less from a direction has looked there, radians."""
+
+UNDER_WAY = 1.0
+"""Who has gone so far along the hallway behind has looked along it, metres."""
 
 
 class GroundingError(ValueError):
@@ -33,10 +40,13 @@ class Situation:
     Attributes:
         scene: remembered or true walls and doors.
         begin: where the clause began, in the scene's frame.
-        pose: how far the robot has come since then, in the scene's frame.
+        pose: how far the robot has come since then, and which way it looks now, in the scene's
+            frame.
         complete: the scene holds everything there is.
         after_hallway: the clause before was "go down the hallway".
         way: that was pointed out or driven, for a clause that needs one.
+        beside: the door that the clause before led to, and not through.
+        back: `begin` is turned around, see `towards`.
     """
 
     scene: Scene
@@ -45,6 +55,8 @@ class Situation:
     complete: bool = False
     after_hallway: bool = False
     way: Way | None = None
+    beside: Door | None = None
+    back: bool = False
 
     @cached_property
     def hallway(self) -> Hallway:
@@ -61,13 +73,28 @@ class Situation:
         """Whether nothing of the hallway is left to be looked at."""
         return self.complete or self.progress > self.hallway.end - AT_END
 
+    def towards(self, reference: object) -> Situation:
+        """The same for one who turns to what is spoken of: around, if that is behind."""
+        return replace(self, begin=turned(self.begin), back=True) if is_behind(reference) else self
+
+    def looks_along(self, heading: float) -> bool:
+        """Whether the robot is turned that way by now."""
+        return math.cos(self.pose[2] - heading) > math.cos(LOOKED_AT)
+
+    def turn_to(self, heading: float, what: object) -> Goal:
+        """Turn on the spot to look for something; never done, for it is no end in itself."""
+        pose = (*self.begin[:2], heading)
+        return Goal(GoalKind.REACH, pose, None, 0.0, 0.0, f"looking for {what}")
+
     def seek(self, what: object, at_most: float = math.inf) -> Goal:
-        """Go on along the hallway and keep looking for something.
+        """Go on along the hallway and keep looking for something; first turn to where it may be.
 
         Args:
             what: is being looked for.
             at_most: how far along the hallway to go, metres.
         """
+        if self.back and self.progress < UNDER_WAY and not self.looks_along(self.begin[2]):
+            return self.turn_to(self.begin[2], what)
         along = min(self.progress + LOOK_AHEAD, self.hallway.end - END_MARGIN, at_most)
         pose = self.hallway.place(along)
         return Goal(GoalKind.SEEK, pose, because=f"looking for {what}", hallway=self.hallway)
@@ -81,3 +108,13 @@ class Situation:
         """
         there = f"ended after {count}" if count else "has none"
         return GroundingError(f"no {what.removeprefix('the ')}: the hallway {there}")
+
+
+def is_behind(reference: object) -> bool:
+    """Whether a reference is to a door behind the robot."""
+    return isinstance(reference, DoorReference) and reference.side is Side.BEHIND
+
+
+def turned(pose: Pose) -> Pose:
+    """The pose of one who has turned around."""
+    return compose(pose, (0.0, 0.0, math.pi))

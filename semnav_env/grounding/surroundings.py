@@ -1,10 +1,12 @@
-"""What a robot stands among: the doors of the room around it."""
+"""What a robot stands among: the doors in view around it, and those that face a place."""
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_angle
 from semnav_env.features.scene import Door, Scene, ends_of
 
 LOOKED_AT = (0.2, 0.5, 0.8)
@@ -13,12 +15,22 @@ LOOKED_AT = (0.2, 0.5, 0.8)
 SHORT_OF = 0.98
 """How much of the way to it must be free: it begins in a wall."""
 
+SAME = 0.5
+"""Doors whose middles are nearer than this are one, metres."""
 
-def doors_around(scene: Scene, pose: Pose) -> list[Door]:
-    """The doors that are in view from a pose, behind no wall and through no other door."""
-    walls, openings = ends_of(scene.walls), ends_of(scene.doors)
+
+def doors_around(scene: Scene, pose: Pose, own: Door | None = None) -> list[Door]:
+    """The doors that are in view from a pose, behind no wall and through no other door.
+
+    Args:
+        scene: walls and doors.
+        pose: from where, in the scene's frame.
+        own: a door that one stands in: it is not in view, and in nobody's way.
+    """
+    doors = [door for door in scene.doors if own is None or not _is_same(door, own)]
+    walls, openings = ends_of(scene.walls), ends_of(doors)
     seen = []
-    for k, door in enumerate(scene.doors):
+    for k, door in enumerate(doors):
         between = np.vstack((walls, np.delete(openings, k, axis=0)))
         shares = np.array(LOOKED_AT)[:, None]
         places = np.array(door.start) + shares * np.subtract(door.end, door.start)
@@ -26,6 +38,50 @@ def doors_around(scene: Scene, pose: Pose) -> list[Door]:
         if any(not _is_crossed(between, pose, place) for place in reach):
             seen.append(door)
     return seen
+
+
+def doors_across(scene: Scene, pose: Pose, own: Door | None = None) -> list[Door]:
+    """The doors ahead of a pose and in view that lie across its heading.
+
+    The one most nearly straight ahead comes first.
+
+    Args:
+        scene: walls and doors.
+        pose: from where and which way, in the scene's frame.
+        own: a door that one stands in; it does not count.
+    """
+    across = [door for door in doors_around(scene, pose, own) if _lies_across(door, pose)]
+    return sorted(across, key=lambda door: abs(to_local(pose, door.midpoint)[1]))
+
+
+def shared_width(door: Door, pose: Pose, half: float) -> float:
+    """How much of a door lies straight ahead of what reaches `half` to either side of a pose.
+
+    In metres; negative where the door lies beside that.
+    """
+    sides = to_local(pose, door.start)[1], to_local(pose, door.end)[1]
+    return min(max(sides), half) - max(min(sides), -half)
+
+
+def heading_through(door: Door, about: float) -> float:
+    """The heading at right angles to a door that is nearest to another one, radians."""
+    normal = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0]) + math.pi / 2
+    return wrap_angle(normal if math.cos(normal - about) > 0 else normal + math.pi)
+
+
+def heading_between(start: Point, end: Point) -> float:
+    """The heading from one place to another, radians."""
+    return math.atan2(end[1] - start[1], end[0] - start[0])
+
+
+def _lies_across(door: Door, pose: Pose) -> bool:
+    """Whether one who goes on along a heading comes to a door and not along it."""
+    (ax, ay), (bx, by) = to_local(pose, door.start), to_local(pose, door.end)
+    return ax + bx > 0.0 and abs(bx - ax) < abs(by - ay)
+
+
+def _is_same(door: Door, other: Door) -> bool:
+    return math.dist(door.midpoint, other.midpoint) < SAME
 
 
 def _is_crossed(segments: FloatArray, pose: Pose, place: FloatArray) -> bool:

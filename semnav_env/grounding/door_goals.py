@@ -1,0 +1,66 @@
+"""The goals of clauses that lead to a door, through one, or out of the room."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from semnav_env.commands.clauses import Approach, GoToDoor
+from semnav_env.commands.references import Side
+from semnav_env.features.frames import Pose, compose, wrap_angle
+from semnav_env.features.hallway import doorway_at
+from semnav_env.features.scene import Door
+from semnav_env.grounding.doors import OUT_OF_DOORWAY, STAND_OFF, CountedDoor, find_door
+from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.situation import GroundingError, Situation, turned
+from semnav_env.grounding.surroundings import doors_around
+
+
+def ground_door(clause: GoToDoor, situation: Situation) -> Goal:
+    """The goal of "go through the second door on the right"."""
+    found = find_door(clause.door, situation)
+    if isinstance(found, Goal):
+        return found
+    if clause.approach is Approach.TO:
+        goal = Goal(GoalKind.REACH, found.pose(-STAND_OFF), found.door, 0.7, 0.6)
+    else:
+        goal = Goal(GoalKind.PASS, found.pose(STAND_OFF), found.door, onward=found.pose(0.0))
+    across = found.side in (Side.BEHIND, Side.OPPOSITE)  # not along the hallway
+    hallway = None if across else situation.hallway
+    return replace(goal, because=str(clause.door), hallway=hallway)
+
+
+def ground_leave(situation: Situation) -> Goal:
+    """The goal of "leave the room": back through the doorway that the robot has just come by.
+
+    Who has not come by one leaves by the only door in view.
+
+    Raises:
+        GroundingError: there is none, or there are several.
+    """
+    inward = situation.begin
+    door = doorway_at(situation.scene, inward)
+    if door is None:  # it has turned around behind it
+        inward = compose(situation.begin, (OUT_OF_DOORWAY, 0.0, math.pi))
+        door = doorway_at(situation.scene, inward)
+    if door is None:
+        around = doors_around(situation.scene, situation.begin)
+        if not around and not situation.complete:
+            return situation.turn_to(turned(situation.begin)[2], "the door of the room")
+        if len(around) != 1:
+            raise GroundingError(
+                "leave the room: by which door? say which, or enter the room first"
+            )
+        door = around[0]
+        inward = (*door.midpoint, wrap_angle(_leading_away(door, situation.begin) + math.pi))
+    outward = wrap_angle(inward[2] + math.pi)
+    line = CountedDoor(door, 0.0, Side.BEHIND, outward)
+    because = "leave the room"
+    return Goal(GoalKind.PASS, line.pose(STAND_OFF), door, because=because, onward=line.pose(0.0))
+
+
+def _leading_away(door: Door, pose: Pose) -> float:
+    """The heading through a door for one who comes from a pose."""
+    (ax, ay), (bx, by) = door.start, door.end
+    left = (bx - ax) * (pose[1] - ay) - (by - ay) * (pose[0] - ax) > 0.0
+    return math.atan2(by - ay, bx - ax) + (-math.pi / 2 if left else math.pi / 2)

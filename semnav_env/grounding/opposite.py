@@ -1,0 +1,131 @@
+"""Which door is the one opposite: the one that faces a door, or the robot."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from semnav_env.commands.references import LAST, OTHER, DoorReference, Side
+from semnav_env.features.frames import Pose, compose, to_local
+from semnav_env.features.hallway import doorway_at
+from semnav_env.features.kernels.probing import BODY_WIDTH
+from semnav_env.features.scene import Door
+from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.situation import GroundingError, Situation
+from semnav_env.grounding.surroundings import (
+    doors_across,
+    heading_between,
+    heading_through,
+    shared_width,
+)
+
+ACROSS, BESIDE = 8.0, 4.0
+"""Farther across than this no door is opposite, or farther to a side of the robot, metres."""
+
+STEPPED_OUT = 0.5
+"""Who has come so far out of a doorway has seen what is opposite it, metres ..."""
+
+STEP_OUT = 1.0
+"""... so one looks from here."""
+
+ROUND_ABOUT = {Side.AHEAD: 0.0, Side.LEFT: math.pi / 2, Side.RIGHT: -math.pi / 2}
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """Where one looks straight across.
+
+    Attributes:
+        pose: from where and which way, in the scene's frame.
+        side: on which side that is.
+        door: from whose middle; None for the robot's own place.
+    """
+
+    pose: Pose
+    side: Side
+    door: Door | None = None
+
+    @property
+    def half_width(self) -> float:
+        """Half of the width that is faced, metres."""
+        return (BODY_WIDTH if self.door is None else self.door.width) / 2
+
+    def faced(self, situation: Situation) -> Door | None:
+        """The door that shares the most of this width; None if none does."""
+        most = BESIDE if self.side in (Side.LEFT, Side.RIGHT) else ACROSS
+        shares = {
+            door: shared_width(door, self.pose, self.half_width)
+            for door in doors_across(situation.scene, self.pose, self.door)
+            if to_local(self.pose, door.midpoint)[0] <= most
+        }
+        best = max(shares, key=shares.__getitem__, default=None)
+        return best if best is not None and shares[best] > 0.0 else None
+
+    def is_done(self, situation: Situation) -> bool:
+        """Whether there is nothing left to look at there."""
+        if self.door is None:
+            return bool(situation.scene.walls)  # it sees to both sides from where it stands
+        out = to_local(self.pose, situation.pose[:2])[0]
+        return out > STEPPED_OUT and situation.looks_along(self.pose[2])
+
+    def goal(self, situation: Situation, what: object) -> Goal:
+        """Turn there; or come out of the doorway to look."""
+        if self.door is None:
+            return Goal(GoalKind.SEEK, situation.begin, because=f"looking for {what}")
+        if not situation.looks_along(self.pose[2]):
+            return situation.turn_to(self.pose[2], what)
+        out = compose(self.pose, (STEP_OUT, 0.0, 0.0))
+        return Goal(GoalKind.SEEK, out, because=f"looking for {what}")
+
+
+def find_opposite(reference: DoorReference, situation: Situation) -> tuple[Door, float] | Goal:
+    """The door opposite and the heading through it, or the goal of looking for it.
+
+    Raises:
+        GroundingError: there is none, or there are several.
+    """
+    if reference.ordinal not in (1, LAST, OTHER):
+        raise GroundingError(f"no {str(reference).removeprefix('the ')}: at most one is opposite")
+    found = doors_opposite(reference, situation)
+    if isinstance(found, Goal):
+        return found
+    if len(found) > 1:
+        sides = " and ".join(sorted(look.side for look in found))
+        raise GroundingError(f"{reference}: there is one {sides} there; say on which side")
+    for look, door in found.items():
+        return door, heading_through(door, look.pose[2])
+    here = "this place" if _look(situation) is None else "that door"
+    raise GroundingError(f"no door opposite: none faces {here}")
+
+
+def doors_opposite(reference: DoorReference, situation: Situation) -> dict[Look, Door] | Goal:
+    """The doors opposite, by the looks that meet them; or the goal of looking for them.
+
+    Who was sent to a door, or past it, looks across from that door; who stands in a doorway looks
+    on through it. Anyone else looks ahead and to both sides.
+    """
+    look = _look(situation)
+    looks = _looks_round(situation) if look is None else [look]
+    found = {each: door for each in looks if (door := each.faced(situation)) is not None}
+    missing = [each for each in looks if not each.is_done(situation)]
+    if found or situation.complete or not missing:
+        return found
+    return missing[0].goal(situation, reference)
+
+
+def _look(situation: Situation) -> Look | None:
+    """The look across from a door."""
+    begin, door = situation.begin, situation.beside
+    about = begin[2]
+    if door is not None:
+        about = heading_between(door.midpoint, begin[:2])
+    else:
+        door = doorway_at(situation.scene, begin)
+    if door is None:
+        return None
+    return Look((*door.midpoint, heading_through(door, about)), Side.OPPOSITE, door)
+
+
+def _looks_round(situation: Situation) -> list[Look]:
+    axis = (*situation.begin[:2], situation.hallway.frame[2])
+    return [Look(compose(axis, (0.0, 0.0, turn)), side) for side, turn in ROUND_ABOUT.items()]
