@@ -75,6 +75,7 @@ CROPS = {
     "dead end": ((22.5, 30.5), (5.5, 12.5)),
     "door end": ((5.0, 13.0), (-2.5, 4.5)),
     "rooms": ((-0.3, 8.5), (4.0, 11.5)),
+    "far rooms": ((-0.3, 9.5), (5.5, 14.5)),
     "heidelberg": ((-2.0, 14.0), (-4.0, 6.0)),
 }
 """What a panel shows: x and y from where to where, metres."""
@@ -104,6 +105,15 @@ def draw_rules() -> None:
         ("a crossing", "crossing", _junctions(OFFICE, crossing)),
         ("a T", "T", _junctions(ARMS, (10.0, 0.0, 0.0))),
         ("a bend", "bend", _junctions(OFFICE, bend)),
+    )
+    wall, room, doorway = (5.4, 9.1, 0.0), (6.7, 13.2, NORTH), (2.675, 10.2, -NORTH)
+    behind, opposite = "go through the door behind you", "go through the door opposite"
+    _save(
+        "behind",
+        (10.0, 4.6),
+        ("behind, in a hallway", "far rooms", _goal(OFFICE, wall, behind)),
+        ("behind, in a room", "far rooms", _goal(OFFICE, room, behind)),
+        ("opposite", "far rooms", _goal(OFFICE, doorway, opposite)),
     )
     left, second = "turn left at the intersection", "turn right at the second intersection"
     _save(

@@ -22,7 +22,7 @@ IMAGES = Path(__file__).parent / "images"
 COLUMNS = 3
 BESIDE = 0.6
 """From a door to its label, metres."""
-PAGES = {"rule_rows_doors": "DCFWJ", "rule_rows_places": "BRNE"}
+PAGES = {"rule_rows_doors": "DCFWJ", "rule_rows_facing": "KO", "rule_rows_places": "BRNE"}
 
 
 def draw_page(name: str, letters: str) -> None:

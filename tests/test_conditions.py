@@ -24,7 +24,7 @@ from semnav_env.commands.command import Link, links_of
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
-from semnav_env.grounding import GoalKind, GroundingError
+from semnav_env.grounding import GoalKind
 from semnav_env.grounding.follower import Follower
 from semnav_env.maps import load_floor_plan
 from semnav_env.verifier import plan_goals
@@ -101,12 +101,22 @@ def test_the_plan_decides_in_the_same_way() -> None:
     assert turned.because == "turn around here"
 
 
-def test_doors_behind_and_opposite_are_no_conditions() -> None:
-    follower = following("if you see the door behind you, stop")
-    assert follower.impossible is not None
-    assert "to the left, to the right and ahead" in follower.impossible
-    with pytest.raises(GroundingError):
-        plan_goals(PLAN, parse("if you see the door opposite, stop"), WEST)
+@pytest.mark.parametrize(
+    ("text", "x", "met"),
+    [
+        ("if you see a door behind you, stop", 5.0, True),
+        ("if you see a third door behind you, stop", 5.0, False),
+        ("if there is no door behind you, stop", 0.0, True),
+        ("if there is a door opposite, stop", 4.0, True),
+        ("if there is a door opposite, stop", 5.0, False),
+        ("if you see a second door opposite, stop", 4.0, False),
+    ],
+)
+def test_conditions_speak_of_doors_behind_and_opposite(text: str, x: float, met: bool) -> None:
+    follower = Follower(parse(text), complete=True)
+    follower.start(DOORS, (x, 0.0, 0.0))
+    assert follower.impossible is None
+    assert follower.done is not met
 
 
 DOOR = DoorReference(1, Side.LEFT)

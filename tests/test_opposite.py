@@ -1,0 +1,190 @@
+"""Doors behind and opposite, and turns beyond half a turn: on what is known, seen and driven."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from semnav_env.agents.evaluation import drive
+from semnav_env.agents.registry import make_agent
+from semnav_env.commands import parse
+from semnav_env.env import SemNavEnv
+from semnav_env.features.frames import Pose, compose
+from semnav_env.features.scene import Scene
+from semnav_env.grounding import Goal, GoalKind, GroundingError
+from semnav_env.grounding.follower import Follower
+from tests.hand_made import DOOR_WIDTH, corridor
+from tests.test_wider_grounding import last_goal
+
+QUARTER = math.pi / 2
+BEHIND = corridor(left=(2.0, 5.6), right=(4.0,))
+FACING = corridor(left=(3.0, 9.0), right=(3.0, 6.0))
+TO_FIRST = "go to the first door on the left and go through the door opposite"
+
+apart = st.lists(st.sampled_from([1.0, 3.2, 5.4, 7.6, 9.8]), unique=True, max_size=5)
+
+
+def answer(text: str, scene: Scene, start: Pose) -> Goal | str:
+    try:
+        return last_goal(text, scene, start)
+    except GroundingError as error:
+        return str(error)
+
+
+def seen_ahead(scene: Scene, x: float) -> Scene:
+    """What lies beyond a place along the corridor."""
+    return Scene(
+        tuple(wall for wall in scene.walls if min(wall.start[0], wall.end[0]) >= x),
+        tuple(door for door in scene.doors if door.start[0] >= x),
+    )
+
+
+@given(apart, apart, st.sampled_from([2.1, 4.3, 6.5, 8.7]), st.integers(1, 3))
+def test_behind_is_what_one_comes_by_on_turning_around(
+    left: list[float], right: list[float], x: float, ordinal: int
+) -> None:
+    scene = corridor(left=left, right=[place + 0.7 for place in right])
+    nth = ("first", "second", "third")[ordinal - 1]
+    behind = answer(f"go through the {nth} door behind you", scene, (x, 0.0, 0.0))
+    turned = answer(f"turn around and go through the {nth} door", scene, (x, 0.0, 0.0))
+    if isinstance(turned, str):
+        assert isinstance(behind, str)
+    else:
+        assert isinstance(behind, Goal)
+        assert behind.door == turned.door
+        assert behind.pose == pytest.approx(turned.pose, abs=1e-6)
+
+
+@given(st.floats(-2.0, 2.0), st.sampled_from([("left", "right"), ("right", "left")]))
+def test_doors_are_opposite_if_and_only_if_they_share_some_of_the_way_across(
+    shift: float, sides: tuple[str, str]
+) -> None:
+    assume(abs(abs(shift) - DOOR_WIDTH) > 0.01)
+    here, there = sides
+    scene = corridor(**{here: (5.0,), there: (5.0 + shift,)})
+    text = f"go to the first door on the {here} and go through the door opposite"
+    found = answer(text, scene, (0.0, 0.0, 0.0))
+    if abs(shift) > DOOR_WIDTH:
+        assert found == "no door opposite: none faces that door"
+    else:
+        assert isinstance(found, Goal)
+        assert found.door is not None
+        assert found.door.midpoint == pytest.approx((5.0 + shift, 1.0 if there == "left" else -1.0))
+
+
+@pytest.mark.parametrize("between", ["", "wait for 5 seconds, "])
+def test_waiting_before_a_door_changes_nothing(between: str) -> None:
+    goal = last_goal(TO_FIRST.replace(" and ", f", {between}"), FACING)
+    assert goal.door is not None
+    assert goal.door.midpoint == (3.0, -1.0)
+
+
+def test_one_may_follow_the_hallway_back_to_a_door_but_not_to_one_across() -> None:
+    goal = last_goal("go down the hallway until the second door behind you", BEHIND, (8, 0, 0))
+    assert goal.pose == pytest.approx((4.3, 0.0, math.pi), abs=0.05)
+    with pytest.raises(GroundingError, match="it lies across"):
+        last_goal("go down the hallway until the door opposite", FACING)
+
+
+@pytest.mark.parametrize(
+    ("text", "turn"),
+    [
+        ("turn left by 270 degrees", -QUARTER),
+        ("turn right by 270 degrees", QUARTER),
+        ("turn right by 225 degrees", 1.5 * QUARTER),
+        ("turn left by 360 degrees", 0.0),
+    ],
+)
+def test_turns_beyond_half_a_turn_end_as_if_turned_the_shorter_way(text: str, turn: float) -> None:
+    begin = (1.0, 0.2, 0.3)
+    goal = last_goal(text, BEHIND, begin)
+    assert goal.pose == pytest.approx(compose(begin, (0.0, 0.0, turn)))
+    assert goal.heading_tolerance == 0.5
+
+
+def look(text: str, scene: Scene, pose: Pose, begin: Pose | None = None) -> Follower:
+    """A robot that began its last clause at `begin`, knows a scene and is now at a pose."""
+    follower = Follower(parse(text))
+    follower.start(scene, pose if begin is None else begin)
+    follower.advance(lambda: scene, pose, 0.0)
+    follower.look(scene, pose)
+    return follower
+
+
+@pytest.mark.parametrize("text", ["go through", "if you see", "go to"])
+def test_who_has_not_seen_what_is_behind_turns_to_look(text: str) -> None:
+    rest = ", stop" if text.startswith("if") else ""
+    follower = look(f"{text} the door behind you{rest}", seen_ahead(BEHIND, 7.5), (8.0, 0.0, 0.0))
+    assert follower.active == 0
+    assert follower.goal.kind is GoalKind.REACH
+    assert follower.goal.pose == pytest.approx((8.0, 0.0, math.pi))
+    assert follower.goal.because == "looking for the first door behind you"
+    assert not follower.goal.reached_by((*follower.goal.pose[:2], 3.0))
+
+
+def test_who_has_turned_and_sees_none_goes_that_way_and_looks_on() -> None:
+    begin, pose = (8.0, 0.0, 0.0), (8.0, 0.0, 3.0)
+    text = "go through the third door behind you"
+    follower = look(text, seen_ahead(BEHIND, 3.0), pose, begin)
+    assert follower.goal.kind is GoalKind.SEEK
+    assert follower.goal.pose[0] == pytest.approx(4.0, abs=0.05)
+    follower.advance(lambda: BEHIND, (5.0, 0.0, 3.1), 0.5)
+    follower.look(BEHIND, (5.0, 0.0, 3.1))
+    assert follower.goal.kind is GoalKind.PASS
+    assert follower.goal.door == BEHIND.doors[0]
+
+
+def test_who_has_looked_all_the_way_back_says_what_there_is() -> None:
+    follower = look("go through the fourth door behind you", BEHIND, (8, 0, 3.1), (8, 0, 0))
+    follower.advance(lambda: BEHIND, (-1.5, 0.0, 3.1), 0.5)
+    follower.look(BEHIND, (-1.5, 0.0, 3.1))
+    assert follower.impossible == "no fourth door behind you: the hallway ended after 3"
+
+
+def test_who_has_not_seen_what_is_opposite_turns_to_look() -> None:
+    text, half = TO_FIRST, Scene(tuple(w for w in FACING.walls if w.start[1] > -0.9))
+    before: Pose = (3.0, 0.1, QUARTER)
+    follower = Follower(parse(text))
+    follower.start(Scene(half.walls, FACING.doors[:1]), (0.0, 0.0, 0.0))
+    follower.skip_to_next(Scene(half.walls, FACING.doors[:1]))
+    assert follower.goal.kind is GoalKind.REACH
+    assert follower.goal.pose == pytest.approx((3.0, 0.1, -QUARTER))
+    follower.look(FACING, compose(before, (0.0, 0.0, 3.0)))
+    assert follower.goal.kind is GoalKind.PASS
+    assert follower.goal.door is not None
+    assert follower.goal.door.midpoint == (3.0, -1.0)
+
+
+def test_a_robot_that_has_seen_nothing_yet_waits_before_it_says_that_none_is_opposite() -> None:
+    follower = look("go through the door opposite", Scene(), (7.0, 0.0, 0.0))
+    assert follower.goal.kind is GoalKind.SEEK
+    follower.look(BEHIND, (7.0, 0.0, 0.0))
+    assert follower.impossible == "no door opposite: none faces this place"
+
+
+WEST = (1.3, 9.1, 0.0)
+AROUND = "turn left by 270 degrees and go through the first door on the left"
+OUT = "go through the first door on the left, leave the room and go through the door"
+
+
+@pytest.mark.parametrize("robot", ["wheelchair", "spot"])
+@pytest.mark.parametrize(
+    ("text", "pose", "door"),
+    [
+        ("go through the door behind you", (5.5, 9.1, 0.0), "west_south_1"),
+        (TO_FIRST, WEST, "west_south_1"),
+        (f"{OUT} opposite", WEST, "west_south_1"),
+        (f"{OUT} behind you", WEST, "west_north_1"),
+        (AROUND, (4.5, 9.1, QUARTER), "west_north_2"),
+    ],
+)
+def test_a_robot_that_sees_it_drives_there(robot: str, text: str, pose: Pose, door: str) -> None:
+    agent = make_agent("scripted")
+    env = SemNavEnv(robot, "office_cross", observation=agent.observation)
+    driven = drive(env, agent, 0, {"command": text, "pose": pose})
+    assert driven.cause == ""
+    assert driven.verifier.crossed[-1] == door
+    assert driven.rechecked() == ""
