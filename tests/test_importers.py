@@ -26,7 +26,7 @@ from semnav_env.scripts import main as cli
 from tests.drawn_maps import DOORS, FREE, PLACES, SOLID, UNKNOWN, two_rooms, write_map
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
-EXACT = Tracing(mend=0, simplify=0.0)
+EXACT = Tracing(mend=0, simplify=0.0, straighten=0.0)
 
 
 def pixels_of(solid, resolution=1.0):
@@ -99,7 +99,7 @@ def test_the_gaps_of_a_perforated_wall_are_mended():
     solid[10, ::3] = True
     solid[10, 20:24] = False
     holes = len(trace(pixels_of(solid), EXACT).plan.surfaces)
-    whole = trace(pixels_of(solid), Tracing(mend=2, simplify=0.0)).plan
+    whole = trace(pixels_of(solid), Tracing(mend=2, simplify=0.0, straighten=0.0)).plan
     assert (holes, len(whole.surfaces)) == (9, 2)
 
 

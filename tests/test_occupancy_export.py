@@ -23,7 +23,7 @@ from semnav_env.maps.rules import FloorPlanError
 from semnav_env.scripts import main as cli
 from tests.small_plans import closed
 
-EXACT = Tracing(mend=0, simplify=0.0)
+EXACT = Tracing(mend=0, simplify=0.0, straighten=0.0)
 
 
 def there_and_back(plan: FloorPlan, folder: Path, resolution: float, image: str) -> Imported:

@@ -11,8 +11,8 @@ import shapely
 from shapely import Polygon
 
 from semnav_env.maps.floor_plan import FloorPlan, Region
-from semnav_env.maps.importers.building_doors import with_doors
-from semnav_env.maps.importers.imported import MARGIN, Imported
+from semnav_env.maps.importers.building_doors import with_doors, with_walls
+from semnav_env.maps.importers.imported import MARGIN, Imported, ImportReport
 from semnav_env.maps.importers.labels import (
     DOORS,
     KINDS,
@@ -37,7 +37,8 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
     (`fit_door`), and is open if the map shows a way through; a closed one gets a leaf. Further
     doorways between two places (`find_doorways`) are named after these, unless the labels say that
     they have all doors. A place is a room, or a corridor if it is at least `LONG` times as long as
-    wide, where its label does not say what it is.
+    wide, where its label does not say what it is. Doors are looked for in the walls as traced, and
+    put on the straightened walls then (`with_walls`), so straightening opens and closes none.
 
     Args:
         path: the map's YAML file.
@@ -46,14 +47,16 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
     Raises:
         FloorPlanError: names the file, what is wrong and what would be right.
     """
-    where = Path(path)
+    where, tracing = Path(path), tracing or Tracing()
     pixels = read_occupancy(where)
-    plan, report = trace(pixels, tracing)
+    plan, report = trace(pixels, replace(tracing, straighten=0.0))
     doors, places = where.with_name(DOORS), where.with_name(PLACES)
     place_labels = read_place_labels(places)
     plan, lost_places = _with_places(plan, place_labels, pixels)
     labels = read_door_labels(doors)
     plan, lost_doors = with_doors(plan, labels, None if has_all_doors(places) else pixels.is_free)
+    if tracing.straighten:
+        plan, report = _straightened(plan, report, trace(pixels, tracing))
     unnamed = len({door.name for door in plan.doors} - {label.name for label in labels})
     taken = {
         "open doors": sum(door.open for door in plan.doors),
@@ -74,6 +77,15 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
         + ((halls,) if any(label.kind is None for label in place_labels) else ()),
     )
     return Imported(plan, report)
+
+
+def _straightened(plan: FloorPlan, report: ImportReport, straight: Imported) -> Imported:
+    """A plan on straightened walls; as it was, with a note, if they leave a door too narrow."""
+    try:
+        return Imported(with_walls(plan, straight.plan), straight.report)
+    except FloorPlanError as error:
+        note = f"walls are left as traced, because of straight ones {error}"
+        return Imported(plan, replace(report, notes=(*report.notes, note)))
 
 
 def _with_places(

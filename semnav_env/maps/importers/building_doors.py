@@ -47,6 +47,34 @@ def with_doors(
     return replace(plan, surfaces=surfaces, doors=tuple(doors.values())), tuple(lost)
 
 
+def with_walls(plan: FloorPlan, straight: FloorPlan) -> FloorPlan:
+    """The plan with other walls, which lie within some centimetres of its own.
+
+    The jambs of its open doors go to the nearest point of these walls; a closed door has its leaf.
+
+    Args:
+        plan: with doors and leaves.
+        straight: the same walls, straightened.
+
+    Raises:
+        FloorPlanError: these walls leave too narrow a way through a door.
+    """
+    leaves = [surface for surface in plan.surfaces if surface.material is Material.LEAF]
+    moved = replace(plan, surfaces=(*straight.surfaces, *leaves), doors=())
+    doors = [_onto(door, moved) if door.open else door for door in plan.doors]
+    for door in doors:
+        check_doorway(door, moved)
+    return replace(moved, doors=tuple(doors))
+
+
+def _onto(door: PlanDoor, plan: FloorPlan) -> PlanDoor:
+    """The door with each jamb on the nearest wall."""
+    jambs = shapely.points((door.start, door.end))
+    walls = plan.solids.geometries[plan.solids.nearest(jambs)]
+    (x1, y1), (x2, y2) = shapely.get_coordinates(shapely.shortest_line(walls, jambs))[::2].tolist()
+    return replace(door, start=(x1, y1), end=(x2, y2))
+
+
 def _labelled(label: DoorLabel, plan: FloorPlan) -> PlanDoor:
     fit = fit_door(label, plan.solids)
     if fit is None:

@@ -35,7 +35,8 @@ def outlines(solid: NDArray[np.bool_], tolerance: float = 0.0) -> list[FloatArra
         is the upper left corner of the image, (columns, rows) the lower right one.
     """
     rings = [
-        _closed(points + 0.5 * steps if tolerance else points) for points, steps in _walks(solid)
+        closed_ring(points + 0.5 * steps if tolerance else points)
+        for points, steps in _walks(solid)
     ]
     simple = shapely.simplify([shapely.linearrings(ring) for ring in rings], tolerance)
     return [shapely.get_coordinates(ring) for ring in simple]
@@ -90,5 +91,6 @@ def _following(
     return following
 
 
-def _closed(points: FloatArray) -> FloatArray:
+def closed_ring(points: FloatArray) -> FloatArray:
+    """A ring's points, the first once more at the end."""
     return np.concatenate((points, points[:1]))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,9 +12,10 @@ import numpy as np
 from semnav_env.features.frames import FloatArray
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.importers.imported import Imported, ImportReport, boundary_of
-from semnav_env.maps.importers.occupancy import OccupancyMap
+from semnav_env.maps.importers.occupancy import OccupancyMap, OccupancySpec
 from semnav_env.maps.importers.outlines import outlines
 from semnav_env.maps.importers.raster import mended
+from semnav_env.maps.importers.straighten import Straightened, straighten
 from semnav_env.maps.rules import SHORTEST, FloorPlanError
 
 
@@ -23,8 +26,10 @@ class Tracing:
     Attributes:
         mend: gaps of at most so many pixels in walls are closed; maps that a robot made have
             perforated walls, which beams would pass.
-        simplify: pixels by which an outline may be simplified, see `outlines`; with 0 both here
-            and in `mend`, the walls are exactly the pixels' edges.
+        simplify: pixels by which an outline may be simplified, see `outlines`.
+        straighten: pixels by which what runs along the building's two directions may be moved
+            onto straight lines, see `straighten`; 0 leaves all as traced. With 0 here, in `mend`
+            and in `simplify`, the walls are exactly the pixels' edges.
 
     Raises:
         FloorPlanError: a value out of its range.
@@ -32,12 +37,15 @@ class Tracing:
 
     mend: int = 2
     simplify: float = 0.5
+    straighten: float = 1.5
 
     def __post_init__(self) -> None:
         if not 0 <= self.mend <= 10:
             raise FloorPlanError(f"mend is {self.mend}; it must be 0 to 10 pixels")
         if not 0.0 <= self.simplify <= 5.0:
             raise FloorPlanError(f"simplify is {self.simplify}; it must be 0 to 5 pixels")
+        if not 0.0 <= self.straighten <= 5.0:
+            raise FloorPlanError(f"straighten is {self.straighten}; it must be 0 to 5 pixels")
 
 
 def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> Imported:
@@ -61,7 +69,9 @@ def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> Imported:
             "lower it, or set negate if walls are white"
         )
     rings = outlines(mended(solid, tracing.mend), tracing.simplify)
-    surfaces = tuple([s for ring in rings if (s := _surface(pixels.to_world(ring))) is not None])
+    straight = straighten(rings, tracing.straighten) if tracing.straighten else None
+    traced = [pixels.to_world(ring) for ring in (straight.rings if straight else rings)]
+    surfaces = tuple([s for points in traced if (s := _surface(points)) is not None])
     where = Path(pixels.files[0])
     boundary = boundary_of(surfaces)
     source = f"occupancy map {where.name}"
@@ -70,9 +80,21 @@ def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> Imported:
     notes = (
         f"{spec.resolution:g} m a pixel, {columns} x {rows} pixels",
         f"{solid.mean():.1%} solid, {pixels.free.mean():.1%} free, the rest unknown (not a wall)",
+        *([_report(straight, rings, spec)] if straight else ()),
     )
     taken = {"outlines": len(surfaces), "segments": len(plan.segments)}
     return Imported(plan, ImportReport(pixels.files, "occupancy map", taken, notes=notes))
+
+
+def _report(straight: Straightened, rings: Sequence[FloatArray], spec: OccupancySpec) -> str:
+    """What was straightened, in a line."""
+    turn = math.degrees(spec.origin[2] - straight.direction)  # rows of an image go downwards
+    first = (turn + 45.0) % 90.0 - 45.0
+    return (
+        f"{straight.segments} of {sum(len(ring) - 1 for ring in rings)} segments straightened "
+        f"into {straight.lines} walls along {first:.2f} and {first + 90.0:.2f} degrees, moved by "
+        f"{straight.moved:.2f} pixels ({straight.moved * spec.resolution:.3g} m) at most"
+    )
 
 
 def _surface(points: FloatArray) -> Surface | None:

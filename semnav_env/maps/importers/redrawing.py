@@ -1,0 +1,91 @@
+"""Outlines drawn anew with their runs on lines, and which runs must not be."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from shapely import STRtree
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.maps.importers.runs import Run
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """An outline with its runs on lines.
+
+    Attributes:
+        points: its vertices, each once, shape (n, 2), in pixels.
+        makers: of each vertex the runs on whose lines it was put.
+        moved: how far each run moved the outline at most, pixels.
+        turned: whether it was turned inside out.
+    """
+
+    points: FloatArray
+    makers: Sequence[frozenset[Run]]
+    moved: dict[Run, float]
+    turned: bool
+
+
+def redrawn(points: FloatArray, runs: Collection[Run]) -> Drawn:
+    """An outline with runs on their lines; of each only the ends are left as vertices.
+
+    Args:
+        points: its vertices, each once, shape (n, 2), in pixels.
+        runs: of this outline.
+    """
+    new = points.copy()
+    kept = np.ones(len(points), dtype=bool)
+    makers: list[frozenset[Run]] = [frozenset()] * len(points)
+    for run in runs:
+        there = run.vertices(len(points))
+        new[there, 1 - run.span.axis] = run.level
+        kept[there[1:-1]] = False
+        for end in (there[0], there[-1]):
+            makers[end] |= {run}
+    left = np.flatnonzero(kept)
+    moved = {run: _moved(points, new, run) for run in runs}
+    turned = bool(runs) and _area(points) * _area(new[left]) <= 0.0
+    return Drawn(new[left], [makers[k] for k in left], moved, turned)
+
+
+def clashing(drawn: Sequence[Drawn]) -> set[Run]:
+    """Runs that must be given up, since on their lines two outlines, or parts of one, meet.
+
+    Of the runs that drew two segments which meet, the shortest is; and all runs of an outline that
+    is turned inside out.
+    """
+    lost = {run for each in drawn if each.turned for run in each.moved}
+    ends, following = [], []
+    makers: list[frozenset[Run]] = []
+    for each in drawn:
+        count = len(each.points)
+        ends.append(np.stack((each.points, np.roll(each.points, -1, axis=0)), axis=1))
+        following.append(np.roll(np.arange(count), -1) + len(makers))
+        makers += [each.makers[k - 1] | each.makers[k] for k in (*range(1, count), 0)]
+    after = np.concatenate(following)
+    tree = STRtree(shapely.linestrings(np.concatenate(ends)))
+    changed = np.flatnonzero([bool(runs) for runs in makers])
+    found, others = tree.query(tree.geometries[changed], "intersects")
+    ours = changed[found]
+    apart = (ours != others) & (after[ours] != others) & (after[others] != ours)
+    for a, b in zip(ours[apart].tolist(), others[apart].tolist(), strict=True):
+        lost.add(min(makers[a] | makers[b], key=lambda run: run.span.length))
+    return lost
+
+
+def _moved(old: FloatArray, new: FloatArray, run: Run) -> float:
+    """How far the vertices of a run lay from its line at most, and its ends from where they are."""
+    there = run.vertices(len(old))
+    ends = there[[0, -1]]
+    away = shapely.distance(shapely.points(old[there]), shapely.LineString(new[ends]))
+    return float(max(away.max(), np.linalg.norm(new[ends] - old[ends], axis=1).max()))
+
+
+def _area(points: FloatArray) -> float:
+    """Of a polygon, positive if it goes around counter-clockwise (x right, y up)."""
+    (x, y), (x2, y2) = points.T, np.roll(points, -1, axis=0).T
+    return float(x @ y2 - x2 @ y) / 2.0

@@ -1,0 +1,216 @@
+"""Straight stretches of an outline along the axes: walls that a raster has made rough."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.maps.importers.directions import LEAST, spread_out
+
+SHORTEST = LEAST
+"""Of a run, pixels,"""
+
+CAP = 1.0
+"""unless two others end there: so long is the end of a thin wall or a step in one at least."""
+
+BACK = 0.5
+"""By so many pixels an outline may go back on its way along a run."""
+
+TREND = 0.7
+"""Pixels by which a run slopes or bends from its middle to its ends, if not by noise."""
+
+WHOLE = 15.0
+"""Pixels; a shorter run may have no trend."""
+
+ON = 1.2
+"""An outline goes on if it stays so much longer within twice the limit of a line."""
+
+
+class Span(NamedTuple):
+    """A stretch of a closed outline.
+
+    Attributes:
+        first: its first vertex.
+        last: its last one, counted on past the end of the outline where it goes around.
+        axis: along which it runs: 0 or 1.
+        length: along this axis, pixels.
+    """
+
+    first: int
+    last: int
+    axis: int
+    length: float
+
+
+@dataclass(frozen=True)
+class Run:
+    """A stretch of an outline to be put on a line along an axis.
+
+    Attributes:
+        ring: the number of the outline.
+        span: which of its vertices.
+        least: least coordinate across the axis that its line may have.
+        most: the greatest.
+        level: coordinate across the axis that its line has.
+        forward: whether the outline runs towards greater coordinates.
+        begin: where it begins along the axis.
+        end: where it ends; greater than `begin`.
+    """
+
+    ring: int
+    span: Span
+    least: float
+    most: float
+    level: float
+    forward: bool
+    begin: float
+    end: float
+
+    def vertices(self, count: int) -> NDArray[np.intp]:
+        """Which vertices of its outline, of so many, are on it."""
+        return np.arange(self.span.first, self.span.last + 1) % count
+
+
+def runs_of(ring: int, points: FloatArray, limit: float) -> list[Run]:
+    """The runs of an outline, the longest first; they share no segment.
+
+    A run is as long as it may be while its vertices lie within `limit` of a line along an axis. If
+    it then slopes or bends (`TREND`) and the outline goes on so, it is part of an oblique or round
+    wall, and no shorter piece of that is a run either.
+
+    Args:
+        ring: the outline's number.
+        points: its vertices, each once, shape (n, 2), in pixels.
+        limit: pixels.
+    """
+    if np.ptp(points, axis=0).max() < SHORTEST:
+        return []
+    wide = list(_spans(points, 2.0 * limit))
+    spans = [span for span in _spans(points, limit) if not _is_oblique(points, span, wide, limit)]
+    taken: list[int | None] = [None] * len(points)
+    runs = []
+    for span in sorted(spans, key=lambda span: -span.length):
+        free = _free_part(span, taken, points)
+        ends = {taken[(free.first - 1) % len(points)], taken[free.last % len(points)]}
+        if free.length < (CAP if ends == {1 - free.axis} else SHORTEST):
+            continue
+        for k in range(free.first, free.last):
+            taken[k % len(points)] = free.axis
+        runs.append(_run(ring, points, free, limit))
+    return runs
+
+
+def _spans(points: FloatArray, limit: float) -> Iterator[Span]:
+    """The stretches along either axis that cannot be prolonged."""
+    count = len(points)
+    for axis in (0, 1):
+        across = points[:, 1 - axis].tolist()
+        for sense in (1.0, -1.0):
+            along = (sense * points[:, axis]).tolist()
+            before = _reach(along, across, count - 1, limit) - count
+            for first in range(count):
+                last = _reach(along, across, first, limit)
+                length = along[last % count] - along[first]
+                if last > before and length >= CAP:
+                    yield Span(first, last, axis, length)
+                before = last
+
+
+def _reach(along: list[float], across: list[float], first: int, limit: float) -> int:
+    """The last vertex up to which an outline keeps to a line along an axis."""
+    count = len(along)
+    low = high = across[first]
+    far = along[first]
+    for last in range(first + 1, first + count):
+        here = across[last % count]
+        low, high, far = min(low, here), max(high, here), max(far, along[last % count])
+        if high - low > 2.0 * limit or far - along[last % count] > BACK:
+            return last - 1
+    return first + count - 1
+
+
+def _is_oblique(points: FloatArray, span: Span, wide: Sequence[Span], limit: float) -> bool:
+    """Whether a stretch is but a piece of something oblique or round, or something small so."""
+    whole = _prolonged(points, span, limit)
+    if not _trends(whole, span.axis):
+        return False
+    length = abs(float(whole[-1, span.axis] - whole[0, span.axis]))
+    if length < WHOLE:
+        return True
+    wider = (_prolonged(points, each, 2.0 * limit) for each in wide if _holds(each, span, points))
+    return any(abs(each[-1, span.axis] - each[0, span.axis]) > ON * length for each in wider)
+
+
+def _holds(wide: Span, span: Span, points: FloatArray) -> bool:
+    """Whether one stretch is part of another."""
+    start = (span.first - wide.first) % len(points)
+    return wide.axis == span.axis and start + span.last - span.first <= wide.last - wide.first
+
+
+def _trends(stretch: FloatArray, axis: int) -> bool:
+    """Whether a stretch slopes or bends: its first two Legendre coefficients, least squares."""
+    spread, weights = spread_out(stretch)
+    begin, end = stretch[[0, -1], axis]
+    t = np.clip(2.0 * (spread[:, axis] - begin) / (end - begin) - 1.0, -1.0, 1.0)
+    basis = np.stack((np.ones_like(t), t, 1.5 * t**2 - 0.5), axis=1)
+    root = np.sqrt(weights)
+    _, *trends = np.linalg.lstsq(root[:, None] * basis, root * spread[:, 1 - axis])[0]
+    return bool(np.abs(trends).max() > TREND)
+
+
+def _prolonged(points: FloatArray, span: Span, limit: float) -> FloatArray:
+    """A stretch and as much of the segments before and behind it as lies within the limit too."""
+    stretch = _stretch(points, span)
+    across = stretch[:, 1 - span.axis]
+    band = float(across.max()) - 2.0 * limit, float(across.min()) + 2.0 * limit
+    before, behind = points[(span.first - 1) % len(points)], points[(span.last + 1) % len(points)]
+    ends = []
+    for inner, outer, towards in (
+        (stretch[0], before, stretch[0] - stretch[-1]),
+        (stretch[-1], behind, stretch[-1] - stretch[0]),
+    ):
+        step = outer - inner
+        rise = float(step[1 - span.axis])
+        left = (band[int(rise > 0.0)] - float(inner[1 - span.axis])) / rise if rise else 1.0
+        onwards = step[span.axis] * towards[span.axis] > 0.0
+        ends.append(inner + min(1.0, left) * step if onwards else inner)
+    return np.concatenate((ends[:1], stretch, ends[1:]))
+
+
+def _stretch(points: FloatArray, span: Span) -> FloatArray:
+    """The vertices of a stretch, the last one too."""
+    return points[np.arange(span.first, span.last + 1) % len(points)]
+
+
+def _free_part(span: Span, taken: list[int | None], points: FloatArray) -> Span:
+    """The longest part of a stretch that no run has and that meets none along the same axis."""
+    count = len(points)
+    best = part = Span(span.first, span.first, span.axis, 0.0)
+    first = span.first
+    for k in range(span.first, span.last + 1):
+        if k < span.last and taken[k % count] is None:
+            continue
+        ends = [first, k]
+        for i, edge in ((0, first - 1), (1, k)):
+            if taken[edge % count] == span.axis:
+                ends[i] += 1 - 2 * i
+        if ends[0] < ends[1]:
+            a, b = (points[end % count, span.axis] for end in ends)
+            part = Span(ends[0], ends[1], span.axis, abs(float(b - a)))
+        best, first = max(best, part, key=lambda each: each.length), k + 1
+    return best
+
+
+def _run(ring: int, points: FloatArray, span: Span, limit: float) -> Run:
+    stretch = _stretch(points, span)
+    spread, weights = spread_out(stretch)
+    across, along = spread[:, 1 - span.axis], stretch[:, span.axis]
+    least, most = float(across.max()) - limit, float(across.min()) + limit
+    level = min(max(float(weights @ across / weights.sum()), least), most)
+    begin, end = sorted((float(along[0]), float(along[-1])))
+    return Run(ring, span, least, most, level, bool(along[-1] > along[0]), begin, end)
