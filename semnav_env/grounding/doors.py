@@ -7,12 +7,18 @@ from dataclasses import dataclass
 
 from semnav_env.commands.references import OTHER, DoorReference, Side
 from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
-from semnav_env.features.hallway import Hallway, doorway_at
+from semnav_env.features.hallway import Hallway
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal
 from semnav_env.grounding.opposite import find_opposite
-from semnav_env.grounding.situation import GroundingError, Situation, is_behind
-from semnav_env.grounding.surroundings import doors_across, heading_through
+from semnav_env.grounding.situation import GroundingError, Situation, is_behind, turned
+from semnav_env.grounding.surroundings import (
+    bearing,
+    doors_around,
+    heading_between,
+    heading_through,
+    own_doorway,
+)
 
 STAND_OFF = 0.9
 """How far before a door, and behind it, the robot's centre comes to stand, metres."""
@@ -28,6 +34,9 @@ AT_THE_END = 0.6
 
 ABREAST = 0.3
 """Doors so close along the hallway are not one before the other, metres."""
+
+AS_STRAIGHT = math.radians(6.0)
+"""Doors whose directions differ by less are as straight behind one as the other."""
 
 CORRIDOR = 3.0
 """No corridor is wider, metres; what is wider has a wall behind one, as a room has."""
@@ -86,6 +95,8 @@ def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | G
     side = None if situation.back else reference.side
     if situation.complete:
         _check_order(reference, doors, index)
+    elif situation.back and situation.seen_to_end:
+        return doors[index]
     elif counted_on and _may_hide_a_door(situation, side, doors[index].along):
         return situation.seek(f"doors before {reference}", doors[index].along)
     return doors[index]
@@ -94,9 +105,9 @@ def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | G
 def doors_named(reference: DoorReference, situation: Situation) -> tuple[list[CountedDoor], bool]:
     """The doors that a reference may name, in order, and whether there may be more farther on.
 
-    Behind one who stands in a doorway is only that door. Behind one in a room, where it is wider
-    than `CORRIDOR`, are the doors in the wall there; elsewhere, or if it has none, those that one
-    would come by on turning around.
+    Behind one who stands in a doorway is only that door. In a room, where it is wider than
+    `CORRIDOR`, those in view are that lie more behind than beside, the one most nearly straight
+    behind first; elsewhere those that one would come by on turning around, if there are any.
 
     Args:
         reference: to a door on any side but opposite.
@@ -105,24 +116,32 @@ def doors_named(reference: DoorReference, situation: Situation) -> tuple[list[Co
     if not situation.back:
         return doors_along(situation.scene, situation.hallway, reference.side), True
     scene, begin, hallway = situation.scene, situation.begin, situation.hallway
-    doorway = doorway_at(scene, begin)
+    doorway = own_doorway(scene, turned(begin))
     if doorway is not None:
         outward = heading_through(doorway, begin[2])
         return [CountedDoor(doorway, 0.0, Side.BEHIND, outward)], False
-    if hallway.half_width > CORRIDOR / 2:
-        if math.isinf(hallway.end) and not situation.complete:
-            return [], True
-        axis = (*begin[:2], hallway.frame[2])
-        across = [_behind(door, axis) for door in doors_across(scene, axis)]
-        if across:
-            return across, False
-    return doors_along(scene, hallway), True
+    if hallway.half_width <= CORRIDOR / 2:
+        doors = doors_along(scene, hallway)
+        if doors or not situation.seen_to_end:
+            return doors, True
+    elif not situation.complete and not situation.looks_along(begin[2]):
+        return [], True
+    straight = _straight_behind(scene, (*begin[:2], hallway.frame[2]))
+    return straight, not straight
 
 
-def _behind(door: Door, pose: Pose) -> CountedDoor:
-    """A door in the wall behind; they are ordered by how far beside straight behind they lie."""
-    beside = abs(to_local(pose, door.midpoint)[1])
-    return CountedDoor(door, beside, Side.BEHIND, heading_through(door, pose[2]))
+def _straight_behind(scene: Scene, pose: Pose) -> list[CountedDoor]:
+    """The doors around that lie more ahead of a pose, which is turned around, than beside it.
+
+    What they are ordered by is no way along a hallway but how far they are off straight ahead.
+    """
+    seen = ((bearing(pose, door), door) for door in doors_around(scene, pose))
+    return [
+        CountedDoor(door, off, Side.BEHIND, heading_through(door, heading))
+        for off, door in sorted(seen, key=lambda each: each[0])
+        if off < math.pi / 4
+        for heading in [heading_between(pose[:2], door.midpoint)]
+    ]
 
 
 def _index(reference: DoorReference, count: int) -> int:
@@ -158,8 +177,9 @@ def doors_along(scene: Scene, hallway: Hallway, side: Side | None = None) -> lis
 def _check_order(reference: DoorReference, doors: list[CountedDoor], index: int) -> None:
     """Refuse to choose between doors that are not one before the other."""
     for other in doors[max(0, index - 1) : index + 2]:
-        facing = abs(other.along - doors[index].along) < ABREAST
-        if facing and other is not doors[index] and other.side is Side.BEHIND:
+        apart = abs(other.along - doors[index].along)
+        facing = apart < ABREAST
+        if other is not doors[index] and other.side is Side.BEHIND and apart < AS_STRAIGHT:
             raise GroundingError(f"{reference}: two there are equally nearly straight behind")
         if facing and other.side is not doors[index].side:
             sides = " and ".join(sorted((other.side, doors[index].side)))

@@ -13,7 +13,7 @@ from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.conditions import after, hangs_on_condition, in_context, is_met
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.ground import goal_of
-from semnav_env.grounding.situation import GroundingError, Situation, is_behind, turned
+from semnav_env.grounding.situation import GroundingError, Situation, is_behind, looks_along, turned
 from semnav_env.grounding.ways import Guide, Told, Trail, Way
 
 STANDSTILL = 0.05
@@ -60,6 +60,7 @@ class Follower:
     _farthest_along: float = field(default=0.0, init=False)
     _still: float = field(default=0.0, init=False)
     _ahead: Pose = field(default=(0.0, 0.0, 0.0), init=False)
+    _looked_back: bool = field(default=False, init=False)
     _beside: Door | None = field(default=None, init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
     _trail: Trail = field(default_factory=lambda: Trail((0.0, 0.0, 0.0)), init=False, repr=False)
@@ -96,6 +97,8 @@ class Follower:
         along = to_local(self._ahead, (pose[0], pose[1]))[0]
         if along > self._farthest_along:
             self._farthest, self._farthest_along = pose, along
+        if self._ahead != self.begin and looks_along(pose, self._ahead[2]):
+            self._looked_back = True
         if completed:
             self._begin_next(scene(), pose)
         return completed
@@ -120,7 +123,7 @@ class Follower:
     def _ground(self, scene: Scene, pose: Pose) -> Goal | bool:
         """The goal of the active clause, or whether its condition is met."""
         here = pose if self._way else self._farthest  # what was looked at stays so on coming back
-        here = (*here[:2], pose[2])
+        here = (*here[:2], self._ahead[2] if self._looked_back else pose[2])
         after_hallway, way, beside = self._after_hallway, self._way, self._beside
         situation = Situation(scene, self.begin, here, self.complete, after_hallway, way, beside)
         clause = in_context(self.command.clauses, self.active)
@@ -151,7 +154,7 @@ class Follower:
             self.active += 1
         self.begin, self._farthest, self._still = begin, pose, 0.0
         back = not self.done and is_behind(reference_of(self.command.clauses[self.active]))
-        self._ahead = turned(begin) if back else begin
+        self._ahead, self._looked_back = (turned(begin) if back else begin), False
         self._farthest_along = to_local(self._ahead, (pose[0], pose[1]))[0]
         self._way = None if self.done else self._way_from(begin, pose)
         self.look(scene, pose)

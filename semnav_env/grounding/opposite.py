@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from semnav_env.commands.references import LAST, OTHER, DoorReference, Side
 from semnav_env.features.frames import Pose, compose, to_local
-from semnav_env.features.hallway import doorway_at
 from semnav_env.features.kernels.probing import BODY_WIDTH
 from semnav_env.features.scene import Door
 from semnav_env.grounding.goal import Goal, GoalKind
@@ -16,11 +15,13 @@ from semnav_env.grounding.surroundings import (
     doors_across,
     heading_between,
     heading_through,
+    is_closed,
+    own_doorway,
     shared_width,
 )
 
-ACROSS, BESIDE = 8.0, 4.0
-"""Farther across than this no door is opposite, or farther to a side of the robot, metres."""
+FROM_DOOR, FROM_ROBOT = 8.0, 5.0
+"""Farther across than this no door is opposite a door, or opposite the robot, metres."""
 
 STEPPED_OUT = 0.5
 """Who has come so far out of a doorway has seen what is opposite it, metres ..."""
@@ -52,7 +53,7 @@ class Look:
 
     def faced(self, situation: Situation) -> Door | None:
         """The door that shares the most of this width; None if none does."""
-        most = BESIDE if self.side in (Side.LEFT, Side.RIGHT) else ACROSS
+        most = FROM_ROBOT if self.door is None else FROM_DOOR
         shares = {
             door: shared_width(door, self.pose, self.half_width)
             for door in doors_across(situation.scene, self.pose, self.door)
@@ -64,13 +65,26 @@ class Look:
     def is_done(self, situation: Situation) -> bool:
         """Whether there is nothing left to look at there."""
         if self.door is None:
-            return bool(situation.scene.walls)  # it sees to both sides from where it stands
+            return self._is_looked_at(situation)
         out = to_local(self.pose, situation.pose[:2])[0]
         return out > STEPPED_OUT and situation.looks_along(self.pose[2])
 
+    def _is_looked_at(self, situation: Situation) -> bool:
+        """Whether a robot sees what is on this side: it begins ahead, and sees walls aside."""
+        if self.side is Side.AHEAD:
+            return bool(situation.scene.walls)
+        arms = (arm for junction in situation.hallway.junctions for arm in junction.openings)
+        in_arm = any(
+            arm.left is (self.side is Side.LEFT) and arm.near < 0.0 < arm.far for arm in arms
+        )
+        width = (-self.half_width, 0.0, self.half_width)
+        abreast = (compose(self.pose, (0.0, offset, 0.0)) for offset in width)
+        closed = all(is_closed(situation.scene, pose, FROM_ROBOT) for pose in abreast)
+        return in_arm or closed or situation.looks_along(self.pose[2])
+
     def goal(self, situation: Situation, what: object) -> Goal:
         """Turn there; or come out of the doorway to look."""
-        if self.door is None:
+        if not situation.scene.walls:
             return Goal(GoalKind.SEEK, situation.begin, because=f"looking for {what}")
         if not situation.looks_along(self.pose[2]):
             return situation.turn_to(self.pose[2], what)
@@ -120,7 +134,7 @@ def _look(situation: Situation) -> Look | None:
     if door is not None:
         about = heading_between(door.midpoint, begin[:2])
     else:
-        door = doorway_at(situation.scene, begin)
+        door = own_doorway(situation.scene, begin)
     if door is None:
         return None
     return Look((*door.midpoint, heading_through(door, about)), Side.OPPOSITE, door)

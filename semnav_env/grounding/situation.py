@@ -22,11 +22,8 @@ END_MARGIN = 1.0
 AT_END = 1.7
 """Within this distance of its end a hallway has been seen to its end, metres."""
 
-LOOKED_AT = math.radians(60.0)
+LOOKED_AT = math.radians(40.0)
 """Who is turned by less from a direction has looked there, radians."""
-
-UNDER_WAY = 1.0
-"""Who has gone so far along the hallway behind has looked along it, metres."""
 
 
 class GroundingError(ValueError):
@@ -40,8 +37,8 @@ class Situation:
     Attributes:
         scene: remembered or true walls and doors.
         begin: where the clause began, in the scene's frame.
-        pose: how far the robot has come since then, and which way it looks now, in the scene's
-            frame.
+        pose: how far the robot has come since then, in the scene's frame; and which way it looks
+            now, or has looked since then if that is where to look.
         complete: the scene holds everything there is.
         after_hallway: the clause before was "go down the hallway".
         way: that was pointed out or driven, for a clause that needs one.
@@ -71,7 +68,8 @@ class Situation:
     @property
     def seen_to_end(self) -> bool:
         """Whether nothing of the hallway is left to be looked at."""
-        return self.complete or self.progress > self.hallway.end - AT_END
+        looked = not self.back or self.looks_along(self.begin[2])
+        return self.complete or (looked and self.progress > self.hallway.end - AT_END)
 
     def towards(self, reference: object) -> Situation:
         """The same for one who turns to what is spoken of: around, if that is behind."""
@@ -79,7 +77,7 @@ class Situation:
 
     def looks_along(self, heading: float) -> bool:
         """Whether the robot is turned that way by now."""
-        return math.cos(self.pose[2] - heading) > math.cos(LOOKED_AT)
+        return looks_along(self.pose, heading)
 
     def turn_to(self, heading: float, what: object) -> Goal:
         """Turn on the spot to look for something; never done, for it is no end in itself."""
@@ -93,7 +91,7 @@ class Situation:
             what: is being looked for.
             at_most: how far along the hallway to go, metres.
         """
-        if self.back and self.progress < UNDER_WAY and not self.looks_along(self.begin[2]):
+        if self.back and not self.looks_along(self.begin[2]):
             return self.turn_to(self.begin[2], what)
         along = min(self.progress + LOOK_AHEAD, self.hallway.end - END_MARGIN, at_most)
         pose = self.hallway.place(along)
@@ -113,6 +111,11 @@ class Situation:
 def is_behind(reference: object) -> bool:
     """Whether a reference is to a door behind the robot."""
     return isinstance(reference, DoorReference) and reference.side is Side.BEHIND
+
+
+def looks_along(pose: Pose, heading: float) -> bool:
+    """Whether one is turned to a heading, more or less."""
+    return math.cos(pose[2] - heading) > math.cos(LOOKED_AT)
 
 
 def turned(pose: Pose) -> Pose:

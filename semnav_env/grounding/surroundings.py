@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_angle
+from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
+from semnav_env.features.hallway import doorway_at
 from semnav_env.features.scene import Door, Scene, ends_of
 
 LOOKED_AT = (0.2, 0.5, 0.8)
@@ -14,6 +15,9 @@ LOOKED_AT = (0.2, 0.5, 0.8)
 
 SHORT_OF = 0.98
 """How much of the way to it must be free: it begins in a wall."""
+
+STILL_BEFORE = 0.25
+"""Who is farther before a doorway, and faces it, does not stand in it, metres."""
 
 SAME = 0.5
 """Doors whose middles are nearer than this are one, metres."""
@@ -40,18 +44,33 @@ def doors_around(scene: Scene, pose: Pose, own: Door | None = None) -> list[Door
     return seen
 
 
+def own_doorway(scene: Scene, pose: Pose) -> Door | None:
+    """The doorway that one stands in or has just come through; None if there is none."""
+    door = doorway_at(scene, pose)
+    if door is None or to_local(pose, door.midpoint)[0] > STILL_BEFORE:
+        return None
+    return door
+
+
 def doors_across(scene: Scene, pose: Pose, own: Door | None = None) -> list[Door]:
     """The doors ahead of a pose and in view that lie across its heading.
-
-    The one most nearly straight ahead comes first.
 
     Args:
         scene: walls and doors.
         pose: from where and which way, in the scene's frame.
         own: a door that one stands in; it does not count.
     """
-    across = [door for door in doors_around(scene, pose, own) if _lies_across(door, pose)]
-    return sorted(across, key=lambda door: abs(to_local(pose, door.midpoint)[1]))
+    return [door for door in doors_around(scene, pose, own) if _lies_across(door, pose)]
+
+
+def bearing(pose: Pose, door: Door) -> float:
+    """How far a door's middle lies off the way straight ahead of a pose, radians, 0 to pi."""
+    return abs(wrap_angle(heading_between(pose[:2], door.midpoint) - pose[2]))
+
+
+def is_closed(scene: Scene, pose: Pose, reach: float) -> bool:
+    """Whether one who looks straight ahead meets a wall within a reach, metres."""
+    return _is_crossed(ends_of(scene.walls), pose, np.array(to_parent(pose, (reach, 0.0))))
 
 
 def shared_width(door: Door, pose: Pose, half: float) -> float:
