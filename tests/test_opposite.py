@@ -13,7 +13,7 @@ from semnav_env.agents.registry import make_agent
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose, compose
-from semnav_env.features.scene import Scene
+from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding import Goal, GoalKind, GroundingError
 from semnav_env.grounding.follower import Follower
 from tests.hand_made import DOOR_WIDTH, corridor
@@ -188,3 +188,30 @@ def test_a_robot_that_sees_it_drives_there(robot: str, text: str, pose: Pose, do
     assert driven.cause == ""
     assert driven.verifier.crossed[-1] == door
     assert driven.rechecked() == ""
+
+
+def test_who_sees_a_gap_beside_it_turns_there_before_it_says_that_no_door_is_opposite() -> None:
+    unknown = Scene(FACING.walls)  # the gaps are seen, but not yet taken for doors
+    begin: Pose = (6.0, 0.0, 0.0)
+    follower = look("go through the door opposite", unknown, begin)
+    assert follower.goal.kind is GoalKind.REACH
+    assert follower.goal.pose == pytest.approx((6.0, 0.0, -QUARTER))
+    follower.look(unknown, (6.0, 0.0, -1.2))
+    assert follower.impossible == "no door opposite: none faces this place"
+    follower.look(FACING, (6.0, 0.0, -1.2))
+    assert follower.goal.door == FACING.doors[3]
+
+
+def test_of_two_doors_as_straight_behind_none_is_chosen() -> None:
+    walls = corridor(half=3.0).walls
+    doors = tuple(Door((-3.0, y), (-3.0, y + 0.9)) for y in (-1.2, 0.3))
+    with pytest.raises(GroundingError, match="two there are equally nearly straight behind"):
+        last_goal("go through the door behind you", Scene(walls, doors), (2.0, 0.0, 0.0))
+
+
+@given(st.floats(-4.0, 4.0))
+def test_in_a_room_a_door_is_behind_if_it_lies_more_behind_than_beside(shift: float) -> None:
+    assume(abs(abs(shift) - 3.0) > 0.05)
+    scene = Scene(corridor(half=5.0).walls, (Door((-3.0, shift - 0.45), (-3.0, shift + 0.45)),))
+    found = answer("go through the door behind you", scene, (0.0, 0.0, 0.0))
+    assert isinstance(found, Goal) is (abs(shift) < 3.0)

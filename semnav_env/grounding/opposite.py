@@ -15,7 +15,6 @@ from semnav_env.grounding.surroundings import (
     doors_across,
     heading_between,
     heading_through,
-    is_closed,
     own_doorway,
     shared_width,
 )
@@ -70,17 +69,21 @@ class Look:
         return out > STEPPED_OUT and situation.looks_along(self.pose[2])
 
     def _is_looked_at(self, situation: Situation) -> bool:
-        """Whether a robot sees what is on this side: it begins ahead, and sees walls aside."""
+        """Whether a robot has seen what is on this side, for it looks ahead and sees walls aside.
+
+        It turns to a gap on one side; gaps on both are a crossing.
+        """
         if self.side is Side.AHEAD:
             return bool(situation.scene.walls)
-        arms = (arm for junction in situation.hallway.junctions for arm in junction.openings)
-        in_arm = any(
-            arm.left is (self.side is Side.LEFT) and arm.near < 0.0 < arm.far for arm in arms
-        )
-        width = (-self.half_width, 0.0, self.half_width)
-        abreast = (compose(self.pose, (0.0, offset, 0.0)) for offset in width)
-        closed = all(is_closed(situation.scene, pose, FROM_ROBOT) for pose in abreast)
-        return in_arm or closed or situation.looks_along(self.pose[2])
+        left = self.side is Side.LEFT
+        one_gap = self._is_gap(situation, left) and not self._is_gap(situation, not left)
+        return not one_gap or situation.looks_along(self.pose[2])
+
+    def _is_gap(self, situation: Situation, left: bool) -> bool:
+        """Whether some of a side, as wide as is faced, is no wall or not seen."""
+        here = situation.hallway.along(self.pose[:2])
+        width = (here - self.half_width, here, here + self.half_width)
+        return any(math.isinf(situation.hallway.side_at(left, along)) for along in width)
 
     def goal(self, situation: Situation, what: object) -> Goal:
         """Turn there; or come out of the doorway to look."""

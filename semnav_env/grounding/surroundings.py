@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
+from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_angle
 from semnav_env.features.hallway import doorway_at
 from semnav_env.features.scene import Door, Scene, ends_of
 
@@ -66,11 +66,6 @@ def doors_across(scene: Scene, pose: Pose, own: Door | None = None) -> list[Door
 def bearing(pose: Pose, door: Door) -> float:
     """How far a door's middle lies off the way straight ahead of a pose, radians, 0 to pi."""
     return abs(wrap_angle(heading_between(pose[:2], door.midpoint) - pose[2]))
-
-
-def is_closed(scene: Scene, pose: Pose, reach: float) -> bool:
-    """Whether one who looks straight ahead meets a wall within a reach, metres."""
-    return _is_crossed(ends_of(scene.walls), pose, np.array(to_parent(pose, (reach, 0.0))))
 
 
 def shared_width(door: Door, pose: Pose, half: float) -> float:
