@@ -12,7 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
+from semnav_env.dynamics.leaves import swinging_leaves
 from semnav_env.features.frames import FloatArray
 from semnav_env.grounding.goal import Goal
 from semnav_env.maps.draw import draw_floor_plan
@@ -23,8 +25,12 @@ from semnav_env.robots import RobotSpec
 from semnav_env.verifier import place
 
 ROUTE, PATH, CONTACT, GOAL = "#1a7f37", "#1f4fd8", "#d62728", "#8e3bb8"
+PERSON, LEAF = "#e07b00", "saddlebrown"
 BODY_EVERY = 1.0
 """Seconds between the bodies that are drawn."""
+
+TAIL = 3.0
+"""Of the way of each person the last so many metres are shown."""
 
 AROUND = 2.5
 """Shown around path and route, metres."""
@@ -44,9 +50,12 @@ def save_episode(
 ) -> None:
     """Write a picture of an episode: the plan, the true route, the way driven, contacts, goals.
 
+    Doors that open and close, and people, are drawn where they were at the end; people with the
+    last metres of their way.
+
     Args:
         path: the file; its suffix says the format (png, svg, pdf).
-        floor_plan: where.
+        floor_plan: where, with the furniture of the episode.
         recording: of the episode.
         robot: whose body is drawn once a second.
         route: the true route, shape (k, 2).
@@ -60,7 +69,8 @@ def save_episode(
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
     ax = figure.add_subplot()
-    draw_floor_plan(floor_plan, ax, names=False)
+    hung = recording.leaves is not None and len(recording.leaves)
+    draw_floor_plan(swinging_leaves(floor_plan)[1] if hung else floor_plan, ax, names=False)
     draw_episode(ax, recording, robot, route, goals)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     _name_doors(ax, floor_plan, low, high)
@@ -77,7 +87,8 @@ def draw_episode(
     route: FloatArray,
     goals: Sequence[Goal] = (),
 ) -> None:
-    """Draw the true route, the way driven, bodies, contacts and goals onto a plan."""
+    """Draw the true route, the way driven, bodies, contacts, goals and what moved onto a plan."""
+    _draw_moved(ax, recording)
     ax.plot(*route.T, "--", color=ROUTE, linewidth=1.8, label="true route", zorder=4)
     _draw_bodies(ax, recording, robot)
     ax.plot(*recording.path.T, color=PATH, linewidth=1.8, label="driven", zorder=5)
@@ -89,6 +100,28 @@ def draw_episode(
         label = "goals" if number == 1 else None
         ax.plot(x, y, "o", color=GOAL, markersize=14, alpha=0.8, label=label, zorder=7)
         ax.text(x, y, str(number), color="white", size=8, ha="center", va="center", zorder=8)
+
+
+def _draw_moved(ax: Axes, recording: Recording) -> None:
+    """The leaves and the people of the end, and where the people came from."""
+    for x1, y1, x2, y2 in () if recording.leaves is None else recording.leaves.tolist():
+        ax.plot((x1, x2), (y1, y2), color=LEAF, linewidth=1.5)
+    if recording.people is None:
+        return
+    for number, way in enumerate(recording.people.swapaxes(0, 1)):
+        tail = _tail(way[:, :2])
+        ax.plot(*tail.T, color=PERSON, linewidth=1.2, alpha=0.7, zorder=5)
+        label = "people" if number == 0 else None
+        person = Circle(tail[-1].tolist(), way[-1, 2], color=PERSON, alpha=0.8, label=label)
+        person.set_zorder(6)
+        ax.add_patch(person)
+
+
+def _tail(way: FloatArray) -> FloatArray:
+    """The last part of a way, up to `TAIL` long."""
+    steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
+    left = np.append(np.cumsum(steps[::-1])[::-1], 0.0)
+    return way[left <= TAIL]
 
 
 def _draw_bodies(ax: Axes, recording: Recording, robot: RobotSpec) -> None:

@@ -16,6 +16,9 @@ from semnav_env.world import World
 COLUMNS = {"poses": 3, "velocities": 3, "contacts": 0, "impulses": 0}
 """Arrays of a recording and how wide they are; 0 is one number a row."""
 
+MOVED = ("people", "leaves")
+"""Arrays that only a recording among people or changing doors has."""
+
 
 @dataclass(frozen=True, eq=False)
 class Recording:
@@ -29,6 +32,9 @@ class Recording:
         impulses: sum of the magnitudes of the impulses received during the step, N s, shape
             (n + 1,).
         period: duration of a step, seconds.
+        people: x, y and radius of everybody, metres, shape (n + 1, k, 3).
+        leaves: the leaves of doors that open and close as they stood at the end: x1, y1, x2, y2
+            in metres, shape (m, 4).
 
     Raises:
         ValueError: the arrays do not fit together, are empty or not finite.
@@ -39,6 +45,8 @@ class Recording:
     contacts: NDArray[np.int64]
     impulses: FloatArray
     period: float
+    people: FloatArray | None = None
+    leaves: FloatArray | None = None
 
     def __post_init__(self) -> None:
         rows = len(self.poses)
@@ -50,6 +58,8 @@ class Recording:
                     f"{name} of a recording has shape {array.shape}; it must be {shape}, "
                     "finite, with at least one row"
                 )
+        if self.people is not None and len(self.people) != rows:
+            raise ValueError(f"people of a recording has {len(self.people)} rows, not {rows}")
         if not 0.0 < self.period < np.inf:
             raise ValueError(f"the period is {self.period}; it must be positive and finite")
 
@@ -82,6 +92,8 @@ class Recording:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write an .npz file."""
         arrays = {name: getattr(self, name) for name in COLUMNS}
+        moved = {name: getattr(self, name) for name in MOVED}
+        arrays |= {name: array for name, array in moved.items() if array is not None}
         np.savez_compressed(path, allow_pickle=False, period=self.period, **arrays)
 
     @classmethod
@@ -95,7 +107,8 @@ class Recording:
             missing = [name for name in (*COLUMNS, "period") if name not in file]
             if missing:
                 raise ValueError(f"{os.fspath(path)!r} is no recording: it lacks {missing[0]!r}")
-            return cls(**{name: file[name] for name in COLUMNS}, period=float(file["period"]))
+            names = [*COLUMNS, *(name for name in MOVED if name in file)]
+            return cls(**{name: file[name] for name in names}, period=float(file["period"]))
 
 
 class Recorder:
@@ -115,6 +128,7 @@ class Recorder:
         self._poses: list[Pose] = []
         self._velocities: list[Pose] = []
         self._touched: list[tuple[int, float]] = []
+        self._people: list[FloatArray] = []
         self.note()
 
     def note(self) -> None:
@@ -124,6 +138,7 @@ class Recorder:
         self._velocities.append(world.velocity)
         contacts = world.contacts
         self._touched.append((contacts.count, contacts.impulse))
+        self._people.append(world.moving_shapes[0].copy())
 
     def recording(self) -> Recording:
         """Everything so far."""
@@ -134,4 +149,11 @@ class Recorder:
             np.array(counts, dtype=np.int64),
             np.array(impulses, dtype=np.float64),
             1.0 / self._world.control_hz,
+            *self._moved(),
         )
+
+    def _moved(self) -> tuple[FloatArray | None, FloatArray | None]:
+        """People and leaves, if there may be any."""
+        if self._world.moving is None:
+            return None, None
+        return np.stack(self._people), self._world.moving_shapes[1].copy()
