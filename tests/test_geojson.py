@@ -387,3 +387,15 @@ def test_unknown_names_list_the_known_ones_and_the_nearest() -> None:
             load_floor_plan(odd)
     with pytest.raises(FloorPlanError, match="a name, a path or a FloorPlan"):
         load_floor_plan(None)  # type: ignore[arg-type]
+
+
+def test_a_file_is_read_anew_only_after_it_has_changed(tmp_path: Path) -> None:
+    path = tmp_path / "plan.geojson"
+    save_floor_plan(load_floor_plan("villa_hall"), path)
+    first = load_floor_plan(path)
+    assert load_floor_plan(str(path)) is first
+    save_floor_plan(load_floor_plan("office_cross"), path)
+    assert load_floor_plan(path) == load_floor_plan("office_cross")
+    path.unlink()
+    with pytest.raises(FloorPlanError, match=r"plan\.geojson"):
+        load_floor_plan(path)

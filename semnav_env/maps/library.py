@@ -16,6 +16,9 @@ LONGEST_PATH = 4096
 KEPT_OFFICES = 64
 """So many generated offices are kept, those used last."""
 
+KEPT_FILES = 16
+"""So many plans of files are kept, those used last."""
+
 BUNDLED = Path(__file__).with_name("bundled")
 
 
@@ -44,8 +47,22 @@ def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
     if not isinstance(plan, str | Path):
         raise FloorPlanError(f"a floor plan is a name, a path or a FloorPlan, not {plan!r:.80}")
     if isinstance(plan, Path) or _is_path(plan):
-        return read_plan(Path(plan))
+        return _at(Path(plan))
     raise FloorPlanError(_unknown(plan))
+
+
+def _at(path: Path) -> FloorPlan:
+    """The plan in a file, read anew only after the file has changed."""
+    try:
+        told = path.stat()
+    except OSError:
+        return read_plan(path)  # says what is wrong
+    return _unchanged(path, (told.st_dev, told.st_ino, told.st_size, told.st_mtime_ns))
+
+
+@lru_cache(maxsize=KEPT_FILES)
+def _unchanged(path: Path, state: tuple[int, ...]) -> FloorPlan:
+    return read_plan(path)
 
 
 @cache
