@@ -12,6 +12,7 @@ import pytest
 from PIL import Image
 
 from semnav_env.agents.evaluation import SUITES, Result, asked, runner, suite, summarise
+from semnav_env.agents.evaluation.suites import Trial
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Expected, load_episodes
@@ -149,3 +150,14 @@ def test_an_ambiguous_command_counts_if_all_its_readings_are_found(
     assert asked(episode) == ""
     assert "taken for" in asked(replace(episode, readings=episode.readings[:1] * 2))
     assert "not understood" in asked(replace(episode, command="fly to the moon"))
+
+
+def test_the_same_command_on_two_plans_is_counted_apart() -> None:
+    trials = [
+        Trial("heidelberg_hallway", "stop", (-2.5, -0.3, 0.24)),
+        Trial("office_cross", "stop", (1.3, 9.1, 0.0)),
+    ]
+    results = list(runner.run_suite(trials, "oracle", "wheelchair", (0,)))
+    assert [each.floor_plan for each in results] == ["heidelberg_hallway", "office_cross"]
+    assert [each.group for each in results] == [trial.group for trial in trials]
+    assert len({trial.group for trial in suite("all")}) == len(suite("all"))

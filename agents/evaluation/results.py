@@ -24,8 +24,9 @@ class Result:
         rechecked: verdict of the second opinion where it is not the verifier's; else empty.
         social: how near people came, see `SocialRecord.outcome`; empty without people.
         episode: its id, if it is one that was written down.
-        group: under which it is counted; the command if not given.
+        group: under which it is counted.
         kind: of the clause that failed, as "Turn".
+        floor_plan: name of the plan.
     """
 
     command: str
@@ -38,6 +39,7 @@ class Result:
     episode: str = ""
     group: str = ""
     kind: str = ""
+    floor_plan: str = ""
 
     @property
     def success(self) -> bool:
@@ -46,10 +48,10 @@ class Result:
 
     def row(self) -> dict[str, object]:
         """One flat object, as it is written to a file."""
-        first = {"command": self.command, "seed": self.seed, "verdicts": self.verdicts}
-        first |= {"episode": self.episode} if self.episode else {}
+        first = {"floor_plan": self.floor_plan, "command": self.command, "seed": self.seed}
+        told = {"verdicts": self.verdicts} | ({"episode": self.episode} if self.episode else {})
         last = {"cause": self.cause, "rechecked": self.rechecked}
-        return {**first, **asdict(self.metrics), **for_json(self.social), **last}
+        return {**first, **told, **asdict(self.metrics), **for_json(self.social), **last}
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,7 @@ class Summary:
     """Many episodes of one command, or of all.
 
     Attributes:
-        name: the command, or "all".
+        name: the group, or "all".
         episodes: how many.
         means: mean of each measure, by its name.
         worst: mean of each measure over its worst episodes, one dictionary for each of

@@ -119,7 +119,8 @@ def run_episode(
     drawn = env.stage.plan({"floor_plan": trial.floor_plan})  # furniture keeps off the pose
     pose = scattered(trial, drawn, env.robot, np.random.default_rng(seed))
     options = {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
-    return conclude(drive(env, agent, seed, options), trial.command, seed, extras)
+    result = conclude(drive(env, agent, seed, options), trial.command, seed, extras)
+    return replace(result, group=trial.group)
 
 
 def run_frozen(env: SemNavEnv, agent: Any, episode: Episode, extras: Extras = NO_EXTRAS) -> Result:
@@ -150,7 +151,8 @@ def conclude(
     rechecked = driven.rechecked() if extras.recheck else ""
     verdicts = tuple(str(verdict) for verdict in driven.verifier.verdicts)
     measured = driven.metrics, driven.cause, rechecked, driven.social
-    result = Result(command, seed, verdicts, *measured, episode, command, driven.kind)
+    plan = driven.verifier.floor_plan.name
+    result = Result(command, seed, verdicts, *measured, episode, command, driven.kind, plan)
     if extras.pictures is not None and not result.success:
         name = picture_name(driven, episode or command, seed)
         driven.save_picture(extras.pictures / name, f"{command}: {failure_line(result)}")

@@ -26,8 +26,8 @@ class Trial:
 
     @property
     def group(self) -> str:
-        """Under which it is counted."""
-        return self.command
+        """Under which it is counted: the plan and the command."""
+        return f"{self.floor_plan}: {self.command}"
 
 
 def _trials(floor_plan: str, pose: Pose, *commands: str) -> tuple[Trial, ...]:
