@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from collections.abc import Iterator
+from typing import Any, NamedTuple, Protocol
 
+import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,3 +30,34 @@ class Agent(Protocol):
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action, in the environment's action space."""
+
+
+class Step(NamedTuple):
+    """An action and what `env.step` returned for it."""
+
+    action: NDArray[np.float32]
+    observation: Observation
+    reward: float
+    terminated: bool
+    truncated: bool
+    info: dict[str, Any]
+
+
+def steps(
+    env: gym.Env[Any, Any], agent: Agent, observation: Observation, info: dict[str, Any]
+) -> Iterator[Step]:
+    """Let an agent drive an episode to its end.
+
+    Args:
+        env: whose `observation=` is the agent's.
+        agent: the driver; it is reset.
+        observation: what `env.reset` returned.
+        info: likewise.
+    """
+    agent.reset(info)
+    over = False
+    while not over:
+        action = agent.act(observation)
+        observation, reward, terminated, truncated, info = env.step(action)
+        over = terminated or truncated
+        yield Step(action, observation, float(reward), terminated, truncated, info)

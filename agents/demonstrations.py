@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.base import Agent
+from semnav_env.agents.base import Agent, steps
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode
 
@@ -46,24 +46,17 @@ class Demonstration:
 
 def demonstrate(env: SemNavEnv, agent: Agent, episode: Episode) -> Demonstration:
     """Let an agent drive a frozen episode, with its number as the seed, and note everything."""
-    observation, info = env.reset(seed=episode.number, options={"episode": episode})
-    agent.reset(info)
-    seen, steps, over = [observation], [], False
-    while not over:
-        action = agent.act(observation)
-        observation, reward, terminated, truncated, info = env.step(action)
-        seen.append(observation)
-        steps.append((action, reward, terminated, truncated))
-        over = terminated or truncated
-    actions, rewards, terminations, truncations = zip(*steps, strict=True)
+    first, info = env.reset(seed=episode.number, options={"episode": episode})
+    driven = list(steps(env, agent, first, info))
+    seen = [first, *(step.observation for step in driven)]
     return Demonstration(
         episode,
-        {name: np.stack([each[name] for each in seen]) for name in observation},
-        np.stack(actions),
-        np.array(rewards),
-        np.array(terminations),
-        np.array(truncations),
-        bool(info["is_success"]),
+        {name: np.stack([each[name] for each in seen]) for name in first},
+        np.stack([step.action for step in driven]),
+        np.array([step.reward for step in driven]),
+        np.array([step.terminated for step in driven]),
+        np.array([step.truncated for step in driven]),
+        bool(driven[-1].info["is_success"]),
     )
 
 

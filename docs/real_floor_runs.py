@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from semnav_env.agents.base import steps
 from semnav_env.agents.registry import make_agent
 from semnav_env.commands import Approach, Command, DoorReference, GoToDoor, Side
 from semnav_env.env import SemNavEnv
@@ -49,15 +50,13 @@ def tasks(plan: FloorPlan) -> list[tuple[Command, tuple[float, float, float]]]:
 
 def drive(env: SemNavEnv, agent: Any, seed: int, options: dict[str, Any]) -> tuple[bool, list[Any]]:
     """Whether it got there, and the frames if the environment draws any."""
-    observation, info = env.reset(seed=seed, options=options)
-    agent.reset(info)
-    frames, over, step = [], False, 0
-    while not over:
-        observation, _, terminated, truncated, info = env.step(agent.act(observation))
-        over, step = terminated or truncated, step + 1
-        if env.render_mode and (over or step % FRAME_EVERY == 0):
+    frames = []
+    started = env.reset(seed=seed, options=options)
+    for number, step in enumerate(steps(env, agent, *started), 1):
+        over = step.terminated or step.truncated
+        if env.render_mode and (over or number % FRAME_EVERY == 0):
             frames.append(env.render())
-    return info["is_success"], frames
+    return step.info["is_success"], frames
 
 
 if __name__ == "__main__":

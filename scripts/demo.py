@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tyro.conf import Positional, arg
 
+from semnav_env.agents.base import steps
 from semnav_env.agents.registry import make_agent
 from semnav_env.commands import parse
 from semnav_env.dynamics import OFF, Dynamics
@@ -79,14 +79,14 @@ class Arguments:
         if self.pose is not None:
             options["pose"] = parse_pose(self.pose)
         observation, start = env.reset(seed=self.seed, options=options)
-        agent.reset(start)
         frames: list[NDArray[np.uint8]] = []
         info: dict[str, Any] = {}
-        steps = _drive(env, agent, observation)
-        for step, info in enumerate(
-            tracked(steps, lambda n: f"{n / CONTROL_HZ:.0f} s", lambda: None)
-        ):
-            if filmed and (step % FRAME_EVERY == 0 or "is_success" in info):
+        driven = tracked(
+            steps(env, agent, observation, start), lambda n: f"{n / CONTROL_HZ:.0f} s", lambda: None
+        )
+        for number, step in enumerate(driven):
+            info = step.info
+            if filmed and (number % FRAME_EVERY == 0 or "is_success" in info):
                 frames.append(env.render())  # type: ignore[arg-type]
         env.close()
         self._save(frames)
@@ -141,15 +141,6 @@ class Arguments:
         )
         for path in outcome["files"]:
             print(f"wrote {path}")
-
-
-def _drive(env: SemNavEnv, agent: Any, observation: Any) -> Iterator[dict[str, Any]]:
-    """The info of every step until the episode ends."""
-    over = False
-    while not over:
-        observation, _, terminated, truncated, info = env.step(agent.act(observation))
-        over = terminated or truncated
-        yield info
 
 
 def parse_pose(text: str) -> Pose:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from semnav_env.agents.base import Agent
+from semnav_env.agents.base import Agent, steps
 from semnav_env.agents.evaluation.causes import cause_of
 from semnav_env.env import SemNavEnv
 from semnav_env.metrics import Metrics, Recorder, Recording, measure
@@ -85,14 +85,11 @@ def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> D
         seed: of the environment.
         options: for `env.reset`: "command", "pose", "floor_plan"; or "episode".
     """
-    observation, info = env.reset(seed=seed, options=options)
-    agent.reset(info)
+    started = env.reset(seed=seed, options=options)
     recorder = Recorder(env.world)
-    over = False
-    while not over:
-        observation, _, terminated, truncated, info = env.step(agent.act(observation))
+    for step in steps(env, agent, *started):
         recorder.note()
-        over = terminated or truncated
+        info = step.info
     verifier, recording = env.task.verifier, recorder.recording()
     metrics = measure(recording, verifier, env.robot)
     impossible = info["impossible"]

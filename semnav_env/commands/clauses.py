@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 from semnav_env.commands.language import Language, english
 from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference
+from semnav_env.commands.rooms import MAX_NAME
 
 MAX_DEGREES, DEGREE_STEP = 360, 5
 """Turns by degrees go up to a full one, in steps of five."""
@@ -20,7 +21,7 @@ MAX_DEGREES, DEGREE_STEP = 360, 5
 MAX_SECONDS = 100
 """The longest wait, seconds."""
 
-_NAME = re.compile(r"(?=.{1,40}$)[a-z0-9]+(?:[ ._-][a-z0-9]+)*", re.ASCII)
+_NAME = re.compile(rf"(?=.{{1,{MAX_NAME}}}$)[a-z0-9]+(?:[ ._-][a-z0-9]+)*", re.ASCII)
 
 
 class Turning(StrEnum):
@@ -134,7 +135,7 @@ class GoToRoom(_Said):
 
     Attributes:
         name: small letters a to z and digits, parted by single spaces, dots, hyphens or
-            underscores; at most 40 characters.
+            underscores; at most `MAX_NAME` characters.
     """
 
     name: str

@@ -47,17 +47,7 @@ def orca(
     people's and the robot's half-planes, not the walls', are moved back evenly until something is
     (5.3).
 
-    Args:
-        places: of people, metres, shape (n, 2).
-        velocities: now, m/s, shape (n, 2).
-        wishes: desired velocities, m/s, shape (n, 2).
-        radius: of a person, metres.
-        walls: as `walls_near` takes them.
-        leaves: shape (m, 4).
-        body: of the robot, see `on_body`.
-        sees_robot: whether the robot counts.
-        seconds: length of the step.
-        out: shape (n, 2).
+    It takes what `social_force` takes.
     """
     points = np.empty((MOST, 2))
     planes = np.empty((MOST + len(places) + 1, 3))

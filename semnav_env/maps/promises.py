@@ -12,10 +12,10 @@ from shapely.geometry.base import BaseGeometry
 from semnav_env.maps.doorways import TOUCH, clear_width
 from semnav_env.maps.finding import Finding, point_in
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
-from semnav_env.maps.reach import Reach, reach
+from semnav_env.maps.reach import HEADINGS, SPACING, Reach, reach
 from semnav_env.robots import RobotSpec
 
-SEARCHES = ((0.05, 12), (0.025, 24))
+SEARCHES = ((SPACING, HEADINGS), (SPACING / 2, 2 * HEADINGS))
 """Spacing of the grid, metres, and headings; the finer search is for what the first one misses."""
 
 END = 1.0
