@@ -25,10 +25,10 @@ from semnav_env.episodes import (
     write_episodes,
 )
 from semnav_env.episodes.check import faults
-from semnav_env.episodes.drafts import verbs_of
 from semnav_env.episodes.files import to_line
 from semnav_env.episodes.fingerprint import fingerprint
 from semnav_env.episodes.generate import generate_split
+from semnav_env.episodes.random_clauses import verbs_of
 from semnav_env.maps import generate_office, load_floor_plan
 from semnav_env.scripts.main import main
 from semnav_env.verifier import Verdict

@@ -88,6 +88,12 @@ def test_nothing_is_wrong_with_25_offices_of_each_distribution(name: str, robot)
         assert check(generate_office(seed, name), robot) == [], seed
 
 
+@pytest.mark.parametrize("name", ["office:large:530", "office:hard:535"])
+def test_no_furniture_keeps_a_wheelchair_from_a_door_between_two_rooms(name: str) -> None:
+    """In these two a cabinet did, close to the tip of the door's leaf."""
+    assert check(load_floor_plan(name)) == []
+
+
 @given(seeds)
 @settings(max_examples=5, deadline=None)
 def test_nothing_is_wrong_with_an_office_of_any_seed(seed: int) -> None:

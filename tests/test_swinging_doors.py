@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -44,6 +45,23 @@ def test_a_leaf_swings_where_nothing_stands_and_fills_its_door_when_closed(name:
             hinge, tip = np.array(leaf.hinge), np.array(leaf.tip(share * leaf.swing))
             swept = shapely.LineString((hinge + 0.2 * (tip - hinge), tip))
             assert len(still.solids.query(swept, predicate="intersects")) == 0
+
+
+@pytest.mark.parametrize("name", [*bundled_names(), *(f"office:hard:{k}" for k in range(6))])
+def test_no_two_leaves_sweep_the_same_place(name: str) -> None:
+    leaves, _ = swinging_leaves(with_leaves(load_floor_plan(name)))
+    swept = [
+        shapely.Polygon(
+            [
+                np.add(leaf.hinge, share * np.subtract(leaf.tip(angle), leaf.hinge))
+                for share, angles in ((0.06, (0.03, 0.5, 0.97)), (1.0, (0.97, 0.5, 0.03)))
+                for angle in np.array(angles) * leaf.swing
+            ]
+        )
+        for leaf in leaves
+    ]
+    assert len(swept) > 2
+    assert not any(a.intersects(b) for a, b in combinations(swept, 2))
 
 
 def test_a_closed_door_opens_again_and_an_open_one_closes() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -52,29 +53,36 @@ class Leaf:
 def with_leaves(plan: FloorPlan) -> FloorPlan:
     """The plan with an open leaf at every door that has none and has room for one.
 
-    It is hung into the room rather than into the corridor.
+    It is hung into the room rather than into the corridor, and where it meets no other leaf.
     """
     hung = []
+    taken = [_swept(leaf) for leaf in swinging_leaves(plan)[0]]
     for door in plan.doors:
         if door.open and not any(_hangs(surface, door) for surface in plan.surfaces):
-            choices = [leaf for leaf in _new_leaves(door, plan) if _has_room(leaf, plan)]
-            hung += [
-                Surface((leaf.hinge, leaf.tip(leaf.swing)), Material.LEAF) for leaf in choices[:1]
-            ]
+            choices = (leaf for leaf in _new_leaves(door, plan) if _has_room(leaf, plan))
+            leaf = next((leaf for leaf in choices if not _meets(leaf, taken)), None)
+            if leaf is not None:
+                taken.append(_swept(leaf))
+                hung.append(Surface((leaf.hinge, leaf.tip(leaf.swing)), Material.LEAF))
     return replace(plan, surfaces=(*plan.surfaces, *hung)) if hung else plan
 
 
 def swinging_leaves(plan: FloorPlan) -> tuple[tuple[Leaf, ...], FloorPlan]:
     """The leaves that can close, as drawn, and the plan without them.
 
-    Those of open doors with one leaf as wide as the opening that has room to swing.
+    Those of open doors with one leaf as wide as the opening that has room to swing; of two that
+    would meet, the first.
     """
     leaves: list[Leaf] = []
     drawn: list[Surface] = []
+    taken: list[Polygon] = []
     for door in plan.doors:
         hanging = [surface for surface in plan.surfaces if _hangs(surface, door)]
         leaf = _as_leaf(hanging[0], door) if door.open and len(hanging) == 1 else None
-        if leaf is not None and _has_room(leaf, plan, hanging[0]):
+        if leaf is None or _meets(leaf, taken):
+            continue
+        if _has_room(leaf, plan, hanging[0]):
+            taken.append(_swept(leaf))
             leaves.append(leaf)
             drawn.append(hanging[0])
     if not leaves:
@@ -129,6 +137,12 @@ def _swept(leaf: Leaf) -> Polygon:
     share = AXLE / leaf.length
     inner = [(x + share * (px - x), y + share * (py - y)) for px, py in rim]
     return Polygon([*rim, *inner[::-1]])
+
+
+def _meets(leaf: Leaf, taken: Sequence[Polygon]) -> bool:
+    """Whether a leaf sweeps something that another one sweeps as well."""
+    swept = _swept(leaf)
+    return any(swept.intersects(other) for other in taken)
 
 
 def _has_room(leaf: Leaf, plan: FloorPlan, own: Surface | None = None) -> bool:

@@ -3,65 +3,38 @@
 from __future__ import annotations
 
 from copy import copy
-from enum import StrEnum
-from typing import TypeVar
+from functools import cached_property
 
 import numpy as np
 
 from semnav_env.commands import (
-    LAST,
-    Approach,
     Clause,
     Command,
-    Distance,
     DoorReference,
     Follow,
-    GoBack,
     GoToDoor,
-    GoToRoom,
+    IfThere,
     Leave,
-    Place,
-    PlaceReference,
-    Side,
-    Stop,
     Turn,
     Turning,
 )
-from semnav_env.commands.rooms import plain_name
 from semnav_env.directory import Directory
+from semnav_env.episodes.doubts import Doubts
+from semnav_env.episodes.random_clauses import RandomClauses, Verb
 from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.grounding.follower import Follower
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
+from semnav_env.tasks.sampling import looks_along
+from semnav_env.verifier import plan_goals
 from semnav_env.verifier.goals import check_grounded
-
-T = TypeVar("T")
 
 TRIES = 15
 """Clauses drawn for each place in a command before the command is given up."""
 
-TURN_TRIES = 8
-"""Of them those that ask for a turn, on the way."""
-
-
-class Verb(StrEnum):
-    """What a command is about: its last clause, or leaving a room, its first."""
-
-    ENTER = "enter"
-    APPROACH = "approach"
-    FOLLOW = "follow"
-    TURN = "turn"
-    ROOM = "room"
-    LEAVE = "leave"
-    BACK = "back"
-    WAIT = "wait"
-
-
-def verbs_of(clauses: int) -> tuple[Verb, ...]:
-    """The verbs that a command of so many clauses can have."""
-    late = (Verb.BACK, Verb.WAIT) if clauses > 1 else ()
-    return tuple(verb for verb in Verb if verb not in (Verb.BACK, Verb.WAIT)) + late
+AROUND = 0.1
+"""Share of the commands of several clauses that begin with turning around."""
 
 
 class Drafter:
@@ -79,14 +52,29 @@ class Drafter:
     ) -> None:
         self.start, self.rng = start, rng
         self._plan, self._geodesic = plan, geodesic
+        self._clauses = RandomClauses(rng, plan.room_names)
         self._followers: dict[tuple[Clause, ...], Follower] = {}
 
-    def feasible(self, clauses: int, verb: Verb) -> Command | None:
-        """A command that can be carried out; None if none came up."""
-        said: tuple[Clause, ...] = ()
-        for index in range(clauses):
+    @cached_property
+    def doubts(self) -> Doubts:
+        """What people could see otherwise there."""
+        return Doubts(self._plan)
+
+    def feasible(self, clauses: int, verb: Verb | None) -> Command | None:
+        """A command that can be carried out; None if none came up.
+
+        Args:
+            clauses: how many it has.
+            verb: what it is about; None if more is to be said after it.
+        """
+        if verb is Verb.CONDITION:
+            return self._conditional(clauses)
+        said: tuple[Clause, ...] = (Leave(),) if verb is Verb.LEAVE else ()
+        if said and self.problem(said) is not None:
+            return None
+        for index in range(len(said), clauses):
             for attempt in range(TRIES):
-                clause = self._draw(index, index == clauses - 1, verb, attempt)
+                clause = self._draw(said, verb if index == clauses - 1 else None, attempt)
                 if self._follows(said, clause) and self.problem((*said, clause)) is None:
                     said = (*said, clause)
                     break
@@ -95,24 +83,27 @@ class Drafter:
         return Command(said)
 
     def infeasible(self, clauses: int) -> Command | None:
-        """A command whose last clause, and no other, cannot be carried out."""
-        first = self.feasible(clauses - 1, Verb.TURN) if clauses > 1 else None
+        """A command whose last clause, and no other, cannot be carried out by anybody."""
+        first = self.feasible(clauses - 1, None) if clauses > 1 else None
         if clauses > 1 and first is None:
             return None
         before = first.clauses if first else ()
+        begin = self._begin_after(before)
         for _ in range(TRIES):
-            verb = self._choose(Verb.ENTER, Verb.ENTER, Verb.TURN, Verb.APPROACH, Verb.FOLLOW)
-            said = (*before, self._draw(clauses - 1, True, verb, 0))
-            problem = self.problem(said)
-            if problem is not None and "say " not in problem:
-                return Command(said)
+            verb = self._clauses.choose(
+                Verb.ENTER, Verb.ENTER, Verb.TURN, Verb.APPROACH, Verb.FOLLOW
+            )
+            last = self._clauses.last(verb, alone=True)
+            impossible = self.problem((*before, last)) is not None
+            if impossible and self._follows(before, last) and self.doubts.impossible(last, begin):
+                return Command((*before, last))
         return None
 
     def turns(self, clauses: int) -> Command | None:
         """A command that only turns at junctions, so that it starts no counting of doors."""
         said: tuple[Clause, ...] = ()
         for _ in range(TRIES):
-            clause = self._turn()
+            clause = self._clauses.turn()
             if self._follows(said, clause) and self.problem((*said, clause)) is None:
                 said = (*said, clause)
             if len(said) == clauses:
@@ -126,6 +117,47 @@ class Drafter:
         except GroundingError as error:
             return str(error)
         return None
+
+    def skips_a_closed_door(self, command: Command) -> bool:
+        """Whether a command ends with the first door, which comes after a closed one."""
+        *before, last = command.clauses
+        if not isinstance(last, GoToDoor) or last.door.ordinal != 1:
+            return False
+        if any(isinstance(clause, IfThere) for clause in before):
+            return False
+        return self.doubts.is_behind_a_closed_one(last, self._begin_after(tuple(before)))
+
+    def _conditional(self, clauses: int) -> Command | None:
+        """Ends with a condition that nobody would decide otherwise, and what hangs on it."""
+        hanging = 2 if clauses == 2 or self.rng.random() < 0.5 else 3
+        before = self.feasible(clauses - hanging, None) if clauses > hanging else None
+        if before is None and clauses > hanging:
+            return None
+        said = before.clauses if before else ()
+        begin = self._begin_after(said)
+        for _ in range(TRIES):
+            condition, *rest = self._clauses.condition(otherwise=hanging == 3)
+            assert isinstance(condition, IfThere)
+            command = Command((*said, condition, *rest))
+            sure = self.doubts.met(condition, begin) is not None
+            if sure and self._goals(command) == len(said) + 1:
+                return command
+        return None
+
+    def _goals(self, command: Command) -> int:
+        """How many goals a command has; 0 if it cannot be carried out."""
+        guide = Directory(self._plan, command, self._geodesic)
+        try:
+            return len(plan_goals(self._plan, command, self.start, guide))
+        except GroundingError:
+            return 0
+
+    def _begin_after(self, clauses: tuple[Clause, ...]) -> Pose:
+        """Where the clause after some others begins."""
+        if not clauses:
+            return self.start
+        goal = self._followed(clauses).goal
+        return goal.onward or goal.pose
 
     def _followed(self, clauses: tuple[Clause, ...]) -> Follower:
         """A follower at the last of some clauses; kept, for those that may come next."""
@@ -153,54 +185,16 @@ class Drafter:
             return True
         return isinstance(before.until, DoorReference) or isinstance(clause.until, DoorReference)
 
-    def _draw(self, index: int, is_last: bool, verb: Verb, attempt: int) -> Clause:
-        if verb is Verb.LEAVE and index == 0:
-            return Leave()
-        if not is_last:
-            return self._underway(index, attempt)
-        match verb:
-            case Verb.APPROACH:
-                return GoToDoor(self._door(), Approach.TO)
-            case Verb.FOLLOW:
-                return self._follow()
-            case Verb.TURN:
-                return self._turn()
-            case Verb.ROOM:
-                return GoToRoom(plain_name(self._choose(*self._plan.room_names)))
-            case Verb.BACK:
-                return GoBack()
-            case Verb.WAIT:
-                return Stop(int(self.rng.integers(2, 11)))
-            case _:
-                return GoToDoor(self._door())
-
-    def _underway(self, index: int, attempt: int) -> Clause:
-        """A turn if there is one to take, for what follows hallways can be said nearly anywhere."""
-        if index == 0 and self.rng.random() < 0.1:
+    def _draw(self, said: tuple[Clause, ...], verb: Verb | None, attempt: int) -> Clause:
+        """The next clause: of that verb, or else on the way to more."""
+        if said and isinstance(said[-1], Leave) and self._faces_a_wall(said):
+            return self._clauses.turn_here()
+        if verb is not None:
+            return self._clauses.last(verb, alone=not said)
+        if not said and attempt == 0 and self.rng.random() < AROUND:
             return Turn(Turning.AROUND)
-        if attempt < TURN_TRIES:
-            return self._turn()
-        return self._follow()
+        return self._clauses.underway()
 
-    def _turn(self) -> Turn:
-        return Turn(self._choose(Turning.LEFT, Turning.RIGHT), self._junction())
-
-    def _follow(self) -> Follow:
-        kind = self.rng.random()
-        if kind < 0.2:
-            return Follow(PlaceReference(Place.END))
-        if kind < 0.4:
-            return Follow(Distance(float(self.rng.integers(2, 11))))
-        mark = self._door() if kind < 0.7 else self._junction()
-        return Follow(mark, past=bool(self.rng.random() < 0.4))
-
-    def _junction(self) -> PlaceReference:
-        kinds = Place.INTERSECTION, Place.INTERSECTION, Place.CORNER, Place.T_JUNCTION
-        return PlaceReference(self._choose(*kinds), self._choose(1, 1, 1, 2, 3))
-
-    def _door(self) -> DoorReference:
-        ordinal = self._choose(1, 1, 2, 2, 3, 4, 5, LAST)
-        return DoorReference(ordinal, self._choose(Side.LEFT, Side.RIGHT, None))
-
-    def _choose(self, *choices: T) -> T:
-        return choices[int(self.rng.integers(len(choices)))]
+    def _faces_a_wall(self, said: tuple[Clause, ...]) -> bool:
+        """Whether one looks across a hallway, so that nobody would count its doors from there."""
+        return not looks_along(self._plan, self._begin_after(said))

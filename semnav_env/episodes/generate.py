@@ -11,18 +11,21 @@ import numpy as np
 import shapely
 from numpy.random import PCG64, Generator, SeedSequence
 
-from semnav_env.commands import Command, paraphrases, readings
-from semnav_env.commands.errors import CommandError
+from semnav_env.commands import Command
 from semnav_env.episodes.ambiguous import ambiguous_text
-from semnav_env.episodes.drafts import Drafter, Verb, verbs_of
+from semnav_env.episodes.doubts import exits
+from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.episode import Episode, Expected
 from semnav_env.episodes.fingerprint import fingerprint
+from semnav_env.episodes.random_clauses import Verb, verbs_of
 from semnav_env.episodes.splits import SEED, Split
 from semnav_env.episodes.walk import carries_out
+from semnav_env.episodes.wording import worded
 from semnav_env.features.frames import FloatArray, Point, Pose
+from semnav_env.grounding.surroundings import doors_around
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
-from semnav_env.maps.placement import placement_error, sample_pose
+from semnav_env.maps.placement import is_clear, placement_error, sample_pose
 from semnav_env.maps.reach import Reach, reach
 from semnav_env.robots import ROBOTS, WHEELCHAIR
 from semnav_env.tasks.sampling import sample_start
@@ -49,8 +52,11 @@ NEAR = 0.3
 SIMPLE = 0.05
 """True routes are simplified by at most so much, metres."""
 
-GERMAN, OTHER_WORDS = 0.2, 0.6
-"""Shares of the episodes in German, and in other than canonical words."""
+GERMAN = 0.2
+"""Share of the episodes in German."""
+
+SPACE = 0.75
+"""Around a start in a room, metres: every body can turn round there."""
 
 
 class TooBareError(ValueError):
@@ -109,8 +115,9 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
     rng = Generator(PCG64(SeedSequence((seed, zlib.crc32(split.name.encode()), number))))
     wanted = [(n, verb) for n in split.clauses for verb in verbs_of(n)]
     maker = _MAKERS[split.expected]
+    turn = number + number // len(wanted)  # so that every nth episode is not about the same
     for shift in range(len(wanted)):
-        clauses, verb = wanted[(number + shift) % len(wanted)]
+        clauses, verb = wanted[(turn + shift) % len(wanted)]
         for _ in range(STARTS):
             start = _start(site, split, verb, rng)
             for _ in range(0 if start is None else DRAFTS):
@@ -138,7 +145,9 @@ def _feasible(site: Site, drafter: Drafter, clauses: int, verb: Verb, language: 
     route = None if command is None else _route(site, command, drafter.start)
     if command is None or route is None:
         return None
-    return _worded(site, drafter, command, language, route, Expected.FEASIBLE)
+    closed = drafter.skips_a_closed_door(command)
+    text = worded(command, language, drafter.rng, site.plan.room_names, closed=closed)
+    return None if text is None else Said(text, (command,), route, Expected.FEASIBLE)
 
 
 def _infeasible(
@@ -152,7 +161,8 @@ def _infeasible(
         route = _route(site, Command(command.clauses[:-1]), drafter.start)
     if route is None:
         return None
-    return _worded(site, drafter, command, language, route, Expected.INFEASIBLE)
+    text = worded(command, language, drafter.rng, site.plan.room_names)
+    return None if text is None else Said(text, (command,), route, Expected.INFEASIBLE)
 
 
 def _ambiguous(
@@ -184,16 +194,26 @@ def _episode(name: str, site: Site, start: Pose, language: str, said: Said) -> E
 def _start(site: Site, split: Split, verb: Verb, rng: Generator) -> Pose | None:
     """Where every body can stand, rounded as it is written; in a room if that is to be left."""
     if verb is Verb.LEAVE and split.expected is Expected.FEASIBLE and site.plan.rooms:
-        room = site.plan.rooms[int(rng.integers(len(site.plan.rooms)))]
-        try:
-            pose = sample_pose(site.plan, BODY, rng, room)
-        except ValueError:
-            return None
+        pose = _start_in_room(site, rng)
     else:
         pose = sample_start(site.plan, BODY, rng)
+    if pose is None:
+        return None
     start = round(pose[0], 2), round(pose[1], 2), round(pose[2], 3)
     stands = placement_error(site.plan, BODY, start) is None
     return start if stands and site.reach.near(shapely.Point(start[:2])) else None
+
+
+def _start_in_room(site: Site, rng: Generator) -> Pose | None:
+    """Where a body can turn round in a room with one open door, which can be seen from there."""
+    plan = site.plan
+    room = plan.rooms[int(rng.integers(len(plan.rooms)))]
+    try:
+        pose = sample_pose(plan, BODY, rng, room)
+    except ValueError:
+        return None
+    fair = exits(plan, room.polygon) == 1 and len(doors_around(plan.scene, pose)) == 1
+    return pose if fair and is_clear(plan, pose[:2], SPACE) else None
 
 
 def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | None:
@@ -212,22 +232,3 @@ def _simple(route: FloatArray) -> tuple[Point, ...]:
     """Fewer points, in whole centimetres."""
     line = shapely.LineString(route).simplify(SIMPLE, preserve_topology=False)
     return tuple((float(x), float(y)) for x, y in np.round(line.coords, 2).tolist())
-
-
-def _worded(
-    site: Site,
-    drafter: Drafter,
-    command: Command,
-    language: str,
-    route: tuple[Point, ...],
-    expected: Expected,
-) -> Said | None:
-    """Words that mean the command and nothing else where the rooms are called as they are."""
-    text = command.say(language)
-    if drafter.rng.random() < OTHER_WORDS:
-        text = next(iter(paraphrases(command, drafter.rng, 1, language)), text)
-    try:
-        clear = readings(text, language, site.plan.room_names) == (command,)
-    except CommandError:
-        return None
-    return Said(text, (command,), route, expected) if clear else None

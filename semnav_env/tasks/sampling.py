@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import count
 
 import numpy as np
@@ -42,6 +43,9 @@ LEAST_AHEAD, WIDEST_HALF = 3.0, 1.5
 """A random start has so much of a hallway ahead, no wider than twice that, metres; if there is any
 such place."""
 
+OUTSIDE = 0.6
+"""And no junction within so much before or behind its centre, metres: about half a body."""
+
 
 def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator) -> Pose:
     """A free pose in a corridor, looking along it; not across it or from inside a junction."""
@@ -49,13 +53,31 @@ def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generat
     region = corridors[rng.integers(len(corridors))] if corridors else None
     for attempt in count():
         pose = sample_pose(floor_plan, robot, rng, region)
-        seen = hallway(floor_plan.scene, pose)
-        start = (*pose[:2], wrap_angle(seen.frame[2] + rng.uniform(-0.2, 0.2)))
-        along = seen.end > LEAST_AHEAD and seen.half_width < WIDEST_HALF
-        fits = placement_error(floor_plan, robot, start) is None
-        if fits and (along or attempt >= START_TRIES):
+        axis = hallway(floor_plan.scene, pose).frame[2]
+        start = (*pose[:2], wrap_angle(axis + rng.uniform(-0.2, 0.2)))
+        along = looks_along(floor_plan, pose)
+        clear = (along and not in_junction(floor_plan, start)) or attempt >= START_TRIES
+        if clear and placement_error(floor_plan, robot, start) is None:
             return start
     raise AssertionError("count() never ends")
+
+
+def looks_along(floor_plan: FloorPlan, pose: Pose) -> bool:
+    """Whether there is a hallway ahead that one would speak of, rather than the wall of one."""
+    seen = hallway(floor_plan.scene, pose)
+    return seen.end > LEAST_AHEAD and seen.half_width < WIDEST_HALF
+
+
+def in_junction(floor_plan: FloorPlan, pose: Pose) -> bool:
+    """Whether a junction, seen along or against the heading, lies beside a robot at a pose.
+
+    Its mouth can then be out of the lidar's sight, so that a robot counts it for nothing while who
+    knows the plan takes it for the first.
+    """
+    x, y, heading = pose
+    views = (hallway(floor_plan.scene, (x, y, heading + turn)) for turn in (0.0, math.pi))
+    mouths = [o for view in views for junction in view.junctions for o in junction.openings]
+    return any(mouth.near < OUTSIDE and mouth.far > -OUTSIDE for mouth in mouths)
 
 
 def sample_feasible(

@@ -10,6 +10,7 @@ import shapely
 from numpy.random import PCG64, Generator
 
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
+from semnav_env.maps.generator.blocked import without_blocking
 from semnav_env.maps.generator.boxes import Box
 from semnav_env.maps.generator.chance import chance
 from semnav_env.maps.generator.corridors import KINDS, Corridor, Junction, draw_corridors
@@ -65,7 +66,7 @@ def draw_office(seed: int, settings: OfficeSettings, name: str) -> FloorPlan:
     )
     return FloorPlan(
         name=name,
-        surfaces=surfaces,
+        surfaces=without_blocking(surfaces, doors, lots),
         doors=tuple(_named_doors(doors, names)),
         rooms=_regions(lots, names, False),
         corridors=tuple(_region(f"corridor {i}", c.box) for i, c in enumerate(corridors, 1)),

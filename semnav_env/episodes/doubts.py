@@ -1,0 +1,128 @@
+"""What people could see otherwise than the rules have it: closed and wide doors, glass, bends.
+
+The rules count what a scan can tell. An episode in which nothing is right but to say that a command
+is impossible, or in which the way hangs on a condition, must not hang on them as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cached_property
+
+import shapely
+
+from semnav_env.commands import Clause, DoorReference, Follow, GoToDoor, IfThere, Turn
+from semnav_env.commands.command import reference_of
+from semnav_env.features.frames import Pose
+from semnav_env.features.hallway import Hallway, hallway
+from semnav_env.features.scene import PlainWalls, Scene
+from semnav_env.grounding import Goal, GroundingError, ground
+from semnav_env.grounding.conditions import is_met
+from semnav_env.grounding.junctions import junctions_ahead
+from semnav_env.grounding.situation import Situation
+from semnav_env.maps import FloorPlan
+from semnav_env.maps.placement import is_clear
+
+FARTHEST = 40.0
+"""One can be asked to find out what is within so much of a hallway, metres."""
+
+BEFORE_END, SPACE = 1.5, 0.45
+"""So far before its end one must be able to look, with so much space around, metres."""
+
+
+class Doubts:
+    """The scene of a floor plan as people could see it, too.
+
+    Args:
+        plan: the floor plan.
+    """
+
+    def __init__(self, plan: FloorPlan) -> None:
+        self._plan = plan
+
+    @cached_property
+    def scenes(self) -> tuple[Scene, ...]:
+        """By the rules; with closed and wide doors that count; without glass."""
+        plan = self._plan
+        doors = tuple(door.as_door() for door in plan.doors)
+        return (
+            plan.scene,
+            replace(plan.scene, doors=doors),
+            replace(plan.scene, walls=PlainWalls(plan.opaque_segments)),
+        )
+
+    def met(self, condition: IfThere, begin: Pose) -> bool | None:
+        """Whether a condition is met; None if some could say otherwise, or not find out."""
+        found = {
+            is_met(condition, Situation(scene, begin, begin, complete=True))
+            for scene in self.scenes
+        }
+        if len(found) > 1:
+            return None
+        met = bool(found.pop())
+        there = met is not condition.absent
+        return met if there or self._seen_to_end(begin) else None
+
+    def impossible(self, clause: Clause, begin: Pose) -> bool:
+        """Whether nobody could do what a clause says, and the robot can find out.
+
+        A turn is impossible if too few junctions of any kind lead to its side; another place, if
+        there are too few of any kind.
+        """
+        if not self._seen_to_end(begin):
+            return False
+        views = [hallway(scene, begin) for scene in self.scenes]
+        if isinstance(reference_of(clause), DoorReference):
+            return all(_is_missing(clause, scene, begin) for scene in self.scenes)
+        return all(_too_few(clause, view) for view in views)
+
+    def _seen_to_end(self, begin: Pose) -> bool:
+        """Whether a hallway ends soon, without a bend around which one could go on."""
+        for scene in self.scenes:
+            seen = hallway(scene, begin)
+            if seen.end > FARTHEST or any(j.is_corner for j in junctions_ahead(seen)):
+                return False
+        seen = hallway(self._plan.scene, begin)
+        before = seen.place(max(0.0, seen.end - BEFORE_END))
+        return is_clear(self._plan, before[:2], SPACE)
+
+    def is_behind_a_closed_one(self, first: GoToDoor, begin: Pose) -> bool:
+        """Whether the first open door comes right after the first door, which is closed."""
+        doors = [goal.door for goal in self._first_two(first, begin)]
+        shut = {door.name for door in self._plan.doors if not door.open}
+        if len(doors) < 2 or doors[0] is None or doors[0].name not in shut:
+            return False
+        try:
+            return doors[1] == ground(first, self._plan.scene, begin, complete=True).door
+        except GroundingError:
+            return False
+
+    def _first_two(self, clause: GoToDoor, begin: Pose) -> Iterator[Goal]:
+        for ordinal in (1, 2):
+            door = replace(clause.door, ordinal=ordinal)
+            try:
+                yield ground(replace(clause, door=door), self.scenes[1], begin, complete=True)
+            except GroundingError:
+                return
+
+
+def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
+    """How many open doors a room has."""
+    return sum(door.open and room.dwithin(shapely.Point(door.midpoint), 0.1) for door in plan.doors)
+
+
+def _is_missing(clause: Clause, scene: Scene, begin: Pose) -> bool:
+    try:
+        ground(clause, scene, begin, complete=True)
+    except GroundingError as error:
+        return "say " not in str(error)
+    return False
+
+
+def _too_few(clause: Clause, view: Hallway) -> bool:
+    place = reference_of(clause)
+    if place is None or place.ordinal < 1 or not isinstance(clause, Turn | Follow):
+        return False
+    turning = clause.turning if isinstance(clause, Turn) else None
+    return len(junctions_ahead(view, turning=turning)) < place.ordinal

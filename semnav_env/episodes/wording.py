@@ -1,0 +1,109 @@
+"""How the command of an episode is worded: canonically, otherwise, or corrected on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from numpy.random import Generator
+
+from semnav_env.commands import (
+    Approach,
+    Clause,
+    Command,
+    DoorReference,
+    GoToDoor,
+    IfThere,
+    Side,
+    Turn,
+    Turning,
+    paraphrases,
+    readings,
+)
+from semnav_env.commands.errors import CommandError
+from semnav_env.commands.language import language_of
+
+OTHER_WORDS, CORRECTED = 0.6, 0.18
+"""Shares of commands in other than canonical words, and of those with a slip that is corrected."""
+
+NO = {"en": "no", "de": "nein"}
+
+ONE = {
+    "en": {"left": "the left one", "right": "the right one", "nth": "the {} one"},
+    "de": {"left": "die linke", "right": "die rechte", "nth": "die {}"},
+}
+
+WAY = {"en": {"left": "left", "right": "right"}, "de": {"left": "links", "right": "rechts"}}
+
+CLOSED = {
+    "en": "if {} is closed, take the next",
+    "de": "falls {} geschlossen ist, nimm die nächste",
+}
+
+_OPPOSITE = {"left": "right", "right": "left"}
+
+
+def worded(
+    command: Command, language: str, rng: Generator, rooms: Sequence[str], *, closed: bool = False
+) -> str | None:
+    """Words that mean a command and nothing else where the rooms are called as they are.
+
+    Args:
+        command: what to say; its last clause may be said wrongly first, and corrected.
+        language: its code.
+        rng: source of randomness.
+        rooms: the names of the rooms there.
+        closed: the last clause is to take the first door, but a closed one comes before it.
+
+    Returns:
+        None if no words were found.
+    """
+    text = command.say(language)
+    draw = rng.random()
+    if closed and draw < OTHER_WORDS:
+        text = _but_for_a_closed_one(command, language) or text
+    elif draw < CORRECTED:
+        text = _corrected(command, language, rng) or text
+    elif draw < CORRECTED + OTHER_WORDS:
+        text = next(iter(paraphrases(command, rng, 1, language)), text)
+    try:
+        clear = readings(text, language, rooms) == (command,)
+    except CommandError:
+        return None
+    return text if clear else None
+
+
+def _but_for_a_closed_one(command: Command, language: str) -> str | None:
+    """With "if the first door on the left is closed, take the next" for its end."""
+    *before, last = command.clauses
+    if not isinstance(last, GoToDoor) or last.approach is not Approach.THROUGH:
+        return None
+    said = f"{Command(tuple(before)).say(language)}, " if before else ""
+    return said + CLOSED[language].format(last.door.say(language_of(language)))
+
+
+def _corrected(command: Command, language: str, rng: Generator) -> str | None:
+    """The command with a slip in its last clause, and "no, the left one" behind it."""
+    *before, last = command.clauses
+    if any(isinstance(clause, IfThere) for clause in before):
+        return None  # which of the clauses would that be?
+    wrong, instead = _slip(last, language, rng)
+    if wrong is None:
+        return None
+    said = Command((*before, wrong)).say(language)
+    return f"{said}, {NO[language]}, {instead}"
+
+
+def _slip(clause: Clause, language: str, rng: Generator) -> tuple[Clause | None, str]:
+    """A clause with another number or side, and how that is corrected."""
+    match clause:
+        case GoToDoor(DoorReference(ordinal, Side.LEFT | Side.RIGHT as side)) if rng.random() < 0.5:
+            door = DoorReference(ordinal, Side(_OPPOSITE[side]))
+            return replace(clause, door=door), ONE[language][side]
+        case GoToDoor(DoorReference(ordinal, side)) if ordinal > 0:
+            said = ordinal + 1 if ordinal == 1 or rng.random() < 0.5 else ordinal - 1
+            nth = ONE[language]["nth"].format(language_of(language).ordinal(ordinal))
+            return replace(clause, door=DoorReference(said, side)), nth
+        case Turn(Turning.LEFT | Turning.RIGHT as way, _, None):
+            return replace(clause, turning=Turning(_OPPOSITE[way])), WAY[language][way]
+    return None, ""

@@ -1,0 +1,61 @@
+"""Takes out the furniture that leaves no way around the leaf of a door between two rooms."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import shapely
+
+from semnav_env.features.frames import Point
+from semnav_env.maps.floor_plan import FloorPlan, Material, Region, Surface
+from semnav_env.maps.generator.boxes import Box
+from semnav_env.maps.generator.lots import Lot
+from semnav_env.maps.generator.openings import Doorway
+from semnav_env.maps.promises import SEARCHES
+from semnav_env.maps.reach import reach
+from semnav_env.robots import WHEELCHAIR
+
+NARROW = 0.7
+"""Where less is left beside a leaf, it is found out whether a wheelchair gets around it, metres."""
+
+OUTSIDE = 120
+"""Around the two rooms so much of the building is looked at, cm."""
+
+
+def without_blocking(
+    surfaces: Sequence[Surface], doors: Sequence[Doorway], lots: Sequence[Lot]
+) -> tuple[Surface, ...]:
+    """The surfaces without the furniture that keeps a wheelchair from a door between two rooms."""
+    kept = tuple(surfaces)
+    for door in doors:
+        if len(door.lots) == 2 and door.open and door.leaf:
+            beside = _beside(door.leaf, kept)
+            if beside and not _is_reached(door, doors, lots, kept):
+                kept = tuple(s for s in kept if not any(s is piece for piece in beside))
+    return kept
+
+
+def _beside(leaf: tuple[Point, Point], surfaces: Sequence[Surface]) -> list[Surface]:
+    """The furniture near the tip of a leaf."""
+    tip = shapely.Point(leaf[1])
+    furniture = (surface for surface in surfaces if surface.material is Material.FURNITURE)
+    return [piece for piece in furniture if shapely.Polygon(piece.points).distance(tip) < NARROW]
+
+
+def _is_reached(
+    door: Doorway, doors: Sequence[Doorway], lots: Sequence[Lot], surfaces: Sequence[Surface]
+) -> bool:
+    """Whether a wheelchair that comes in by another door gets there."""
+    building = shapely.union_all([_around(lots[index].box) for index in door.lots]).envelope
+    entries = (entry for entry in doors if len(entry.lots) == 1 and entry.lots[0] in door.lots)
+    for entry in entries:
+        begin = Region("doorway", shapely.LineString(entry.jambs).centroid.buffer(0.01))
+        part = FloorPlan("part", tuple(surfaces), (), (), (begin,), (), building)
+        ways = (reach(part, WHEELCHAIR.length, WHEELCHAIR.width, *how) for how in SEARCHES)
+        if entry.open and any(way.near(shapely.LineString(door.jambs)) for way in ways):
+            return True
+    return False
+
+
+def _around(room: Box) -> shapely.Polygon:
+    return shapely.box(*(value / 100 for value in room.grown(OUTSIDE)))
