@@ -113,11 +113,8 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
         TooBareError: no command was found there.
     """
     rng = Generator(PCG64(SeedSequence((seed, zlib.crc32(split.name.encode()), number))))
-    wanted = [(n, verb) for n in split.clauses for verb in verbs_of(n)]
     maker = _MAKERS[split.expected]
-    turn = number + number // len(wanted)  # so that every nth episode is not about the same
-    for shift in range(len(wanted)):
-        clauses, verb = wanted[(turn + shift) % len(wanted)]
+    for clauses, verb in _wanted(split, number, seed):
         for _ in range(STARTS):
             start = _start(site, split, verb, rng)
             for _ in range(0 if start is None else DRAFTS):
@@ -128,6 +125,18 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
                 if said is not None:
                     return _episode(f"{split.name}-{number:05d}", site, start, language, said)
     raise TooBareError(f"{site.plan.name}: found no command of the kind of {split.name} there")
+
+
+def _wanted(split: Split, number: int, seed: int) -> list[tuple[int, Verb]]:
+    """How many clauses an episode should have and about what, and what else would do.
+
+    All take turns, in another order each time: so every tenth episode, say, is not about the same.
+    """
+    pairs = [(n, verb) for n in split.clauses for verb in verbs_of(n)]
+    rounds, place = divmod(number, len(pairs))
+    rng = Generator(PCG64(SeedSequence((seed, zlib.crc32(split.name.encode()), rounds, 1))))
+    order = rng.permutation(len(pairs)).tolist()
+    return [pairs[k] for k in (*order[place:], *order[:place])]
 
 
 @dataclass(frozen=True)

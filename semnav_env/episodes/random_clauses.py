@@ -30,7 +30,7 @@ from semnav_env.commands.rooms import plain_name
 
 T = TypeVar("T")
 
-ON_THE_SPOT = 0.05
+ON_THE_SPOT = 0.03
 """Share of the turns drawn for the end of several clauses that are by degrees; of those that can be
 carried out it is larger."""
 
