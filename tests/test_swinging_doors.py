@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from itertools import combinations
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,9 +13,11 @@ from semnav_env.dynamics import Dynamics, Swinging
 from semnav_env.dynamics.leaves import swinging_leaves, with_leaves
 from semnav_env.maps import bundled_names, load_floor_plan
 from semnav_env.maps.doorways import DoorState, door_state
-from semnav_env.maps.floor_plan import Material
+from semnav_env.maps.floor_plan import Material, PlanDoor, Surface
 from semnav_env.maps.rules import check_plan
 from tests.moving_worlds import world_of
+from tests.small_plans import closed as ring_of
+from tests.small_plans import plan_of
 
 plans = pytest.mark.parametrize("name", bundled_names())
 ALWAYS = Dynamics(changing_doors=1.0)
@@ -47,21 +49,23 @@ def test_a_leaf_swings_where_nothing_stands_and_fills_its_door_when_closed(name:
             assert len(still.solids.query(swept, predicate="intersects")) == 0
 
 
-@pytest.mark.parametrize("name", [*bundled_names(), *(f"office:hard:{k}" for k in range(6))])
-def test_no_two_leaves_sweep_the_same_place(name: str) -> None:
-    leaves, _ = swinging_leaves(with_leaves(load_floor_plan(name)))
-    swept = [
-        shapely.Polygon(
-            [
-                np.add(leaf.hinge, share * np.subtract(leaf.tip(angle), leaf.hinge))
-                for share, angles in ((0.06, (0.03, 0.5, 0.97)), (1.0, (0.97, 0.5, 0.03)))
-                for angle in np.array(angles) * leaf.swing
-            ]
-        )
-        for leaf in leaves
-    ]
-    assert len(swept) > 2
-    assert not any(a.intersects(b) for a, b in combinations(swept, 2))
+def test_of_two_leaves_that_would_meet_only_one_swings() -> None:
+    """In a passage 1.3 m wide two doors face each other, and both open into it."""
+    drawn = Surface(((0.0, 0.0), (0.0, 1.0)), Material.LEAF)
+    other = Surface(((1.3, 1.3), (1.3, 0.3)), Material.LEAF)
+    walls = (
+        Surface(((-3.0, 0.0), (0.0, 0.0))),
+        Surface(((1.0, 0.0), (3.0, 0.0))),
+        Surface(((-3.0, 1.3), (0.3, 1.3))),
+        Surface(((1.3, 1.3), (3.0, 1.3))),
+        ring_of((-3.0, -3.0), (3.0, -3.0), (3.0, 4.0), (-3.0, 4.0)),
+    )
+    doors = PlanDoor("a", (0.0, 0.0), (1.0, 0.0)), PlanDoor("b", (0.3, 1.3), (1.3, 1.3))
+    for leaves in ((drawn,), (other,), (drawn, other)):
+        plan = replace(plan_of(*walls, *leaves), doors=doors)
+        assert len(swinging_leaves(plan)[0]) == 1
+    hung = replace(plan_of(*walls, drawn), doors=doors)
+    assert [leaf.door for leaf in swinging_leaves(with_leaves(hung))[0]] == ["a", "b"]
 
 
 def test_a_closed_door_opens_again_and_an_open_one_closes() -> None:
