@@ -6,6 +6,7 @@ is impossible, or in which the way hangs on a condition, must not hang on them a
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
@@ -78,12 +79,17 @@ class Doubts:
         return all(_too_few(clause, view) for view in views)
 
     def _seen_to_end(self, begin: Pose) -> bool:
-        """Whether a hallway ends soon, without a bend around which one could go on."""
+        """Whether a hallway ends soon, without a bend around which one could go on.
+
+        Nor anything else beside it that is neither a side nor an opening.
+        """
         for scene in self.scenes:
             seen = hallway(scene, begin)
             if seen.end > FARTHEST or any(j.is_corner for j in junctions_ahead(seen)):
                 return False
         seen = hallway(self._plan.scene, begin)
+        if any(math.isfinite(seen.unseen(left, 0.0, seen.end)) for left in (True, False)):
+            return False
         before = seen.place(max(0.0, seen.end - BEFORE_END))
         return is_clear(self._plan, before[:2], SPACE)
 
