@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from semnav_env.agents.planning.follower import Progress, Steering, follow
+from semnav_env.agents.planning.free import points_around
 from semnav_env.agents.planning.guard import SHARES, safe_share
 from semnav_env.agents.planning.nudge import best_nudge, path_clearances
 from semnav_env.agents.planning.path import Path, joined
@@ -17,7 +18,6 @@ from semnav_env.features.frames import (
     FloatArray,
     Pose,
     compose,
-    points_to_local,
     points_to_parent,
     relative,
 )
@@ -26,6 +26,9 @@ from semnav_env.robots import RobotSpec
 NOTHING: FloatArray = np.empty((0, 2))
 
 STOP = Steering(0.0, 0.0, 0.0, Progress())
+
+LOOK = 4.0
+"""What is farther away than this does not matter to the next metres of a path, metres."""
 
 
 @dataclass
@@ -121,7 +124,8 @@ class Driver:
 
         After `insist_after` refusals in a row it is let through slowly: what is seen may be noise.
         """
-        share = safe_share(points_to_local(pose, points), steering.command, velocity, self.robot)
+        seen = points_around(pose, points, 1.5 * self.robot.length)
+        share = safe_share(seen, steering.command, velocity, self.robot)
         if share == 0.0:
             self._refusals += 1
             if self._refusals <= self.insist_after:
@@ -214,7 +218,7 @@ class Driver:
     def _stays_free(self, points: FloatArray, pose: Pose) -> bool:
         """Whether the next metres of the path are free, if need be after a small correction."""
         assert self.path is not None
-        seen, margin = points_to_local(pose, points), self.path.margin
+        seen, margin = points_around(pose, points, LOOK), self.path.margin
         size = (self.robot.length, self.robot.width)
         left, turn, _ = best_nudge(seen, self._ahead(pose, 1.2), *size, margin + 0.005)
         if left or turn:

@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from semnav_env.agents.planning.collision import Body, Field, bins_around
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, Pose
 
 
 @njit(cache=True)
@@ -53,3 +53,17 @@ def all_clear(
             ):
                 return False
     return True
+
+
+@njit(cache=True)
+def points_around(pose: Pose, points: FloatArray, reach: float) -> FloatArray:
+    """The points within a square of that half side around a pose, in its frame, shape (M, 2)."""
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    kept = np.empty_like(points)
+    n = 0
+    for k in range(len(points)):
+        dx, dy = points[k, 0] - pose[0], points[k, 1] - pose[1]
+        if abs(dx) < reach and abs(dy) < reach:
+            kept[n, 0], kept[n, 1] = c * dx + s * dy, c * dy - s * dx
+            n += 1
+    return kept[:n]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import heapq
 import math
 
 import numpy as np
@@ -18,6 +17,11 @@ COARSE = 2
 
 STEP = CELL * COARSE
 """Metres; cells of the heuristic."""
+
+DIAGONAL = STEP * math.sqrt(2.0)
+
+ROUND = 0.25
+"""Seconds of way that are looked at together."""
 
 
 @njit(cache=True)
@@ -43,7 +47,10 @@ def room_grid(field: Field, body: Body, margin: float) -> FloatArray:
 def seconds_to(
     sources: NDArray[np.int64], first: FloatArray, room: FloatArray, costs: Costs
 ) -> FloatArray:
-    """Dijkstra's least time to a source over the free cells, 8-connected; infinite if cut off.
+    """The least time to a source over the free cells, 8-connected; infinite if cut off.
+
+    Cells wait in no order, those that can be reached within the next `ROUND` apart from the later
+    ones: the same times as with Dijkstra's queue, in less time.
 
     Args:
         sources: cells as rows (j, i), shape (S, 2).
@@ -52,29 +59,63 @@ def seconds_to(
         costs: gives the speed and the price of crowding.
     """
     n = room.shape[0]
-    time = np.full((n, n), np.inf)
-    heap = [(0.0, 0)]
-    heap.pop()
+    wide = n + 2
+    slowness = _slowness(room, costs)
+    time, looked = np.full(wide * wide, np.inf), np.full(wide * wide, np.inf)
+    soon, later = np.empty(wide * wide, dtype=np.int64), np.empty(wide * wide, dtype=np.int64)
+    is_soon, is_later = np.zeros(wide * wide, np.bool_), np.zeros(wide * wide, np.bool_)
+    soons, laters = 0, 0
     for k in range(len(sources)):
-        j, i = sources[k]
-        if first[k] < time[j, i]:
-            time[j, i] = first[k]
-            heapq.heappush(heap, (first[k], j * n + i))
-    while heap:
-        t, cell = heapq.heappop(heap)
-        j, i = cell // n, cell % n
-        if t > time[j, i]:
-            continue
-        for dj in range(-1, 2):
-            for di in range(-1, 2):
-                b, a = j + dj, i + di
-                if 0 <= b < n and 0 <= a < n and room[b, a] >= 0.0 and (dj != 0 or di != 0):
-                    length = STEP * math.sqrt(float(dj * dj + di * di))
-                    later = t + length / costs.speed * (1.0 + crowding_at(room[b, a], costs))
-                    if later < time[b, a]:
-                        time[b, a] = later
-                        heapq.heappush(heap, (later, b * n + a))
-    return time
+        cell = (sources[k, 0] + 1) * wide + sources[k, 1] + 1
+        time[cell] = min(time[cell], first[k])
+        if not is_later[cell]:
+            is_later[cell], later[laters] = True, cell
+            laters += 1
+    while laters > 0:
+        limit = time[later[:laters]].min() + ROUND
+        waiting, laters = laters, 0
+        for k in range(waiting):
+            cell = later[k]
+            if time[cell] >= limit:
+                later[laters] = cell
+                laters += 1
+                continue
+            is_later[cell] = False
+            if time[cell] < looked[cell]:
+                is_soon[cell], soon[soons] = True, cell
+                soons += 1
+        while soons > 0:
+            soons -= 1
+            cell = soon[soons]
+            is_soon[cell], looked[cell] = False, time[cell]
+            for dj in range(-1, 2):
+                for di in range(-1, 2):
+                    beside = cell + dj * wide + di
+                    length = STEP if dj == 0 or di == 0 else DIAGONAL
+                    then = time[cell] + length / costs.speed * slowness[beside]
+                    if then >= time[beside]:
+                        continue
+                    time[beside] = then
+                    if then < limit:
+                        if not is_soon[beside]:
+                            is_soon[beside], soon[soons] = True, beside
+                            soons += 1
+                    elif not is_later[beside]:
+                        is_later[beside], later[laters] = True, beside
+                        laters += 1
+    return time.reshape(wide, wide)[1:-1, 1:-1].copy()
+
+
+@njit(cache=True)
+def _slowness(room: FloatArray, costs: Costs) -> FloatArray:
+    """How many times as long a way takes in each cell, with a rim that nothing enters, (m,)."""
+    n = room.shape[0]
+    slowness = np.full((n + 2, n + 2), np.inf)
+    for j in range(n):
+        for i in range(n):
+            if room[j, i] >= 0.0:
+                slowness[j + 1, i + 1] = 1.0 + crowding_at(room[j, i], costs)
+    return slowness.ravel()
 
 
 @njit(cache=True)
