@@ -191,6 +191,22 @@ def test_only_a_good_view_speaks_against_a_door(pose: Pose) -> None:
     assert memory.size[1] == 1
 
 
+@pytest.mark.parametrize("hidden", [slice(0, 255), slice(286, 360)], ids=["right", "left"])
+def test_a_scan_that_sees_the_wall_on_one_side_of_a_door_only_says_nothing_of_it(
+    hidden: slice,
+) -> None:
+    """Beams of one degree: the opening spans 76 to 104 degrees, beams 256 to 284."""
+    for ranges in (beams_that_end_at(4.0), beams_that_end_at(4.0)[:286]):
+        memory = SceneMemory()
+        for _ in range(4):
+            see(memory, doors=[AHEAD])
+        seen = ranges.copy()
+        seen[hidden] = 0.5
+        for _ in range(40):
+            see(memory, ranges=seen)
+        assert memory.size[1] == 1
+
+
 WALL_AHEAD: Ends = (0.5, 2.0, -0.5, 2.0)
 
 

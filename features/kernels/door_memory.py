@@ -45,6 +45,9 @@ LOOKS = 8
 """So many beams across the opening are looked at, and fewer do not tell."""
 DEPTH = 0.15
 """A beam that ends nearer than this to the opening, along the beam, is stopped there, metres."""
+BESIDE = 0.2
+"""A scan that misses a door tells only if it looks so far beside both jambs, metres: what is at
+the rim of its view, or half hidden, it would not take for a door either."""
 NOTHING, OPEN, STOPPED = range(3)
 """What a scan tells of an opening."""
 
@@ -183,16 +186,35 @@ def look_at(
         return NOTHING
     through = stopped = 0
     for k in range(LOOKS):
-        share = (k + 0.5) / LOOKS
-        px, py = x + share * dx, y + share * dy
-        turn = math.atan2(py, px) - pose[2] - angle_min
-        turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi))
-        beam = int(turn / angle_increment + 0.5)
-        if beam >= len(ranges):
+        beyond = _beyond(ranges, angle_min, angle_increment, pose, door, (k + 0.5) / LOOKS)
+        if math.isnan(beyond):
             return NOTHING
-        beyond = ranges[beam] - math.hypot(px, py)
         through += beyond > DEPTH
         stopped += abs(beyond) <= DEPTH
     if 4 * stopped >= 3 * LOOKS:
         return STOPPED
-    return OPEN if 2 * through >= LOOKS else NOTHING
+    if 2 * through < LOOKS:
+        return NOTHING
+    for share in (-BESIDE / width, 1.0 + BESIDE / width):
+        beyond = _beyond(ranges, angle_min, angle_increment, pose, door, share)
+        if not beyond > -DEPTH:
+            return NOTHING
+    return OPEN
+
+
+@njit(cache=True, error_model="numpy")
+def _beyond(
+    ranges: FloatArray,
+    angle_min: float,
+    angle_increment: float,
+    pose: tuple[float, float, float],
+    door: Any,
+    share: float,
+) -> float:
+    """How far behind a point of a door's line the beam there ends, metres; NaN without a beam."""
+    x = door.start_x + share * (door.end_x - door.start_x) - pose[0]
+    y = door.start_y + share * (door.end_y - door.start_y) - pose[1]
+    turn = math.atan2(y, x) - pose[2] - angle_min
+    turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi))
+    beam = int(turn / angle_increment + 0.5)
+    return ranges[beam] - math.hypot(x, y) if beam < len(ranges) else math.nan
