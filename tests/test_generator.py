@@ -310,3 +310,26 @@ def test_what_is_left_of_spans_is_what_no_hole_covers(given_spans, holes) -> Non
         inside = any(a <= k < b for a, b in given_spans) and not any(a <= k < b for a, b in holes)
         assert any(a <= k < b for a, b in left) == inside
     assert merged(left) == left
+
+
+@given(seeds, names)
+@settings(max_examples=8)
+def test_no_robot_takes_a_framed_window_for_a_way(seed: int, name: str) -> None:
+    plan = generate_office(seed, replace(DISTRIBUTIONS[name], glass=0.6, frameless=0.0))
+    panes = [LineString(s.points) for s in plan.surfaces if s.material is Material.GLASS]
+    narrowest = min(robot.width for robot in ROBOTS.values())
+    assert panes
+    assert all(pane.length < narrowest for pane in panes)
+    doors = [LineString((door.start, door.end)) for door in plan.scene.doors]
+    for pane in panes:
+        near = [other for other in (*panes, *doors) if other is not pane]
+        assert all(pane.distance(other) > 0.29 for other in near)
+
+
+def test_a_frameless_front_is_one_pane_up_to_its_door() -> None:
+    widest = 0.0
+    for seed in range(3):
+        plan = generate_office(seed, replace(DISTRIBUTIONS["small"], glass=1.0, frameless=1.0))
+        panes = [LineString(s.points) for s in plan.surfaces if s.material is Material.GLASS]
+        widest = max(widest, *(pane.length for pane in panes))
+    assert widest > 1.5

@@ -40,6 +40,7 @@ HARD = OfficeSettings(
     columns=0.5,
     furniture=0.8,
     glass=0.25,
+    frameless=0.1,
 )
 """As many rooms as medium, but narrow doors and corridors, leaves and things in the way, glass."""
 

@@ -33,6 +33,8 @@ class OfficeSettings:
         columns: chance of a column in each place for one.
         furniture: chance of a piece in each place for one.
         glass: chance of a room to have a glass front.
+        frameless: chance of a glass front to be one pane, in which a lidar sees neither the glass
+            nor where the door is; otherwise it is a row of windows.
     """
 
     rooms: tuple[int, int] = (16, 34)
@@ -53,6 +55,7 @@ class OfficeSettings:
     columns: float = 0.15
     furniture: float = 0.55
     glass: float = 0.08
+    frameless: float = 0.0
 
     def __post_init__(self) -> None:
         for field in fields(self):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import shapely
 from numpy.random import Generator
@@ -24,10 +24,14 @@ Line: TypeAlias = tuple[bool, int]
 """Whether it runs along x, and its place across that, cm."""
 
 NIB = 30
-"""Of wall beside the open front of an area, and between glass and the next wall, cm."""
+"""Of wall beside the open front of an area, and between glass and the next wall or door, cm."""
 
 LEAST_GLASS = 60
-"""No pane is narrower, cm."""
+"""No frameless pane is narrower, cm."""
+
+WINDOW, PIER = 45, 30
+"""Framed glass is a row of windows so wide, which no robot takes for a way, with at least so much
+wall between them, cm."""
 
 
 def build_walls(
@@ -52,7 +56,7 @@ def build_walls(
     panes = _panes(rng, settings, corridors, lots)
     for line in sorted(solid):
         stretches = without(solid[line], gaps[line])
-        glazed = [p for a, b in panes[line] for p in _within(stretches, (a, b))]
+        glazed = [p for pane in panes[line] for s in stretches for p in _glazed(s, pane)]
         yield from (_surface(line, span, Material.GLASS) for span in glazed)
         yield from (_surface(line, s, Material.WALL) for s in without(stretches, glazed))
 
@@ -77,33 +81,47 @@ def _sides(box: Box) -> Iterator[tuple[bool, int, Span]]:
     yield from ((False, x, (box.south, box.north)) for x in (box.west, box.east))
 
 
+class Pane(NamedTuple):
+    """Glass that is to take the place of wall: from where to where, and whether it is framed."""
+
+    low: int
+    high: int
+    framed: bool
+
+
 def _panes(
     rng: Generator, settings: OfficeSettings, corridors: Sequence[Corridor], lots: Sequence[Lot]
-) -> dict[Line, list[Span]]:
+) -> dict[Line, list[Pane]]:
     """Fronts of rooms, and windows at the ends of corridors."""
-    panes: dict[Line, list[Span]] = defaultdict(list)
+    panes: dict[Line, list[Pane]] = defaultdict(list)
+
+    def add(wall: Wall) -> None:
+        framed = not chance(rng, settings.frameless)
+        panes[wall.along_x, wall.at].append(Pane(wall.span[0] + NIB, wall.span[1] - NIB, framed))
+
     for lot in lots:
         if not lot.open and chance(rng, settings.glass):
-            _add_pane(panes, lot.front)
+            add(lot.front)
     for corridor in corridors:
         low, high = corridor.box.span(corridor.along_x)
         across = corridor.box.span(not corridor.along_x)
         for at, blind in zip((low, high), corridor.blind, strict=True):
             if blind and chance(rng, settings.glass):
-                _add_pane(panes, Wall(not corridor.along_x, at, across, 1))
+                add(Wall(not corridor.along_x, at, across, 1))
     return panes
 
 
-def _add_pane(panes: dict[Line, list[Span]], wall: Wall) -> None:
-    panes[wall.along_x, wall.at].append((wall.span[0] + NIB, wall.span[1] - NIB))
-
-
-def _within(stretches: Iterable[Span], pane: Span) -> Iterator[Span]:
-    """The parts of the walls that a pane replaces."""
-    for low, high in stretches:
-        a, b = max(low, pane[0]), min(high, pane[1])
-        if b - a >= LEAST_GLASS:
-            yield a, b
+def _glazed(stretch: Span, pane: Pane) -> Iterator[Span]:
+    """The parts of a stretch of wall that a pane replaces."""
+    nib = NIB if pane.framed else 0
+    low, high = max(stretch[0] + nib, pane.low), min(stretch[1] - nib, pane.high)
+    if not pane.framed:
+        yield from [(low, high)] if high - low >= LEAST_GLASS else []
+        return
+    count = max(0, high - low) // (WINDOW + PIER)
+    for k in range(count):
+        middle = low + (2 * k + 1) * (high - low) // (2 * count)
+        yield middle - WINDOW // 2, middle - WINDOW // 2 + WINDOW
 
 
 def _surface(line: Line, span: Span, material: Material) -> Surface:
