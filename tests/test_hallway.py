@@ -164,6 +164,24 @@ def test_a_gap_that_no_wall_leads_out_of_is_unseen_and_no_opening() -> None:
     assert math.isinf(seen.unseen(True, 8.1, 12.0))
 
 
+@pytest.mark.parametrize("tilt", [-0.03, 0.0, 0.03])
+def test_a_long_wall_across_the_end_leads_out_though_it_is_a_little_askew(tilt: float) -> None:
+    """Odometry drifts; and with doors close to both near corners only that wall tells of arms."""
+    sides = polyline((-3.0, 1.0), (8.0, 1.0), (8.0, 1.3)) + polyline((-3.0, -1.0), (8.0, -1.0))
+    across = Wall((10.0 - 20.0 * tilt, -20.0), (10.0 + 20.0 * tilt, 20.0))
+    seen = hallway(Scene((*sides, across), ()), START)
+    assert ways_on(seen) == [(True, True, False)]
+
+
+@pytest.mark.parametrize(("offset", "leads"), [(0.3, True), (3.0, False)])
+def test_a_door_close_to_the_corner_leads_out_as_the_wall_does(offset: float, leads: bool) -> None:
+    sides = polyline((-3.0, 1.0), (6.0, 1.0), (6.0, 1.3))
+    sides += polyline((8.0, 1.0), (14.0, 1.0), (14.0, -1.0), (-3.0, -1.0))
+    door = Door((6.0, 1.0 + offset), (6.0, 2.0 + offset))
+    seen = hallway(Scene(tuple(sides), (door,)), START)
+    assert ways_on(seen) == ([(True, False, True)] if leads else [])
+
+
 def test_an_opening_is_not_unseen() -> None:
     seen = hallway(SIDE_ARMS, START)
     assert math.isinf(seen.unseen(True, 0.0, 13.0))

@@ -97,7 +97,7 @@ def survey(
     count = 0
     for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
         raw, side = probe(local, sign, back, PROBES), sides[row]
-        count = _follow(raw, local[: len(walls)], sign, usual, (back, end), side, openings, count)
+        count = _follow(raw, local, sign, usual, (back, end), side, openings, count)
     return (x, y, heading), 0.5 * (left + right), end, sides, openings[:count]
 
 
@@ -151,7 +151,7 @@ def _is_across(door: FloatArray, heading: float) -> bool:
 @njit(cache=True)
 def _follow(
     raw: FloatArray,
-    walls: FloatArray,
+    solid: FloatArray,
     sign: float,
     usual: float,
     stretch: tuple[float, float],
@@ -163,7 +163,7 @@ def _follow(
 
     Args:
         raw: what the rays to that side met, metres.
-        walls: in the frame of the axis.
+        solid: walls and doors in the frame of the axis.
         sign: 1 for the left side, -1 for the right.
         usual: distance of the side where it is not known better, metres.
         stretch: how far the hallway goes back, and where it ends, metres.
@@ -185,13 +185,13 @@ def _follow(
             reference = _recent(side, k, usual)
         if level or raw[k] <= reference + RECESS:
             if first >= 0:
-                count = _note_opening(walls, sign, first, k, reference, openings, count)
+                count = _note_opening(solid, sign, first, k, reference, openings, count)
             first = -1
             side[k] = raw[k]
         elif first < 0:
             first = k
     if first >= 0 and math.isfinite(end):
-        count = _note_opening(walls, sign, first, last, reference, openings, count)
+        count = _note_opening(solid, sign, first, last, reference, openings, count)
     return count
 
 
@@ -209,7 +209,7 @@ def _recent(side: FloatArray, k: int, usual: float) -> float:
 
 @njit(cache=True)
 def _note_opening(
-    walls: FloatArray,
+    solid: FloatArray,
     sign: float,
     first: int,
     last: int,
@@ -222,20 +222,25 @@ def _note_opening(
     far = (last - 0.5) * SPACING - BEHIND
     if far - near < OPENING_WIDTH or count == len(openings):
         return count
-    if not (_leads_out(walls, sign, near, offset) or _leads_out(walls, sign, far, offset)):
+    if not (_leads_out(solid, sign, near, offset) or _leads_out(solid, sign, far, offset)):
         return count
     openings[count] = max(sign, 0.0), near, far, offset
     return count + 1
 
 
 @njit(cache=True)
-def _leads_out(walls: FloatArray, sign: float, edge: float, offset: float) -> bool:
-    """Whether a wall leads away from the axis at x = `edge`, from y = `offset` on."""
-    for i in range(len(walls)):
-        x1, y1, x2, y2 = walls[i, 0], sign * walls[i, 1], walls[i, 2], sign * walls[i, 3]
+def _leads_out(solid: FloatArray, sign: float, edge: float, offset: float) -> bool:
+    """Whether a wall, or a door close to the edge, leads away from the axis at x = `edge`.
+
+    It does so from y = `offset` on.
+    """
+    for i in range(len(solid)):
+        x1, y1, x2, y2 = solid[i, 0], sign * solid[i, 1], solid[i, 2], sign * solid[i, 3]
         if y2 < y1:
             x1, y1, x2, y2 = x2, y2, x1, y1
-        steep = y2 - y1 > abs(x2 - x1)
-        if steep and y1 < offset + 0.6 and y2 > offset + LEAF and abs(x1 - edge) < 0.25:
+        if not (y2 - y1 > abs(x2 - x1) and y1 < offset + 0.6 and y2 > offset + LEAF):
+            continue
+        beside = x1 + (x2 - x1) * max(0.0, offset - y1) / (y2 - y1)
+        if abs(beside - edge) < 0.25:
             return True
     return False
