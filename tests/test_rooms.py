@@ -251,6 +251,16 @@ def test_a_way_is_driven_place_by_place_and_beside_it_where_odometry_drifts() ->
     assert not goal.reached_by((19.0, 0.8, 0.0), 0.5)
 
 
+def test_a_way_that_bends_a_little_leads_to_no_place_beside_it() -> None:
+    """A place lies as far beside the way as the robot does here, not off its later direction."""
+    way = Way(((0.0, 0.0), (1.5, 0.0), (3.0, 0.0), (4.5, -0.7), (6.0, -1.4), (7.5, -2.1)))
+    (clause,) = parse("go back to the start").clauses
+    goal = ground(clause, DOORS, (0.0, 0.0, 0.0), way=way)
+    for beside in (-0.4, 0.0, 0.4):
+        towards = goal.towards((0.2, beside, 0.0))
+        assert math.dist(towards.pose[:2], (3.0, 0.0)) == pytest.approx(abs(beside), abs=1e-6)
+
+
 @pytest.mark.parametrize("agent", ["oracle", "scripted"])
 def test_agents_go_to_a_named_room_wait_and_come_back(agent: str) -> None:
     driver = make_agent(agent)

@@ -83,7 +83,7 @@ class Goal:
                 return self
             there = self.pose
         if abs(wrap_angle(self._on_way(here)[2] - there[2])) < STRAIGHT:
-            there = _abreast(there, pose)
+            there = _as_far_beside(there, to_local(self._on_way(here), pose[:2])[1])
         return replace(self, kind=GoalKind.SEEK, pose=there, door=None)
 
     def _on_way(self, index: int) -> Pose:
@@ -130,12 +130,11 @@ class Goal:
         return forward and -slack <= share <= 1 + slack
 
 
-def _abreast(there: Pose, pose: Pose) -> Pose:
-    """The place beside one on a straight way that lies as far to its side as the robot does.
+def _as_far_beside(there: Pose, beside: float) -> Pose:
+    """The place beside one on a straight way, as far to its side as the robot is from it here.
 
     So a hallway is driven down where it is, however far odometry has drifted to a side.
     """
-    beside = to_local(there, pose[:2])[1]
     x, y = to_parent(there, (0.0, beside if abs(beside) < BESIDE else 0.0))
     return x, y, there[2]
 
