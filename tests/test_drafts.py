@@ -28,7 +28,7 @@ from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.generate import BODY, SPACE, Site, generate_episode
 from semnav_env.episodes.random_clauses import Verb
 from semnav_env.episodes.wording import worded
-from semnav_env.features.frames import Pose
+from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.hallway import hallway
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import is_clear
@@ -55,6 +55,16 @@ def test_no_start_is_beside_the_mouth_of_an_arm(name: str) -> None:
         for turn in (0.0, np.pi):
             for junction in hallway(plan.scene, (x, y, heading + turn)).junctions:
                 assert all(o.near >= 0.6 or o.far <= -0.6 for o in junction.openings)
+
+
+@pytest.mark.parametrize("name", ["heidelberg_hallway", "office_cross", OFFICE])
+def test_no_start_is_right_beside_a_door(name: str) -> None:
+    plan, rng = load_floor_plan(name), np.random.default_rng(1)
+    for _ in range(15):
+        start = sample_start(plan, BODY, rng)
+        for door in plan.scene.doors:
+            along, beside = to_local(start, door.midpoint)
+            assert abs(along) >= 0.9 or abs(beside) >= 2.0
 
 
 def test_in_the_middle_of_a_crossing_one_is_in_a_junction() -> None:

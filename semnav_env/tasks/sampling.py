@@ -21,7 +21,7 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.features.frames import Pose, wrap_angle
+from semnav_env.features.frames import Pose, to_local, wrap_angle
 from semnav_env.features.hallway import hallway
 from semnav_env.grounding import Goal, GoalKind, GroundingError
 from semnav_env.maps.floor_plan import FloorPlan
@@ -46,9 +46,12 @@ such place."""
 OUTSIDE = 0.6
 """And no junction within so much before or behind its centre, metres: about half a body."""
 
+ABEAM, ASIDE = 0.9, 2.0
+"""And the middle of no door within so much of its centre along its heading and across, metres."""
+
 
 def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator) -> Pose:
-    """A free pose in a corridor, looking along it; not across it or from inside a junction."""
+    """A free pose in a corridor, looking along it; not across it, in a junction or by a door."""
     corridors = floor_plan.corridors
     region = corridors[rng.integers(len(corridors))] if corridors else None
     for attempt in count():
@@ -56,8 +59,8 @@ def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generat
         axis = hallway(floor_plan.scene, pose).frame[2]
         start = (*pose[:2], wrap_angle(axis + rng.uniform(-0.2, 0.2)))
         along = looks_along(floor_plan, pose)
-        clear = (along and not in_junction(floor_plan, start)) or attempt >= START_TRIES
-        if clear and placement_error(floor_plan, robot, start) is None:
+        sees = along and not in_junction(floor_plan, start) and not beside_door(floor_plan, start)
+        if (sees or attempt >= START_TRIES) and placement_error(floor_plan, robot, start) is None:
             return start
     raise AssertionError("count() never ends")
 
@@ -78,6 +81,16 @@ def in_junction(floor_plan: FloorPlan, pose: Pose) -> bool:
     views = (hallway(floor_plan.scene, (x, y, heading + turn)) for turn in (0.0, math.pi))
     mouths = [o for view in views for junction in view.junctions for o in junction.openings]
     return any(mouth.near < OUTSIDE and mouth.far > -OUTSIDE for mouth in mouths)
+
+
+def beside_door(floor_plan: FloorPlan, pose: Pose) -> bool:
+    """Whether a door lies right beside a robot at a pose.
+
+    One jamb can then be out of the lidar's sight, so that a robot does not make out what who knows
+    the plan counts, or just does not count.
+    """
+    places = (to_local(pose, door.midpoint) for door in floor_plan.scene.doors)
+    return any(abs(along) < ABEAM and abs(beside) < ASIDE for along, beside in places)
 
 
 def sample_feasible(
