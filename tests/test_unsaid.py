@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from semnav_env.agents.evaluation.unsaid import follow, unsaid_trials
-from semnav_env.commands import parse
+from semnav_env.commands import Leave, parse
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
-from semnav_env.features.scene import Scene
+from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding import GroundingError, ground
-from semnav_env.grounding.surroundings import doors_around
+from semnav_env.grounding.surroundings import doors_around, of_one_room
 from semnav_env.maps import load_floor_plan
 from semnav_env.scripts.main import main
 from semnav_env.tasks.implicit import with_implicit_steps
@@ -27,6 +27,19 @@ WEST: Pose = (1.3, 9.1, 0.0)
 def inside(room: str, heading: float = 1.0) -> Pose:
     middle = PLAN.region(room).polygon.centroid
     return middle.x, middle.y, heading
+
+
+def test_only_the_nearest_wall_with_a_door_counts_where_walls_are_not_all_seen() -> None:
+    here: Pose = (0.0, 0.0, 0.0)
+    near, across = Door((2.0, 0.5), (2.0, 1.5)), Door((5.0, -0.5), (5.0, 0.5))
+    beside = Door((-1.0, -3.0), (0.0, -3.0))
+    assert of_one_room([near, across], here) == [near]
+    assert of_one_room([across, near, beside], here) == [near, beside]
+    assert of_one_room([across], here) == [across]
+    goal = ground(Leave(), Scene((), (across, near)), here)
+    assert goal.door == near
+    with pytest.raises(GroundingError, match="by which door"):
+        ground(Leave(), Scene((), (across, near)), here, complete=True)
 
 
 @pytest.mark.parametrize(

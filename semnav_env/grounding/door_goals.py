@@ -13,7 +13,7 @@ from semnav_env.features.scene import Door
 from semnav_env.grounding.doors import OUT_OF_DOORWAY, STAND_OFF, CountedDoor, find_door
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import GroundingError, Situation, turned
-from semnav_env.grounding.surroundings import doors_around
+from semnav_env.grounding.surroundings import doors_around, of_one_room
 
 
 def ground_door(clause: GoToDoor, situation: Situation) -> Goal:
@@ -45,6 +45,8 @@ def ground_leave(situation: Situation) -> Goal:
         door = doorway_at(situation.scene, inward)
     if door is None:
         around = doors_around(situation.scene, situation.begin)
+        if not situation.complete:
+            around = of_one_room(around, situation.begin)
         if not around and not situation.complete:
             return situation.turn_to(turned(situation.begin)[2], "the door of the room")
         if len(around) != 1:

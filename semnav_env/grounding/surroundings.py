@@ -13,6 +13,12 @@ from semnav_env.features.scene import Door, Scene, ends_of
 LOOKED_AT = (0.2, 0.5, 0.8)
 """Where in an opening one looks to see whether it is in view, as shares of its width."""
 
+FARTHER = 0.3
+"""So far behind the line of another door a door is in another wall, metres."""
+
+SELDOM = 4
+"""A door that was seen so many times less often than another one is doubtful beside it."""
+
 SHORT_OF = 0.98
 """How much of the way to it must be free: it begins in a wall."""
 
@@ -96,6 +102,27 @@ def _lies_across(door: Door, pose: Pose) -> bool:
 
 def _is_same(door: Door, other: Door) -> bool:
     return math.dist(door.midpoint, other.midpoint) < SAME
+
+
+def of_one_room(doors: list[Door], pose: Pose) -> list[Door]:
+    """Of the doors that a robot has made out around it those that lead out of the room.
+
+    What parts a room from its surroundings may not have been seen as a whole yet, so that doors
+    further on are in view: a door behind the line of another one is not the room's. Nor is one
+    that was seen far less often than another: a gap between pieces of furniture, mostly.
+    """
+    most = max((door.sightings for door in doors), default=0)
+    often = [door for door in doors if SELDOM * door.sightings >= most]
+    return [door for door in often if not any(_lies_behind(door, other, pose) for other in often)]
+
+
+def _lies_behind(door: Door, other: Door, pose: Pose) -> bool:
+    """Whether one door is on the far side of the line of another."""
+    (ax, ay), (bx, by) = other.start, other.end
+    dx, dy = (bx - ax) / other.width, (by - ay) / other.width
+    here = dx * (pose[1] - ay) - dy * (pose[0] - ax)
+    there = dx * (door.midpoint[1] - ay) - dy * (door.midpoint[0] - ax)
+    return here * there < 0.0 and abs(there) > FARTHER
 
 
 def _is_crossed(segments: FloatArray, pose: Pose, place: FloatArray) -> bool:
