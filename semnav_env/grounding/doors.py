@@ -189,6 +189,8 @@ def _check_order(reference: DoorReference, doors: list[CountedDoor], index: int)
 
 def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> bool:
     """Whether a stretch of the side ahead of the robot and before `until` is still unseen."""
+    if situation.has_come(until):
+        return False  # what cannot be seen from there, no looking will show
     lefts = {Side.LEFT: (True,), Side.RIGHT: (False,), Side.AHEAD: (), None: (True, False)}
     start = max(0.0, situation.progress)
     return any(math.isfinite(situation.hallway.unseen(left, start, until)) for left in lefts[side])

@@ -19,7 +19,10 @@ LOOK_AHEAD = 4.0
 END_MARGIN = 1.0
 """How far before the end of a hallway the robot's centre stops, metres."""
 
-AT_END = 1.7
+THERE = 0.45
+"""So near the place to look from a robot has come to it, metres."""
+
+AT_END = END_MARGIN + THERE
 """Within this distance of its end a hallway has been seen to its end, metres."""
 
 LOOKED_AT = math.radians(40.0)
@@ -93,9 +96,16 @@ class Situation:
         """
         if self.back and not self.looks_along(self.begin[2]):
             return self.turn_to(self.begin[2], what)
-        along = min(self.progress + LOOK_AHEAD, self.hallway.end - END_MARGIN, at_most)
+        along = min(self.progress + LOOK_AHEAD, self._farthest(at_most))
         pose = self.hallway.place(along)
         return Goal(GoalKind.SEEK, pose, because=f"looking for {what}", hallway=self.hallway)
+
+    def has_come(self, at_most: float) -> bool:
+        """Whether the robot has gone as far as `seek` would lead it."""
+        return self.progress > self._farthest(at_most) - THERE
+
+    def _farthest(self, at_most: float) -> float:
+        return min(self.hallway.end - END_MARGIN, at_most)
 
     def missing(self, what: str, count: int) -> GroundingError:
         """The error for something that is not there: "no third door: the hallway ended after 2".
