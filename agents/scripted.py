@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
 from semnav_env.agents.pilot import Pilot
-from semnav_env.agents.planning.obstacles import ObstacleMemory
-from semnav_env.features.frames import Pose, compose
+from semnav_env.agents.planning.obstacles import ObstacleMemory, points_of_segments
+from semnav_env.features.frames import Pose, compose, points_to_parent
 from semnav_env.lidar.spec import LidarSpec
 from semnav_env.observations import SeenGoal, table
 
 
 class ScriptedAgent:
-    """Drives to the goal that the robot makes out, around what its lidar has hit.
+    """Drives to the goal that the robot makes out, around what its lidar and its body have hit.
 
     Goal, odometry and scan come from the observation; body and lidar from `reset`.
     """
@@ -48,7 +48,9 @@ class ScriptedAgent:
         self._obstacles.update(compose(pose, mount), ranges, self._beams, limit)
         goal = SeenGoal.read(observation["goal"])
         doors = table(observation, "remembered_doors").astype(np.float64)
-        return self._pilot.act(self._obstacles.points(), doors, goal, pose, velocity)
+        felt = points_to_parent(pose, table(observation, "felt").reshape(-1, 2).astype(np.float64))
+        points = np.vstack((self._obstacles.points(), points_of_segments(felt.reshape(-1, 4))))
+        return self._pilot.act(points, doors, goal, pose, velocity)
 
 
 def read_odometry(observation: Observation) -> tuple[Pose, Pose]:

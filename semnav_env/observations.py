@@ -19,7 +19,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.commands import MAX_CLAUSES, token_space
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import FloatArray, Pose, points_to_local
 from semnav_env.features.kernels.door_memory import door_counts
 from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
 from semnav_env.features.kernels.scratch import Features
@@ -31,7 +31,7 @@ FAR = 1000.0
 REACH = 50.0
 """Bound of the places of features, metres."""
 
-N_WALLS, N_DOORS, N_CORNERS, N_CORRIDORS, N_REMEMBERED = 48, 16, 48, 24, 16
+N_WALLS, N_DOORS, N_CORNERS, N_CORRIDORS, N_REMEMBERED, N_FELT = 48, 16, 48, 24, 16, 16
 """Rows of each kind of feature; more are left out, in beam order."""
 
 _KINDS = len(GoalKind)
@@ -68,6 +68,7 @@ ENTRIES = (
     *_features("corners", N_CORNERS, 3, REACH),
     *_features("corridors", N_CORRIDORS, 2, REACH),
     *_features("remembered_doors", N_REMEMBERED, 4, FAR),
+    *_features("felt", N_FELT, 4, FAR),
     Entry("clause", MAX_CLAUSES, 0, 1),
     Entry("odometry", 7, -FAR, FAR),
     Entry("goal", GOAL_SIZE, -FAR, FAR),
@@ -83,7 +84,7 @@ _STARTS = dict(
 )
 _WALLS, _DOORS, _CORNERS = _STARTS["walls"], _STARTS["doors"], _STARTS["corners"]
 _CORRIDORS, _REMEMBERED = _STARTS["corridors"], _STARTS["remembered_doors"]
-_REST = _STARTS["clause"]
+_FELT, _REST = _STARTS["felt"], _STARTS["clause"]
 ROW_SIZE = sum(entry.size for entry in ENTRIES)
 
 _FEATURES = tuple(
@@ -151,7 +152,7 @@ def table(observation: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
 
     Args:
         observation: of the environment.
-        name: "walls", "doors", "corners", "corridors" or "remembered_doors".
+        name: "walls", "doors", "corners", "corridors", "remembered_doors" or "felt".
 
     Raises:
         ValueError: no such feature.
@@ -197,7 +198,7 @@ def write_remembered(
     row: NDArray[np.float32], doors: np.ndarray, used: int, pose: tuple[float, float, float]
 ) -> None:
     """Write the remembered doors that count, given in the odometry frame, in the robot frame."""
-    row[_REMEMBERED:_REST] = 0.0
+    row[_REMEMBERED:_FELT] = 0.0
     c, s = math.cos(pose[2]), -math.sin(pose[2])
     x, y = -(c * pose[0] - s * pose[1]), -(s * pose[0] + c * pose[1])
     k = 0
@@ -207,6 +208,14 @@ def write_remembered(
             _write_ends(row, _REMEMBERED + 4 * k, door, x, y, c, s)
             row[_REMEMBERED + 4 * N_REMEMBERED + k] = 1.0
             k += 1
+
+
+def write_felt(row: NDArray[np.float32], walls: FloatArray, pose: Pose) -> None:
+    """Write walls that were felt, given in the odometry frame, in the robot frame, shape (n, 4)."""
+    row[_FELT:_REST] = 0.0
+    n = min(len(walls), N_FELT)
+    row[_FELT : _FELT + 4 * n] = points_to_local(pose, walls[:n].reshape(-1, 2)).ravel()
+    row[_FELT + 4 * N_FELT : _FELT + 4 * N_FELT + n] = 1.0
 
 
 @njit(cache=True, error_model="numpy")

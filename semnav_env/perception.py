@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
@@ -18,8 +18,9 @@ from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.ways import Told, Way
 from semnav_env.lidar.lidar import Lidar
-from semnav_env.observations import ROW_SIZE, door_ends, write_state
+from semnav_env.observations import ROW_SIZE, door_ends, write_felt, write_state
 from semnav_env.senses import Senses, join_senses, observe
+from semnav_env.touch import Felt, Touch
 
 LOOK_EVERY, TURN_EVERY = 1.5, 0.5
 """A clause is grounded anew after so many metres, or so many radians, on the way."""
@@ -35,6 +36,7 @@ FIRST_SCANS = 3
 
 NO_WAYS: Mapping[int, Way] = MappingProxyType({})
 ORIGIN: Pose = (0.0, 0.0, 0.0)
+NOWHERE: Pose = (math.inf, math.inf, 0.0)
 
 
 class Perception:
@@ -50,6 +52,7 @@ class Perception:
         ranges: of this step's scan, metres.
         senses: all of these arrays, as the kernels take them.
         memory: what was seen so far, odometry frame.
+        felt: walls that were run into unseen, odometry frame.
         follower: how far the command has come, as the robot sees it.
     """
 
@@ -60,6 +63,7 @@ class Perception:
         self.ranges = np.zeros(beams)
         self.features = allocate_features()
         self.memory = SceneMemory()
+        self.felt = Felt(lidar.spec, lidar.mount)
         self._beams = np.ascontiguousarray(lidar.spec.directions.T)
         self._record = settings.as_record()
         self._scratch = allocate_scratch(beams)
@@ -96,6 +100,8 @@ class Perception:
             start: pose, world frame: the origin of the odometry frame.
         """
         self.memory.clear()
+        self.felt.clear()
+        write_felt(self.row, self.felt.ends, ORIGIN)
         guide = Told({clause: way.seen_from(start) for clause, way in ways.items()})
         self.follower = Follower(command, care=0.5, jamb_margin=0.3, guide=guide)
         self._started = False
@@ -103,7 +109,12 @@ class Perception:
         self._looked_at, self._looked_on = 0, (0, 0)
 
     def sense(
-        self, true_pose: Pose, odometry: Pose, velocity: Pose, key: tuple[int, int, int]
+        self,
+        true_pose: Pose,
+        odometry: Pose,
+        velocity: Pose,
+        key: tuple[int, int, int],
+        touches: Sequence[Touch] = (),
     ) -> None:
         """Take a scan and think about it; afterwards `row` is the observation.
 
@@ -112,8 +123,13 @@ class Perception:
             odometry: the same as the robot believes, in the odometry frame.
             velocity: forward, left (m/s) and turning (rad/s), robot frame.
             key: (seed, episode, step) of the noise.
+            touches: what the robot touches.
         """
         observe(self.senses, true_pose, odometry, key)
+        if touches and self.felt.note(touches, self.ranges, odometry):
+            self._looked_from = NOWHERE
+        if self.felt:
+            write_felt(self.row, self.felt.ends, odometry)
         self._think(odometry, math.hypot(velocity[0], velocity[1]), key[2])
         follower = self.follower
         goal = follower.goal.towards(odometry)
@@ -148,7 +164,7 @@ class Perception:
 
     def scene(self) -> Scene:
         """What is remembered, in the odometry frame."""
-        return self.memory.scene()
+        return self.felt.join(self.memory.scene())
 
     def _should_look(self, pose: Pose, step: int) -> bool:
         x, y, heading = self._looked_from

@@ -11,7 +11,7 @@ import numpy as np
 import pymunk
 
 from semnav_env.dynamics import OFF, Dynamics, Moving
-from semnav_env.features.frames import FloatArray, Pose, wrap_angle
+from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_angle
 from semnav_env.lidar.moving import NOTHING
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
@@ -22,6 +22,9 @@ from semnav_env.world.standing import clearance, standing_error
 FINE = 20
 """Substeps where something else moves: a robot's corner then gets less than a centimetre into
 somebody before the contact is felt."""
+
+MOST_TOUCHES = 8
+"""Of a step's touches only the first so many are looked at: substeps repeat them."""
 
 
 @dataclass(frozen=True)
@@ -105,6 +108,7 @@ class World:
             raise ValueError(problem)
         self._start, self._seed, self._journal = start, seed, array("d")
         self._impulses: list[float] = []
+        self._touched: list[tuple[Point, float]] = []
         self._build(start)
         self._settle()
 
@@ -123,7 +127,7 @@ class World:
         command = _finite(velocity, "velocity", "(forward, left, turn)")
         self._require_reset()
         self._journal.extend(command)
-        self._impulses = []
+        self._impulses, self._touched = [], []
         if self.moving is None:
             self._drive(command)
             self._settle()
@@ -165,6 +169,18 @@ class World:
         return bool(self._impulses)
 
     @property
+    def touches(self) -> list[Pose]:
+        """Where the robot touched something during the last step, robot frame.
+
+        x and y in metres, and the direction from there into what is touched, radians.
+        """
+        pose = self.pose
+        return [
+            (*to_local(pose, place), wrap_angle(inward - pose[2]))
+            for place, inward in self._touched
+        ]
+
+    @property
     def moving_shapes(self) -> tuple[FloatArray, FloatArray]:
         """Discs of people, shape (n, 3), and leaves, shape (m, 4), as a lidar takes them."""
         return NOTHING if self.moving is None else self.moving.shapes
@@ -203,6 +219,10 @@ class World:
 
     def _touch(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         self._impulses.append(arbiter.total_impulse.length)
+        if len(self._touched) < MOST_TOUCHES:
+            met = arbiter.contact_point_set
+            inward = met.normal if arbiter.bodies[0] is self._body else -met.normal
+            self._touched += [(point.point_b, inward.angle) for point in met.points]
 
     def _drive(self, command: tuple[float, float, float]) -> None:
         """Demand one velocity for a control period.

@@ -1,0 +1,159 @@
+"""What is run into but not seen: when it becomes a wall, and what robots make of it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from semnav_env.agents.registry import make_agent
+from semnav_env.env import SemNavEnv
+from semnav_env.features.frames import Pose, points_to_parent, to_parent
+from semnav_env.features.scene import Door, Scene
+from semnav_env.lidar.spec import lidar_spec
+from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
+from semnav_env.observations import table
+from semnav_env.robots import ROBOTS
+from semnav_env.touch import MOST, PIECE, Felt, Touch
+from tests.small_plans import closed, plan_of
+
+SPEC = lidar_spec("tim561")
+HERE: Pose = (0.0, 0.0, 0.0)
+FRONT: Touch = (0.6, 0.0, 0.0)
+NOTHING_NEAR = np.full(SPEC.beams, 5.0)
+
+poses = st.tuples(st.floats(-9, 9), st.floats(-9, 9), st.floats(-math.pi, math.pi))
+
+
+def felt() -> Felt:
+    return Felt(SPEC, HERE)
+
+
+def pane_across(east: float = 6.0) -> FloorPlan:
+    """A hallway along x, 3 m wide, with a pane across its left half."""
+    return plan_of(
+        closed((0, -1.5), (12, -1.5), (12, 1.5), (0, 1.5)),
+        Surface(((east, -0.2), (east, 1.5)), Material.GLASS),
+    )
+
+
+@given(poses)
+def test_a_touch_that_the_lidar_sees_through_is_a_wall_across_it(odometry: Pose) -> None:
+    known = felt()
+    assert known.note([FRONT], NOTHING_NEAR, odometry)
+    (ends,) = known.ends.reshape(-1, 2, 2)
+    expected = points_to_parent(odometry, np.array([(0.6, -PIECE / 2), (0.6, PIECE / 2)]))
+    np.testing.assert_allclose(ends, expected, atol=1e-9)
+
+
+@pytest.mark.parametrize("distance", [0.1, 0.6, 0.8, -math.inf])
+def test_what_the_lidar_sees_is_not_felt_as_well(distance: float) -> None:
+    known = felt()
+    assert not known.note([FRONT], np.full(SPEC.beams, distance), HERE)
+    assert len(known) == 0
+
+
+def test_where_no_beam_looks_one_cannot_tell() -> None:
+    known = felt()
+    assert not known.note([(-0.6, 0.0, math.pi)], NOTHING_NEAR, HERE)
+
+
+@given(poses, st.floats(-0.75, 0.75))
+def test_pieces_that_no_robot_gets_between_are_one(odometry: Pose, aside: float) -> None:
+    known = felt()
+    known.note([FRONT], NOTHING_NEAR, odometry)
+    known.note([(0.6, aside, 0.0)], NOTHING_NEAR, odometry)
+    assert len(known) == 1
+    length = math.dist(known.ends[0, :2], known.ends[0, 2:])
+    assert length == pytest.approx(PIECE + abs(aside), abs=1e-6)
+
+
+@given(poses)
+def test_pieces_farther_apart_or_at_an_angle_stay_two(odometry: Pose) -> None:
+    for other in ((0.6, 1.0, 0.0), (0.6, 0.1, 0.6), (1.0, 0.0, 0.0)):
+        known = felt()
+        known.note([FRONT, other], NOTHING_NEAR, odometry)
+        assert len(known) == 2
+
+
+def test_so_many_pieces_are_known_and_the_oldest_goes_first() -> None:
+    known = felt()
+    for k in range(MOST + 3):
+        known.note([FRONT], NOTHING_NEAR, (2.0 * k, 0.0, 0.0))
+    assert len(known) == MOST
+    assert known.ends[:, 0].min() == pytest.approx(2.0 * 3 + 0.6)
+
+
+@given(poses)
+def test_a_door_that_was_run_into_is_none_and_the_one_beside_it_still_is(odometry: Pose) -> None:
+    def door(low: float, high: float) -> Door:
+        return Door(to_parent(odometry, (0.6, low)), to_parent(odometry, (0.6, high)))
+
+    barred, beside, behind = (
+        door(-0.5, 0.5),
+        door(0.15, 1.1),
+        Door(*[to_parent(odometry, p) for p in ((0.6, -0.5), (1.5, -0.5))]),
+    )
+    known = felt()
+    known.note([FRONT], NOTHING_NEAR, odometry)
+    scene = known.join(Scene((), (barred, beside, behind)))
+    assert scene.doors == (beside, behind)
+    assert len(scene.walls) == 1
+
+
+def test_nothing_felt_changes_nothing() -> None:
+    scene = Scene((), (Door((1.0, 0.0), (2.0, 0.0)),))
+    assert felt().join(scene) is scene
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_a_robot_feels_a_pane_once_it_has_run_into_it_and_forgets_it_with_the_episode(
+    robot: str,
+) -> None:
+    env = SemNavEnv(robot, pane_across())
+    options = {"pose": (3.0, 0.5, 0.0), "command": "go down the hallway"}
+    observation, _ = env.reset(seed=1, options=options)
+    forward = np.zeros(env.action_space.shape, np.float32)
+    forward[0] = 1.0
+    info = {"in_contact": False}
+    while not info["in_contact"]:
+        assert len(table(observation, "felt")) == 0
+        observation, _, _, _, info = env.step(forward)
+    (piece,) = table(observation, "felt")
+    front = env.robot.length / 2
+    assert piece[[0, 2]] == pytest.approx(front, abs=0.05)
+    assert env.observation_space.contains(observation)
+    observation, _ = env.reset(seed=1, options=options)
+    assert len(table(observation, "felt")) == 0
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_a_robot_feels_no_wall_that_it_sees(robot: str) -> None:
+    env = SemNavEnv(robot, pane_across())
+    env.reset(seed=1, options={"pose": (10.5, 0.0, 0.0), "command": "turn around"})
+    forward = np.zeros(env.action_space.shape, np.float32)
+    forward[0] = 1.0
+    touched = False
+    for _ in range(60):
+        observation, _, _, _, info = env.step(forward)
+        touched |= info["in_contact"]
+        assert len(table(observation, "felt")) == 0
+    assert touched
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_the_scripted_agent_finds_its_way_around_a_pane(robot: str) -> None:
+    agent = make_agent("scripted")
+    env = SemNavEnv(robot, pane_across(), observation=agent.observation)
+    command = "go down the hallway until the end of the hallway"
+    observation, info = env.reset(seed=1, options={"pose": (2.0, 0.5, 0.0), "command": command})
+    agent.reset(info)
+    over = False
+    while not over:
+        observation, _, over, truncated, info = env.step(agent.act(observation))
+        over |= truncated
+    assert info["is_success"]
+    assert len(table(observation, "felt")) > 0
