@@ -58,7 +58,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     | corners, corners_mask | 48 * 3, 48 | x, y, kind: 0 outer, 1 inner, 2 potential |
     | corridors, corridors_mask | 24 * 2, 24 | x, y of midpoints of corridor entrances |
     | remembered_doors, .._mask | 16 * 4, 16 | doors seen in three or more scans so far |
-    | felt, felt_mask | 16 * 4, 16 | x, y of ends of unseen walls that were run into, such as glass |
+    | felt, felt_mask | 16 * 4, 16 | x, y of ends of what was run into unseen, such as glass |
     | command | 8 * 5 | the command as tokens, see `commands.tokens.encode` |
     | clause | 8 | one-hot: the clause that the robot believes to be under way |
     | odometry | 7 | x, y, cosine and sine of heading; speed forward, left and turning |

@@ -22,6 +22,7 @@ from semnav_env.commands import (
     parse,
     readings,
 )
+from semnav_env.directory import Directory
 from semnav_env.episodes import SPLITS
 from semnav_env.episodes.doubts import Doubts, exits
 from semnav_env.episodes.drafts import Drafter
@@ -30,8 +31,9 @@ from semnav_env.episodes.random_clauses import Verb
 from semnav_env.episodes.wording import worded
 from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.hallway import hallway
+from semnav_env.grounding import GoalKind
 from semnav_env.maps import load_floor_plan
-from semnav_env.maps.placement import is_clear
+from semnav_env.maps.placement import is_clear, placement_error
 from semnav_env.recheck import recheck
 from semnav_env.tasks.sampling import LEAST_AHEAD, WIDEST_HALF, in_junction, sample_start
 from semnav_env.verifier import Verdict, Verifier, plan_goals
@@ -65,6 +67,20 @@ def test_no_start_is_right_beside_a_door(name: str) -> None:
         for door in plan.scene.doors:
             along, beside = to_local(start, door.midpoint)
             assert abs(along) >= 0.9 or abs(beside) >= 2.0
+
+
+def test_every_body_can_face_the_door_that_it_is_told_to_go_to() -> None:
+    """In the measured hallway no wheelchair can face one of the doors from 0.9 m before it."""
+    plan = load_floor_plan("heidelberg_hallway")
+    site = Site(plan, "heidelberg_hallway")
+    for number in range(0, 40, 2):
+        episode = generate_episode(site, SPLITS["test_real"], number)
+        command = parse(episode.readings[0], episode.language, plan.room_names)
+        for goal in plan_goals(
+            plan, command, episode.start, Directory(plan, command, site.geodesic)
+        ):
+            if goal.kind is GoalKind.REACH and goal.distance_tolerance < 1.0:
+                assert placement_error(plan, BODY, goal.pose) is None
 
 
 def test_in_the_middle_of_a_crossing_one_is_in_a_junction() -> None:

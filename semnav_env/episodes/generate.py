@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -22,6 +23,7 @@ from semnav_env.episodes.splits import SEED, Split
 from semnav_env.episodes.walk import carries_out
 from semnav_env.episodes.wording import worded
 from semnav_env.features.frames import FloatArray, Point, Pose
+from semnav_env.grounding import Goal, GoalKind
 from semnav_env.grounding.surroundings import doors_around
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
@@ -48,6 +50,9 @@ SHORTEST, LONGEST = 1.5, 120.0
 
 NEAR = 0.3
 """A body must get so near to every goal, metres."""
+
+EXACT = 1.0
+"""A goal with a smaller tolerance says exactly where to be, metres."""
 
 SIMPLE = 0.05
 """True routes are simplified by at most so much, metres."""
@@ -233,8 +238,19 @@ def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | Non
     places = [shapely.Point(place(goal)) for goal in verifier.planned_goals]
     if not all(site.reach.near(point, NEAR) for point in places):
         return None
+    if not all(_has_room(site.plan, goal) for goal in verifier.planned_goals):
+        return None
     route = _simple(verifier.route)
     return route if carries_out(verifier) else None
+
+
+def _has_room(plan: FloorPlan, goal: Goal) -> bool:
+    """Whether every body can stand at a goal that says exactly where, and which way to look."""
+    exact = goal.kind is GoalKind.REACH and goal.distance_tolerance < EXACT
+    return (
+        not (exact and goal.heading_tolerance < math.pi)
+        or placement_error(plan, BODY, goal.pose) is None
+    )
 
 
 def _simple(route: FloatArray) -> tuple[Point, ...]:
