@@ -15,7 +15,7 @@ from semnav_env.agents.evaluation import SUITES, Result, asked, runner, suite, s
 from semnav_env.agents.evaluation.suites import Trial
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Expected, load_episodes
+from semnav_env.episodes import Expected, load_episodes, write_episodes
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.metrics import COLUMNS, Metrics
@@ -127,11 +127,13 @@ def test_a_split_is_evaluated_by_its_clauses_and_failures_are_told_by_their_epis
 
 
 def test_standing_still_is_no_answer_unless_the_robot_says_why(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """On the truth the robot knows at once that a one-clause command is impossible, and says so."""
     monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
-    assert main(["evaluate", "test_infeasible", "--episodes", "1", "--json"]) == 0
+    file = tmp_path / "short.jsonl"
+    write_episodes([e for e in load_episodes("test_infeasible") if e.clauses == 1][:1], file)
+    assert main(["evaluate", str(file), "--json"]) == 0
     *_, everything = json.loads(capsys.readouterr().out)
     assert (everything["success"], everything["failures"]) == (1.0, [])
     episode = replace(load_episodes("test_real")[0], expected=Expected.INFEASIBLE)

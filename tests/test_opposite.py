@@ -139,8 +139,8 @@ def test_who_has_turned_and_sees_none_goes_that_way_and_looks_on() -> None:
 
 def test_who_has_looked_all_the_way_back_says_what_there_is() -> None:
     follower = look("go through the fourth door behind you", BEHIND, (8, 0, 3.1), (8, 0, 0))
-    follower.advance(lambda: BEHIND, (-1.5, 0.0, 3.1), 0.5)
-    follower.look(BEHIND, (-1.5, 0.0, 3.1))
+    follower.advance(lambda: BEHIND, (-1.6, 0.0, 3.1), 0.5)
+    follower.look(BEHIND, (-1.6, 0.0, 3.1))
     assert follower.impossible == "no fourth door behind you: the hallway ended after 3"
 
 
