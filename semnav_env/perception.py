@@ -18,7 +18,8 @@ from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.ways import Told, Way
 from semnav_env.lidar.lidar import Lidar
-from semnav_env.observations import ROW_SIZE, door_ends, write_felt, write_state
+from semnav_env.observation_row import door_ends, write_felt, write_state
+from semnav_env.observations import ROW_SIZE
 from semnav_env.senses import Senses, join_senses, observe
 from semnav_env.touch import Felt, Touch
 

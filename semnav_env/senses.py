@@ -18,7 +18,8 @@ from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.memory import remember
 from semnav_env.lidar.lidar import sense
-from semnav_env.observations import ROW_SIZE, write_features, write_remembered, write_scan
+from semnav_env.observation_row import write_features, write_remembered, write_scan
+from semnav_env.observations import ROW_SIZE
 
 
 @structref.register
