@@ -24,6 +24,25 @@ def two_rooms():
     return grey
 
 
+def narrowing(folder):
+    """Two rooms and a door of 0.6 m, which straightening would narrow to less than 0.5 m.
+
+    Its jambs lie a pixel behind the rough faces of two cabinets and are put on one line with them.
+    """
+    grey = two_rooms()
+    grey[12:21, 32:35] = SOLID
+    grey[13:19, 32:35] = FREE
+    for rows, rough, columns in ((slice(13), 13, slice(6, 22)), (slice(19, 34), 18, slice(44, 60))):
+        grey[rows, columns] = SOLID
+        grey[rough, columns.start : columns.stop : 2] = SOLID
+    (folder / "locations.yaml").write_text(PLACES)
+    (folder / "doors.yaml").write_text(
+        "- {name: narrow, door_corner_pt_1: [3.2, 1.35], door_corner_pt_2: [3.15, 2.1], "
+        "approach: [{from: west, point: [2, 2, 0]}]}\n"
+    )
+    return write_map(folder, grey, resolution=0.095)
+
+
 DOORS = """
 - name: between
   door_corner_pt_1: [3.4, 1.2]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,16 +18,15 @@ from shapely.affinity import rotate, translate
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.maps import FloorPlan, PlanDoor, Surface
-from semnav_env.maps.importers import Tracing, building, import_map, trace
+from semnav_env.maps import FloorPlan, Material, PlanDoor, Surface
+from semnav_env.maps.importers import Tracing, import_map
 from semnav_env.maps.importers.building_doors import with_walls
 from semnav_env.maps.importers.directions import dominant_direction
 from semnav_env.maps.importers.outlines import outlines
 from semnav_env.maps.importers.straighten import straighten
 from semnav_env.maps.rules import FloorPlanError
 from semnav_env.scripts import main as cli
-from tests.drawn_maps import DOORS, PLACES, two_rooms, write_map
-from tests.test_importers import pixels_of
+from tests.drawn_maps import narrowing, two_rooms, write_map
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 SIZE = 300
@@ -164,10 +164,13 @@ def test_the_walls_on_both_sides_of_a_door_get_one_line(seed: int) -> None:
 @pytest.mark.parametrize("solid", [np.ones((1, 1), bool), np.eye(4, dtype=bool)])
 def test_specks_stay_as_they_are(solid: NDArray[np.bool_]) -> None:
     rings = outlines(solid, 0.5)
-    assert dominant_direction(rings) == pytest.approx(0.0) or len(solid) > 1
     straight = straighten(rings, BOUND)
     assert straight.lines == straight.segments == 0
     np.testing.assert_allclose(straight.rings[0], rings[0], atol=1e-9)
+
+
+def test_a_single_pixel_has_the_direction_of_the_image() -> None:
+    assert dominant_direction(outlines(np.ones((1, 1), bool), 0.5)) == pytest.approx(0.0)
 
 
 def test_straightening_is_reported_and_can_be_switched_off(
@@ -196,34 +199,42 @@ def test_walls_are_straight_in_the_world_however_the_map_lies_in_it(tmp_path: Pa
 
 
 def test_jambs_follow_their_walls_and_a_door_that_gets_too_narrow_is_refused() -> None:
-    def walls(gap: float) -> FloorPlan:
-        sides = Surface(((0.0, 0.0), (2.0, 0.0))), Surface(((2.0 + gap, 0.0), (5.0, 0.0)))
+    def walls(gap: float, y: float = 0.0) -> FloorPlan:
+        sides = Surface(((0.0, y), (2.0, y))), Surface(((2.0 + gap, y), (5.0, y)))
         return FloorPlan("walls", sides, (), (), (), (), box(-1, -1, 6, 1))
 
-    doors = (PlanDoor("door", (2.0, 0.03), (2.9, -0.02)),)
+    doors = (PlanDoor("door", (2.0, 0.0), (2.9, 0.0)),)
     plan = FloorPlan("plan", walls(0.9).surfaces, doors, (), (), (), box(-1, -1, 6, 1))
-    (door,) = with_walls(plan, walls(0.95)).doors
-    assert (door.start, door.end) == ((2.0, 0.0), (2.95, 0.0))
+    (door,) = with_walls(plan, walls(0.95, 0.03)).doors
+    assert (door.start, door.end) == ((2.0, 0.03), (2.95, 0.03))
     with pytest.raises(FloorPlanError, match=r"leaves only 0\.40 m"):
         with_walls(plan, walls(0.4))
 
 
-def test_walls_stay_as_traced_rather_than_narrow_a_door(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    path = write_map(tmp_path, np.where(rough(two_rooms() == 0, 3, 0.1), 0, 254))
-    (tmp_path / "doors.yaml").write_text(DOORS)
-    (tmp_path / "locations.yaml").write_text(PLACES)
-    as_traced = import_map(path, tracing=Tracing(straighten=0.0)).plan
-    assert import_map(path).plan != as_traced
+def test_leaves_of_closed_doors_reach_from_wall_to_wall_and_are_no_jambs() -> None:
+    """A closed door and an open one beside it share a pier, which straightening moves."""
 
-    def refuse(plan: FloorPlan, straight: FloorPlan) -> FloorPlan:
-        raise FloorPlanError("door 'between' is open, but leaves only 0.40 m")
+    def plan(y: float, *more: Surface, doors: tuple[PlanDoor, ...] = ()) -> FloorPlan:
+        walls = [((0.0, y), (1.0, y)), ((2.0, y), (2.0, 1.0)), ((2.9, y), (5.0, y))]
+        surfaces = *(Surface(wall) for wall in walls), *more
+        return FloorPlan("plan", surfaces, doors, (), (), (), box(-1, -1, 6, 2))
 
-    monkeypatch.setattr(building, "with_walls", refuse)
+    closed = PlanDoor("closed", (1.0, 0.0), (2.0, 0.0), open=False)
+    opened = PlanDoor("open", (2.0, 0.0), (2.9, 0.0))
+    leaf = Surface((closed.start, closed.end), Material.LEAF)
+    straight = with_walls(plan(0.0, leaf, doors=(closed, opened)), plan(0.06))
+    moved = replace(closed, start=(1.0, 0.06), end=(2.0, 0.06))
+    assert straight.doors == (moved, replace(opened, start=(2.0, 0.06), end=(2.9, 0.06)))
+    assert straight.surfaces[-1] == Surface((moved.start, moved.end), Material.LEAF)
+    assert len(straight.surfaces) == 4
+
+
+def test_walls_stay_as_traced_rather_than_narrow_a_door(tmp_path: Path) -> None:
+    path = narrowing(tmp_path)
     plan, report = import_map(path)
-    assert plan == as_traced
-    assert "walls are left as traced" in report.notes[-2] + report.notes[-1]
+    assert plan == import_map(path, tracing=Tracing(straighten=0.0)).plan
+    assert [door.name for door in plan.doors if door.open] == ["narrow"]
+    assert any("walls are left as traced" in note for note in report.notes)
 
 
 @pytest.mark.parametrize("floor", ["2", "3ne"])
@@ -239,4 +250,3 @@ def test_no_door_of_a_real_floor_opens_or_closes(floor: str) -> None:
     for door, before in zip(straight.doors, as_traced.doors, strict=True):
         assert math.dist(door.start, before.start) <= bound
         assert math.dist(door.end, before.end) <= bound
-    assert trace(pixels_of(np.eye(3, dtype=bool))).plan.doors == ()

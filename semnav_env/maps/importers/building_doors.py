@@ -6,9 +6,10 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
+import numpy as np
 import shapely
 
-from semnav_env.features.frames import Point
+from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 from semnav_env.maps.importers.fitting import fit_door
 from semnav_env.maps.importers.gaps import APART, find_doorways
@@ -41,38 +42,62 @@ def with_doors(
             doors[label.name] = door
     for door in _further(plan, labels, doors, is_free) if is_free else ():
         doors[door.name] = door
-    closed = [door for door in doors.values() if not door.open]
-    leaves = [Surface((door.start, door.end), Material.LEAF) for door in closed]
-    surfaces = (*plan.surfaces, *leaves)
-    return replace(plan, surfaces=surfaces, doors=tuple(doors.values())), tuple(lost)
+    return _hung(plan, tuple(doors.values())), tuple(lost)
 
 
 def with_walls(plan: FloorPlan, straight: FloorPlan) -> FloorPlan:
     """The plan with other walls, which lie within some centimetres of its own.
 
-    The jambs of its open doors go to the nearest point of these walls; a closed door has its leaf.
+    The jambs of its doors go along with the walls beside them, and the leaves with the jambs.
 
     Args:
-        plan: with doors and leaves.
-        straight: the same walls, straightened.
+        plan: with doors.
+        straight: the same walls without leaves, straightened.
 
     Raises:
         FloorPlanError: these walls leave too narrow a way through a door.
     """
-    leaves = [surface for surface in plan.surfaces if surface.material is Material.LEAF]
-    moved = replace(plan, surfaces=(*straight.surfaces, *leaves), doors=())
-    doors = [_onto(door, moved) if door.open else door for door in plan.doors]
-    for door in doors:
+    walls = without_leaves(plan)
+    doors = tuple([moved_along(door, walls, straight) for door in plan.doors])
+    moved = _hung(replace(walls, surfaces=straight.surfaces), doors)
+    for door in moved.doors:
         check_doorway(door, moved)
-    return replace(moved, doors=tuple(doors))
+    return moved
 
 
-def _onto(door: PlanDoor, plan: FloorPlan) -> PlanDoor:
-    """The door with each jamb on the nearest wall."""
-    jambs = shapely.points((door.start, door.end))
-    walls = plan.solids.geometries[plan.solids.nearest(jambs)]
-    (x1, y1), (x2, y2) = shapely.get_coordinates(shapely.shortest_line(walls, jambs))[::2].tolist()
+def _hung(walls: FloorPlan, doors: tuple[PlanDoor, ...]) -> FloorPlan:
+    """The walls with doors, and with a leaf from jamb to jamb of those that are closed."""
+    leaves = [Surface((door.start, door.end), Material.LEAF) for door in doors if not door.open]
+    return replace(walls, surfaces=(*walls.surfaces, *leaves), doors=doors)
+
+
+def without_leaves(plan: FloorPlan) -> FloorPlan:
+    """The walls of a plan: no doors and no leaves."""
+    walls = tuple([each for each in plan.surfaces if each.material is not Material.LEAF])
+    return replace(plan, surfaces=walls, doors=())
+
+
+def moved_along(door: PlanDoor, before: FloorPlan, after: FloorPlan) -> PlanDoor:
+    """A door whose jambs go along with the nearest walls.
+
+    So a jamb on a wall stays on it, and one that somebody marked beside a wall stays beside it.
+
+    Args:
+        door: among the walls as they were.
+        before: those walls, without leaves.
+        after: the same walls, somewhat moved, without leaves.
+    """
+    jambs = np.array((door.start, door.end))
+    there = _nearest(before, jambs)
+    (x1, y1), (x2, y2) = (_nearest(after, there) + (jambs - there)).tolist()
     return replace(door, start=(x1, y1), end=(x2, y2))
+
+
+def _nearest(walls: FloorPlan, places: FloatArray) -> FloatArray:
+    """The points of walls that are nearest to places, both of shape (n, 2)."""
+    points = shapely.points(places)
+    lines = walls.solids.geometries[walls.solids.nearest(points)]
+    return np.asarray(shapely.get_coordinates(shapely.shortest_line(lines, points))[::2])
 
 
 def _labelled(label: DoorLabel, plan: FloorPlan) -> PlanDoor:
