@@ -8,8 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.evaluation.buildings import building_row, find_buildings, look_around
+from semnav_env.evaluation.buildings import (
+    building_row,
+    find_buildings,
+    labelled,
+    look_around,
+)
 from semnav_env.evaluation.false_doorways import false_doorways
+from semnav_env.evaluation.map_doorways import map_row
 from semnav_env.evaluation.plan_openings import openings_of
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.scene import Door
@@ -17,7 +23,7 @@ from semnav_env.maps.floor_plan import PlanDoor
 from semnav_env.maps.importers import read_occupancy
 from semnav_env.maps.importers.segments import plan_of_segments
 from semnav_env.scripts import main as cli
-from tests.drawn_maps import DOORS, FREE, PLACES, SOLID, write_map
+from tests.drawn_maps import DOORS, FREE, PLACES, SOLID, narrowing, write_map
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 
@@ -147,6 +153,12 @@ def test_a_doorway_is_false_if_one_gets_around_it_with_all_of_them_sealed(tmp_pa
     assert false_doorways(halves, (), pixels) == ()
     assert false_doorways(halves[:1], halves[1:], pixels) == ()
     assert false_doorways(halves[:1], (), pixels) == halves[:1]
+
+
+def test_doorways_count_as_found_where_straight_walls_would_narrow_them(tmp_path):
+    building = labelled(narrowing(tmp_path))
+    row = map_row("narrow", building, building.pixels)
+    assert row[:-1] == ("narrow", 1, 1, 1.0, 1, 0, 0, 0.0)
 
 
 def test_bad_arguments_are_refused(data, capsys):

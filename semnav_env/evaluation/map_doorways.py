@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 
 from semnav_env.evaluation.buildings import Building
 from semnav_env.evaluation.door_sightings import matches
@@ -13,21 +12,22 @@ from semnav_env.evaluation.false_doorways import false_doorways
 from semnav_env.evaluation.sheets import Cell, Sheet
 from semnav_env.maps.floor_plan import PlanDoor
 from semnav_env.maps.importers import OccupancyMap, Tracing, trace
-from semnav_env.maps.importers.building_doors import with_walls
+from semnav_env.maps.importers.building_doors import moved_along, without_leaves
 from semnav_env.maps.importers.gaps import APART, find_doorways
 
 
 def map_row(name: str, building: Building, pixels: OccupancyMap) -> tuple[Cell, ...]:
     """How many of the labelled open doors are found, what else is found, and what of it is false.
 
-    The importer looks for gaps between places in the walls as traced (`find_doorways`) and puts
-    them on the straightened ones (`with_walls`); `false_doorways` judges them.
+    The importer looks for gaps between places in the walls as traced (`find_doorways`), which takes
+    the seconds of the row, and moves them along with the walls (`moved_along`) as these are in the
+    building's plan; `false_doorways` judges them.
     """
+    traced, walls = trace(pixels, Tracing(straighten=0.0)).plan, without_leaves(building.plan)
     begin = time.perf_counter()
-    traced = trace(pixels, Tracing(straighten=0.0)).plan
-    doorways = find_doorways(building.plan.regions, traced.solids, pixels.is_free)
-    found = with_walls(replace(traced, doors=doorways), trace(pixels).plan).doors
+    doorways = find_doorways(walls.regions, traced.solids, pixels.is_free)
     seconds = time.perf_counter() - begin
+    found = [moved_along(doorway, traced, walls) for doorway in doorways]
     hits = sum(any(matches(f.as_door(), d.start, d.end) for f in found) for d in building.doors)
     middles = [door.midpoint for door in building.doors]
     further = sum(all(math.dist(f.midpoint, middle) > APART for middle in middles) for f in found)
