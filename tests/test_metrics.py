@@ -358,3 +358,23 @@ def test_arrays_that_do_not_fit_are_named() -> None:
         Recording(np.full((1, 3), np.nan), np.zeros((1, 3)), np.zeros(1, int), np.zeros(1), 0.1)
     with pytest.raises(ValueError, match="period"):
         Recording(np.zeros((1, 3)), np.zeros((1, 3)), np.zeros(1, int), np.zeros(1), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("people", "leaves", "name"),
+    [
+        (np.zeros((2, 4)), None, "people"),
+        (np.zeros((2, 4, 2)), None, "people"),
+        (np.zeros((3, 4, 3)), None, "people"),
+        (np.full((2, 1, 3), np.nan), None, "people"),
+        (None, np.zeros((2, 2)), "leaves"),
+        (None, np.full((1, 4), np.inf), "leaves"),
+    ],
+)
+def test_people_and_leaves_that_do_not_fit_are_named(
+    people: FloatArray | None, leaves: FloatArray | None, name: str
+) -> None:
+    two = np.zeros((2, 3)), np.zeros((2, 3)), np.zeros(2, int), np.zeros(2)
+    Recording(*two, 0.1, np.zeros((2, 0, 3)), np.zeros((0, 4)))
+    with pytest.raises(ValueError, match=f"{name} of a recording has shape"):
+        Recording(*two, 0.1, people, leaves)

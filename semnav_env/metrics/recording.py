@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.world import World
 
-COLUMNS = {"poses": 3, "velocities": 3, "contacts": 0, "impulses": 0}
-"""Arrays of a recording and how wide they are; 0 is one number a row."""
+DRIVEN = ("poses", "velocities", "contacts", "impulses")
+"""Arrays of every recording."""
 
 MOVED = ("people", "leaves")
 """Arrays that only a recording among people or changing doors has."""
@@ -50,16 +50,16 @@ class Recording:
 
     def __post_init__(self) -> None:
         rows = len(self.poses)
-        for name, width in COLUMNS.items():
-            array: NDArray[Any] = getattr(self, name)
-            shape = (rows, width) if width else (rows,)
-            if rows == 0 or array.shape != shape or not np.isfinite(array).all():
+        driven = (rows, 3), (rows, 3), (rows,), (rows,)
+        moved = (rows, None, 3), (None, 4)
+        for name, shape in zip((*DRIVEN, *MOVED), (*driven, *moved), strict=True):
+            array: NDArray[Any] | None = getattr(self, name)
+            if array is not None and not (rows and _fits(array, shape)):
+                told = str(shape).replace("None", "any")
                 raise ValueError(
-                    f"{name} of a recording has shape {array.shape}; it must be {shape}, "
+                    f"{name} of a recording has shape {array.shape}; it must be {told}, "
                     "finite, with at least one row"
                 )
-        if self.people is not None and len(self.people) != rows:
-            raise ValueError(f"people of a recording has {len(self.people)} rows, not {rows}")
         if not 0.0 < self.period < np.inf:
             raise ValueError(f"the period is {self.period}; it must be positive and finite")
 
@@ -91,7 +91,7 @@ class Recording:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write an .npz file."""
-        arrays = {name: getattr(self, name) for name in COLUMNS}
+        arrays = {name: getattr(self, name) for name in DRIVEN}
         moved = {name: getattr(self, name) for name in MOVED}
         arrays |= {name: array for name, array in moved.items() if array is not None}
         np.savez_compressed(path, allow_pickle=False, period=self.period, **arrays)
@@ -104,11 +104,18 @@ class Recording:
             ValueError: an array is missing or does not fit.
         """
         with np.load(path, allow_pickle=False) as file:
-            missing = [name for name in (*COLUMNS, "period") if name not in file]
+            missing = [name for name in (*DRIVEN, "period") if name not in file]
             if missing:
                 raise ValueError(f"{os.fspath(path)!r} is no recording: it lacks {missing[0]!r}")
-            names = [*COLUMNS, *(name for name in MOVED if name in file)]
+            names = [*DRIVEN, *(name for name in MOVED if name in file)]
             return cls(**{name: file[name] for name in names}, period=float(file["period"]))
+
+
+def _fits(array: NDArray[Any], shape: tuple[int | None, ...]) -> bool:
+    """Whether an array is finite and has a shape, in which None is any number."""
+    if array.ndim != len(shape) or not np.isfinite(array).all():
+        return False
+    return all(m in (None, n) for n, m in zip(array.shape, shape, strict=True))
 
 
 class Recorder:
@@ -138,7 +145,8 @@ class Recorder:
         self._velocities.append(world.velocity)
         contacts = world.contacts
         self._touched.append((contacts.count, contacts.impulse))
-        self._people.append(world.moving_shapes[0].copy())
+        if world.moving is not None:
+            self._people.append(world.moving_shapes[0].copy())
 
     def recording(self) -> Recording:
         """Everything so far."""
