@@ -79,9 +79,7 @@ def swinging_leaves(plan: FloorPlan) -> tuple[tuple[Leaf, ...], FloorPlan]:
     for door in plan.doors:
         hanging = [surface for surface in plan.surfaces if _hangs(surface, door)]
         leaf = _as_leaf(hanging[0], door) if door.open and len(hanging) == 1 else None
-        if leaf is None or _meets(leaf, taken):
-            continue
-        if _has_room(leaf, plan, hanging[0]):
+        if leaf and _has_room(leaf, plan, hanging[0]) and not _meets(leaf, taken):
             taken.append(_swept(leaf))
             leaves.append(leaf)
             drawn.append(hanging[0])
