@@ -23,6 +23,8 @@ from semnav_env.maps.importers import Tracing, import_map
 from semnav_env.maps.importers.building_doors import with_walls
 from semnav_env.maps.importers.directions import dominant_direction
 from semnav_env.maps.importers.outlines import outlines
+from semnav_env.maps.importers.redrawing import Drawn, clashing
+from semnav_env.maps.importers.runs import Run, Span
 from semnav_env.maps.importers.straighten import straighten
 from semnav_env.maps.rules import FloorPlanError
 from semnav_env.scripts import main as cli
@@ -159,6 +161,20 @@ def test_the_walls_on_both_sides_of_a_door_get_one_line(seed: int) -> None:
     faces = [set(ring[1:, 1][np.diff(ring[:, 1]) == 0.0]) for ring in (west, east)]
     assert faces[0] & faces[1]
     assert all(min(abs(y - 100.0), abs(y - 106.0)) < 1.0 for face in faces for y in face)
+
+
+@given(st.integers(0, 1000), st.integers(1, 1000))
+@settings(deadline=None)
+def test_of_two_runs_as_long_that_meet_that_of_the_first_outline_is_given_up(
+    first: int, further: int
+) -> None:
+    runs = [Run(k, Span(0, 1, 0, 4.0), -1, 1, 0, True, 0, 4) for k in (first, first + further)]
+    square = np.array(((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)))
+    one, other = (
+        Drawn(square + 2.0 * k, [frozenset((run,))] * 4, {run: 0.0}, turned=False)
+        for k, run in enumerate(runs)
+    )
+    assert clashing([one, other]) == clashing([other, one]) == {runs[0]}
 
 
 @pytest.mark.parametrize("solid", [np.ones((1, 1), bool), np.eye(4, dtype=bool)])

@@ -55,8 +55,8 @@ def redrawn(points: FloatArray, runs: Collection[Run]) -> Drawn:
 def clashing(drawn: Sequence[Drawn]) -> set[Run]:
     """Runs that must be given up, since on their lines two outlines, or parts of one, meet.
 
-    Of the runs that drew two segments which meet, the shortest is; and all runs of an outline that
-    is turned inside out.
+    Of the runs that drew two segments which meet, the shortest is, of several the first one on the
+    first outline; and all runs of an outline that is turned inside out.
     """
     lost = {run for each in drawn if each.turned for run in each.moved}
     ends, following = [], []
@@ -73,8 +73,13 @@ def clashing(drawn: Sequence[Drawn]) -> set[Run]:
     ours = changed[found]
     apart = (ours != others) & (after[ours] != others) & (after[others] != ours)
     for a, b in zip(ours[apart].tolist(), others[apart].tolist(), strict=True):
-        lost.add(min(makers[a] | makers[b], key=lambda run: run.span.length))
+        lost.add(min(makers[a] | makers[b], key=_rank))
     return lost
+
+
+def _rank(run: Run) -> tuple[float, int, int]:
+    """The least is given up first."""
+    return run.span.length, run.ring, run.span.first
 
 
 def _moved(old: FloatArray, new: FloatArray, run: Run) -> float:
