@@ -119,8 +119,8 @@ def run_episode(
     drawn = env.stage.plan({"floor_plan": trial.floor_plan})  # furniture keeps off the pose
     pose = scattered(trial, drawn, env.robot, np.random.default_rng(seed))
     options = {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
-    result = conclude(drive(env, agent, seed, options), trial.command, seed, extras)
-    return replace(result, group=trial.group)
+    driven = drive(env, agent, seed, options)
+    return conclude(driven, trial.command, seed, extras, group=trial.group)
 
 
 def run_frozen(env: SemNavEnv, agent: Any, episode: Episode, extras: Extras = NO_EXTRAS) -> Result:
@@ -132,12 +132,18 @@ def run_frozen(env: SemNavEnv, agent: Any, episode: Episode, extras: Extras = NO
         env.max_steps = usual
     if episode.expected is Expected.INFEASIBLE:
         driven, extras = driven.as_infeasible(), replace(extras, recheck=False)
-    result = conclude(driven, episode.command, episode.number, extras, episode.id)
-    return replace(result, group=episode.group)
+    told = episode.command, episode.number, extras
+    return conclude(driven, *told, episode=episode.id, group=episode.group)
 
 
 def conclude(
-    driven: Drive, command: str, seed: int, extras: Extras = NO_EXTRAS, episode: str = ""
+    driven: Drive,
+    command: str,
+    seed: int,
+    extras: Extras = NO_EXTRAS,
+    *,
+    episode: str = "",
+    group: str = "",
 ) -> Result:
     """What came of a driven episode; asks for a second opinion and draws a failure if wanted.
 
@@ -147,12 +153,21 @@ def conclude(
         seed: of the episode.
         extras: what else to do.
         episode: the id of one that was written down.
+        group: under which it is counted; the command if empty.
     """
-    rechecked = driven.rechecked() if extras.recheck else ""
-    verdicts = tuple(str(verdict) for verdict in driven.verifier.verdicts)
-    measured = driven.metrics, driven.cause, rechecked, driven.social
-    plan = driven.verifier.floor_plan.name
-    result = Result(command, seed, verdicts, *measured, episode, command, driven.kind, plan)
+    result = Result(
+        command=command,
+        seed=seed,
+        verdicts=tuple(str(verdict) for verdict in driven.verifier.verdicts),
+        metrics=driven.metrics,
+        cause=driven.cause,
+        rechecked=driven.rechecked() if extras.recheck else "",
+        social=driven.social,
+        episode=episode,
+        group=group or command,
+        kind=driven.kind,
+        floor_plan=driven.verifier.floor_plan.name,
+    )
     if extras.pictures is not None and not result.success:
         name = picture_name(driven, episode or command, seed)
         driven.save_picture(extras.pictures / name, f"{command}: {failure_line(result)}")
