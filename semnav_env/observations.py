@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from semnav_env.commands import MAX_CLAUSES, token_space
 from semnav_env.features.frames import Pose
 from semnav_env.grounding.goal import GoalKind
+from semnav_env.touch import MOST_PIECES
 
 FAR = 1000.0
 """Bound of places and distances that have no natural one, metres."""
@@ -27,7 +28,7 @@ FAR = 1000.0
 REACH = 50.0
 """Bound of the places of features, metres."""
 
-N_WALLS, N_DOORS, N_CORNERS, N_CORRIDORS, N_REMEMBERED, N_FELT = 48, 16, 48, 24, 16, 16
+N_WALLS, N_DOORS, N_CORNERS, N_CORRIDORS, N_REMEMBERED, N_FELT = 48, 16, 48, 24, 16, MOST_PIECES
 """Rows of each kind of feature; more are left out, in beam order."""
 
 KINDS = len(GoalKind)

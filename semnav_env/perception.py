@@ -105,7 +105,7 @@ class Perception:
         write_felt(self.row, self.felt.ends, ORIGIN)
         guide = Told({clause: way.seen_from(start) for clause, way in ways.items()})
         self.follower = Follower(command, care=0.5, jamb_margin=0.3, guide=guide)
-        self._started = False
+        self._started, self._was = False, ORIGIN
         self._looked_from: Pose = (0.0, 0.0, 0.0)
         self._looked_at, self._looked_on = 0, (0, 0)
 
@@ -130,7 +130,9 @@ class Perception:
         if touches and self.felt.note(touches, self.ranges, odometry):
             self._looked_from = NOWHERE
         if self.felt:
+            self.felt.pass_on(self._was, odometry)
             write_felt(self.row, self.felt.ends, odometry)
+        self._was = odometry
         self._think(odometry, math.hypot(velocity[0], velocity[1]), key[2])
         follower = self.follower
         goal = follower.goal.towards(odometry)

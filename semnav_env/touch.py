@@ -1,4 +1,4 @@
-"""What a robot has run into without seeing it: panes of glass, which a lidar looks through."""
+"""What a robot has run into without seeing it: glass, and what lies where no beam looks."""
 
 from __future__ import annotations
 
@@ -9,18 +9,19 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point, Pose, compose, to_local, to_parent
 from semnav_env.features.scene import Door, PlainWalls, Scene, ends_of
+from semnav_env.grounding.goal import first_crossed
 from semnav_env.lidar.spec import LidarSpec
 
-PIECE = 0.2
-"""Each touch tells of so much of a pane, metres."""
+PIECE, GROWN = 0.2, 0.05
+"""Each touch tells of so much of a pane, and something new if that is so much longer, metres."""
 
-GAP = 0.6
+GAP = 0.45
 """Pieces that are nearer to one another are one: no robot gets between them, metres."""
 
 LEVEL, PARALLEL = 0.15, 0.3
 """Pieces are on one line up to so many metres, and radians: odometry drifts."""
 
-MOST = 16
+MOST_PIECES = 16
 """When so many pieces are known, a new one replaces the oldest."""
 
 BEYOND, CLEAR, BEAMS = 0.03, 0.25, 3
@@ -38,7 +39,8 @@ radians, robot frame."""
 class Felt:
     """Pieces of invisible walls, in the odometry frame.
 
-    A touch is taken for one only where the lidar sees through it; what it sees is known anyway.
+    A touch makes one where the lidar sees through it or does not look; what it sees is known.
+    A piece is forgotten when the robot's centre gets through it, which shows that it was an error.
 
     Args:
         spec: the lidar.
@@ -69,11 +71,16 @@ class Felt:
             ranges: of the scan from the same place, metres.
             odometry: pose of the robot, odometry frame.
         """
-        known = self.ends
-        for touch in touches:
-            if not self._is_seen(touch, ranges):
-                self._add(_piece(compose(odometry, touch)))
-        return not np.array_equal(known, self.ends)
+        felt = [_piece(compose(odometry, t)) for t in touches if not self._is_seen(t, ranges)]
+        fresh = [piece for piece in _united(felt, math.inf) if not self._covers(piece)]
+        if fresh:
+            self._pieces = _united([*self._pieces, *fresh], GAP)[-MOST_PIECES:]
+        return bool(fresh)
+
+    def pass_on(self, before: Pose, after: Pose) -> None:
+        """Forget what the robot's centre goes through from one pose to the next, odometry frame."""
+        while (k := first_crossed(self.ends, *before[:2], *after[:2])) >= 0:
+            del self._pieces[k]
 
     def join(self, scene: Scene) -> Scene:
         """A scene of the odometry frame with these walls, and without the doors that they bar."""
@@ -84,26 +91,24 @@ class Felt:
         return Scene(PlainWalls(walls), tuple(doors))
 
     def _is_seen(self, touch: Touch, ranges: FloatArray) -> bool:
-        """Whether a beam ends there; or none looks there, so that one cannot tell."""
+        """Whether the beams that look there end there."""
         inside = to_parent(touch, (BEYOND, 0.0))
         x, y = to_local(self._mount, inside)
         turn = (math.atan2(y, x) - self._spec.angle_min) % math.tau
-        beam = round(turn / self._spec.angle_increment)
-        if not BEAMS <= beam < len(ranges) - BEAMS:
-            return True
-        nearest = float(np.min(ranges[beam - BEAMS : beam + BEAMS + 1]))
-        return nearest < math.hypot(x, y) + CLEAR
+        beams = round(turn / self._spec.angle_increment) + np.arange(-BEAMS, BEAMS + 1)
+        if len(ranges) * self._spec.angle_increment > math.tau - 1e-6:
+            beams %= len(ranges)
+        elif beams[0] < 0 or beams[-1] >= len(ranges):
+            return False
+        return float(ranges[beams].min()) < math.hypot(x, y) + CLEAR
 
-    def _add(self, piece: FloatArray) -> None:
-        """Note a piece, joined with those on its line that are near."""
-        apart = []
-        for other in self._pieces:
-            joined = _joined(other, piece)
-            if joined is None:
-                apart.append(other)
-            else:
-                piece = joined
-        self._pieces = [*apart, piece][-MOST:]
+    def _covers(self, piece: FloatArray) -> bool:
+        """Whether a piece adds hardly anything to one that is known."""
+        joined = ((other, _joined(other, piece, GAP)) for other in self._pieces)
+        return any(
+            whole is not None and _along(whole)[1] < _along(other)[1] + GROWN
+            for other, whole in joined
+        )
 
 
 def _piece(touch: Pose) -> FloatArray:
@@ -111,13 +116,28 @@ def _piece(touch: Pose) -> FloatArray:
     return np.array((*to_parent(touch, (0.0, -PIECE / 2)), *to_parent(touch, (0.0, PIECE / 2))))
 
 
-def _joined(one: FloatArray, other: FloatArray) -> FloatArray | None:
+def _united(pieces: Iterable[FloatArray], gap: float) -> list[FloatArray]:
+    """Pieces with those made one that are on one line and no farther apart than a gap, metres."""
+    united: list[FloatArray] = []
+    for piece in pieces:
+        apart = []
+        for other in united:
+            whole = _joined(other, piece, gap)
+            if whole is None:
+                apart.append(other)
+            else:
+                piece = whole
+        united = [*apart, piece]
+    return united
+
+
+def _joined(one: FloatArray, other: FloatArray, gap: float) -> FloatArray | None:
     """Two pieces as one, along the first; None if they are not on one line and near."""
     frame, length = _along(one)
     (first, offset), (last, last_offset) = sorted(_seen_from(frame, other))
     level = max(abs(offset), abs(last_offset)) < LEVEL
     parallel = abs(last_offset - offset) <= PARALLEL * (last - first)
-    if not (level and parallel and first < length + GAP and last > -GAP):
+    if not (level and parallel and first < length + gap and last > -gap):
         return None
     stretch = min(first, 0.0), max(last, length)
     return np.array([value for x in stretch for value in to_parent(frame, (x, 0.0))])

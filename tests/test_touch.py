@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from semnav_env.lidar.spec import lidar_spec
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_env.observations import table
 from semnav_env.robots import ROBOTS
-from semnav_env.touch import MOST, PIECE, Felt, Touch
+from semnav_env.touch import GAP, GROWN, MOST_PIECES, PIECE, Felt, Touch
 from tests.small_plans import closed, plan_of
 
 SPEC = lidar_spec("tim561")
@@ -56,34 +57,70 @@ def test_what_the_lidar_sees_is_not_felt_as_well(distance: float) -> None:
     assert len(known) == 0
 
 
-def test_where_no_beam_looks_one_cannot_tell() -> None:
+def test_what_is_touched_where_no_beam_looks_is_felt() -> None:
     known = felt()
-    assert not known.note([(-0.6, 0.0, math.pi)], NOTHING_NEAR, HERE)
+    assert known.note([(-0.6, 0.0, math.pi)], np.full(SPEC.beams, 0.1), HERE)
 
 
-@given(poses, st.floats(-0.75, 0.75))
+def test_a_lidar_that_looks_all_round_sees_what_is_touched_behind() -> None:
+    round_spec = replace(SPEC, beams=720, angle_min=-math.pi, angle_increment=math.tau / 720)
+    behind = [(-0.6, 0.0, math.pi)]
+    assert not Felt(round_spec, HERE).note(behind, np.full(720, 0.6), HERE)
+    assert Felt(round_spec, HERE).note(behind, np.full(720, 5.0), HERE)
+
+
+@given(poses, st.floats(-0.04, 0.04))
+def test_the_same_touch_again_tells_nothing_new(odometry: Pose, aside: float) -> None:
+    known = felt()
+    known.note([FRONT], NOTHING_NEAR, odometry)
+    known.note([(0.6, 1.0, 0.0)], NOTHING_NEAR, odometry)
+    ends = known.ends
+    for touch in (FRONT, (0.6, aside, 0.0), (0.6, 1.0, 0.0)):
+        assert not known.note([touch], NOTHING_NEAR, odometry)
+    assert np.array_equal(known.ends, ends)
+
+
+def test_what_one_front_touches_at_both_ends_is_one_however_wide_it_is() -> None:
+    known = felt()
+    known.note([(0.6, -0.45, 0.0), (0.6, 0.45, 0.0)], NOTHING_NEAR, HERE)
+    assert len(known) == 1
+
+
+def test_a_piece_that_the_robot_gets_through_is_forgotten() -> None:
+    known = felt()
+    known.note([FRONT], NOTHING_NEAR, HERE)
+    known.note([(0.6, 1.0, 0.0)], NOTHING_NEAR, HERE)
+    known.pass_on((0.0, 0.0, 0.0), (0.5, 0.0, 0.0))
+    assert len(known) == 2
+    known.pass_on((0.5, 0.0, 0.0), (0.7, 0.0, 0.0))
+    assert known.ends[:, 1].min() == pytest.approx(0.9)
+
+
+@given(poses, st.floats(-0.6, 0.6))
 def test_pieces_that_no_robot_gets_between_are_one(odometry: Pose, aside: float) -> None:
     known = felt()
     known.note([FRONT], NOTHING_NEAR, odometry)
     known.note([(0.6, aside, 0.0)], NOTHING_NEAR, odometry)
     assert len(known) == 1
     length = math.dist(known.ends[0, :2], known.ends[0, 2:])
-    assert length == pytest.approx(PIECE + abs(aside), abs=1e-6)
+    assert length == pytest.approx(PIECE + (abs(aside) if abs(aside) > GROWN else 0.0), abs=1e-6)
+    assert min(robot.width for robot in ROBOTS.values()) > GAP
 
 
 @given(poses)
 def test_pieces_farther_apart_or_at_an_angle_stay_two(odometry: Pose) -> None:
     for other in ((0.6, 1.0, 0.0), (0.6, 0.1, 0.6), (1.0, 0.0, 0.0)):
         known = felt()
-        known.note([FRONT, other], NOTHING_NEAR, odometry)
+        known.note([FRONT], NOTHING_NEAR, odometry)
+        known.note([other], NOTHING_NEAR, odometry)
         assert len(known) == 2
 
 
 def test_so_many_pieces_are_known_and_the_oldest_goes_first() -> None:
     known = felt()
-    for k in range(MOST + 3):
+    for k in range(MOST_PIECES + 3):
         known.note([FRONT], NOTHING_NEAR, (2.0 * k, 0.0, 0.0))
-    assert len(known) == MOST
+    assert len(known) == MOST_PIECES
     assert known.ends[:, 0].min() == pytest.approx(2.0 * 3 + 0.6)
 
 

@@ -20,6 +20,9 @@ STEP = CELL * COARSE
 
 DIAGONAL = STEP * math.sqrt(2.0)
 
+STEPS = np.array([(j, i) for j in (-1, 0, 1) for i in (-1, 0, 1) if (j, i) != (0, 0)])
+"""To the cells around one, rows (j, i)."""
+
 ROUND = 0.25
 """Seconds of way that are looked at together."""
 
@@ -49,8 +52,8 @@ def seconds_to(
 ) -> FloatArray:
     """The least time to a source over the free cells, 8-connected; infinite if cut off.
 
-    Cells wait in no order, those that can be reached within the next `ROUND` apart from the later
-    ones: the same times as with Dijkstra's queue, in less time.
+    Cells wait in no order, those that are reached within the next `ROUND` apart from the others:
+    the same times as with Dijkstra's queue, in less time.
 
     Args:
         sources: cells as rows (j, i), shape (S, 2).
@@ -61,49 +64,57 @@ def seconds_to(
     n = room.shape[0]
     wide = n + 2
     slowness = _slowness(room, costs)
-    time, looked = np.full(wide * wide, np.inf), np.full(wide * wide, np.inf)
+    time = np.full(wide * wide, np.inf)
     soon, later = np.empty(wide * wide, dtype=np.int64), np.empty(wide * wide, dtype=np.int64)
-    is_soon, is_later = np.zeros(wide * wide, np.bool_), np.zeros(wide * wide, np.bool_)
-    soons, laters = 0, 0
+    waits = np.zeros(wide * wide, np.bool_)  # in one of them
+    laters = 0
     for k in range(len(sources)):
         cell = (sources[k, 0] + 1) * wide + sources[k, 1] + 1
-        time[cell] = min(time[cell], first[k])
-        if not is_later[cell]:
-            is_later[cell], later[laters] = True, cell
-            laters += 1
+        if first[k] < time[cell]:
+            time[cell] = first[k]
+            later[laters] = cell
+            laters += not waits[cell]
+            waits[cell] = True
     while laters > 0:
         limit = time[later[:laters]].min() + ROUND
-        waiting, laters = laters, 0
-        for k in range(waiting):
-            cell = later[k]
-            if time[cell] >= limit:
-                later[laters] = cell
-                laters += 1
-                continue
-            is_later[cell] = False
-            if time[cell] < looked[cell]:
-                is_soon[cell], soon[soons] = True, cell
-                soons += 1
+        soons, laters = _next_round(later[:laters], soon, time, limit)
         while soons > 0:
             soons -= 1
             cell = soon[soons]
-            is_soon[cell], looked[cell] = False, time[cell]
-            for dj in range(-1, 2):
-                for di in range(-1, 2):
-                    beside = cell + dj * wide + di
-                    length = STEP if dj == 0 or di == 0 else DIAGONAL
-                    then = time[cell] + length / costs.speed * slowness[beside]
-                    if then >= time[beside]:
-                        continue
-                    time[beside] = then
-                    if then < limit:
-                        if not is_soon[beside]:
-                            is_soon[beside], soon[soons] = True, beside
-                            soons += 1
-                    elif not is_later[beside]:
-                        is_later[beside], later[laters] = True, beside
-                        laters += 1
+            waits[cell] = False
+            for k in range(8):
+                beside = cell + STEPS[k, 0] * wide + STEPS[k, 1]
+                length = DIAGONAL if STEPS[k, 0] * STEPS[k, 1] else STEP
+                then = time[cell] + length / costs.speed * slowness[beside]
+                if then >= time[beside]:
+                    continue
+                time[beside] = then
+                if waits[beside]:
+                    continue
+                waits[beside] = True
+                if then < limit:
+                    soon[soons] = beside
+                    soons += 1
+                else:
+                    later[laters] = beside
+                    laters += 1
     return time.reshape(wide, wide)[1:-1, 1:-1].copy()
+
+
+@njit(cache=True)
+def _next_round(
+    waiting: NDArray[np.int64], soon: NDArray[np.int64], time: FloatArray, limit: float
+) -> tuple[int, int]:
+    """Move the cells that are reached before `limit` to `soon`; how many are in each then."""
+    soons = laters = 0
+    for cell in waiting:
+        if time[cell] < limit:
+            soon[soons] = cell
+            soons += 1
+        else:
+            waiting[laters] = cell
+            laters += 1
+    return soons, laters
 
 
 @njit(cache=True)

@@ -46,7 +46,7 @@ def ground_leave(situation: Situation) -> Goal:
     if door is None:
         around = doors_around(situation.scene, situation.begin)
         if not situation.complete:
-            around = of_one_room(around, situation.begin)
+            around = of_one_room(around, situation.scene, situation.begin)
         if not around and not situation.complete:
             return situation.turn_to(turned(situation.begin)[2], "the door of the room")
         if len(around) != 1:

@@ -16,6 +16,9 @@ LOOKED_AT = (0.2, 0.5, 0.8)
 FARTHER = 0.3
 """So far behind the line of another door a door is in another wall, metres."""
 
+LEADS_OUT = 1.0
+"""So far behind a door that leads out of a room one can go at least, metres."""
+
 SELDOM = 4
 """A door that was seen so many times less often than another one is doubtful beside it."""
 
@@ -104,16 +107,49 @@ def _is_same(door: Door, other: Door) -> bool:
     return math.dist(door.midpoint, other.midpoint) < SAME
 
 
-def of_one_room(doors: list[Door], pose: Pose) -> list[Door]:
+def of_one_room(doors: list[Door], scene: Scene, pose: Pose) -> list[Door]:
     """Of the doors that a robot has made out around it those that lead out of the room.
 
     What parts a room from its surroundings may not have been seen as a whole yet, so that doors
-    further on are in view: a door behind the line of another one is not the room's. Nor is one
-    that was seen far less often than another: a gap between pieces of furniture, mostly.
+    further on are in view: a door behind the line of another one is not the room's. Nor is a gap
+    between pieces of furniture, through which one sees a wall close by, or nothing where one sees
+    out by another door; nor what was seen far less often than another door.
     """
+    depths = [_depth_behind(door, scene, pose) for door in doors]
+    out = [door for door, depth in zip(doors, depths, strict=True) if depth >= LEADS_OUT]
+    dark = [door for door, depth in zip(doors, depths, strict=True) if math.isnan(depth)]
+    doors = out or dark
     most = max((door.sightings for door in doors), default=0)
     often = [door for door in doors if SELDOM * door.sightings >= most]
     return [door for door in often if not any(_lies_behind(door, other, pose) for other in often)]
+
+
+def _depth_behind(door: Door, scene: Scene, pose: Pose) -> float:
+    """How far behind a door the next wall or door is that one sees through it, metres; or NaN.
+
+    The median of a few looks; those that meet nothing known say nothing.
+    """
+    others = [other for other in scene.doors if other is not door]
+    solid = np.vstack((ends_of(scene.walls), ends_of(others)))
+    across = heading_through(door, heading_between(pose[:2], door.midpoint))
+    depths = []
+    for share in LOOKED_AT:
+        place = np.array(door.start) + share * np.subtract(door.end, door.start)
+        heading = heading_between(pose[:2], (float(place[0]), float(place[1])))
+        seen = _distance_to(solid, place + 0.01 * (place - pose[:2]), heading)
+        depths += [seen * math.cos(heading - across)] if math.isfinite(seen) else []
+    return float(np.median(depths)) if depths else math.nan
+
+
+def _distance_to(segments: FloatArray, place: FloatArray, heading: float) -> float:
+    """How far from a place the first of the segments, shape (n, 4), is; infinite if none is."""
+    c, s = math.cos(heading), math.sin(heading)
+    x, y = segments[:, (0, 2)] - place[0], segments[:, (1, 3)] - place[1]
+    along, aside = c * x + s * y, c * y - s * x
+    meets = aside[:, 0] * aside[:, 1] < 0.0
+    share = aside[meets, 0] / (aside[meets, 0] - aside[meets, 1])
+    distance = along[meets, 0] + share * (along[meets, 1] - along[meets, 0])
+    return float(distance[distance > 0.0].min(initial=math.inf))
 
 
 def _lies_behind(door: Door, other: Door, pose: Pose) -> bool:

@@ -4,40 +4,25 @@ from __future__ import annotations
 
 import math
 from array import array
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pymunk
 
 from semnav_env.dynamics import OFF, Dynamics, Moving
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_angle
+from semnav_env.features.frames import FloatArray, Pose, wrap_angle
 from semnav_env.lidar.moving import NOTHING
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
+from semnav_env.touch import Touch
 from semnav_env.world.bodies import driving_joints, robot_body, solid_space
+from semnav_env.world.contacts import ContactLog, Contacts
 from semnav_env.world.movers import Movers
 from semnav_env.world.standing import clearance, standing_error
 
 FINE = 20
 """Substeps where something else moves: a robot's corner then gets less than a centimetre into
 somebody before the contact is felt."""
-
-MOST_TOUCHES = 8
-"""Of a step's touches only the first so many are looked at: substeps repeat them."""
-
-
-@dataclass(frozen=True)
-class Contacts:
-    """What the robot touched during one step.
-
-    Attributes:
-        count: solid segments touched, summed over the substeps.
-        impulse: sum of the magnitudes of the impulses it received, N s.
-    """
-
-    count: int = 0
-    impulse: float = 0.0
 
 
 class World:
@@ -107,8 +92,6 @@ class World:
         if problem is not None:
             raise ValueError(problem)
         self._start, self._seed, self._journal = start, seed, array("d")
-        self._impulses: list[float] = []
-        self._touched: list[tuple[Point, float]] = []
         self._build(start)
         self._settle()
 
@@ -127,7 +110,7 @@ class World:
         command = _finite(velocity, "velocity", "(forward, left, turn)")
         self._require_reset()
         self._journal.extend(command)
-        self._impulses, self._touched = [], []
+        self._log.clear()
         if self.moving is None:
             self._drive(command)
             self._settle()
@@ -160,25 +143,18 @@ class World:
     def contacts(self) -> Contacts:
         """What the robot touched during the last step."""
         self._require_reset()
-        return Contacts(len(self._impulses), math.fsum(self._impulses))
+        return self._log.contacts
 
     @property
     def in_contact(self) -> bool:
         """Whether the robot touched anything during the last step."""
         self._require_reset()
-        return bool(self._impulses)
+        return bool(self._log.impulses)
 
     @property
-    def touches(self) -> list[Pose]:
-        """Where the robot touched something during the last step, robot frame.
-
-        x and y in metres, and the direction from there into what is touched, radians.
-        """
-        pose = self.pose
-        return [
-            (*to_local(pose, place), wrap_angle(inward - pose[2]))
-            for place, inward in self._touched
-        ]
+    def touches(self) -> list[Touch]:
+        """Where the robot touched what cannot move during the last step, robot frame."""
+        return self._log.touches(self.pose)
 
     @property
     def moving_shapes(self) -> tuple[FloatArray, FloatArray]:
@@ -212,17 +188,11 @@ class World:
         self._control = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         joints = driving_joints(self.robot, self._control, self._body)
         self._space.add(self._body, shape, self._control, *joints)
-        self._space.on_collision(post_solve=self._touch)
+        self._log = ContactLog(self._body)
+        self._space.on_collision(post_solve=self._log.note)
         if self.moving is not None:
             self.moving.begin(start, self._seed)
             self._movers = Movers(self._space, self.moving, self._period)
-
-    def _touch(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-        self._impulses.append(arbiter.total_impulse.length)
-        if len(self._touched) < MOST_TOUCHES:
-            met = arbiter.contact_point_set
-            inward = met.normal if arbiter.bodies[0] is self._body else -met.normal
-            self._touched += [(point.point_b, inward.angle) for point in met.points]
 
     def _drive(self, command: tuple[float, float, float]) -> None:
         """Demand one velocity for a control period.
