@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_env.observations import table
 from semnav_env.robots import ROBOTS
 from semnav_env.touch import GAP, GROWN, MOST_PIECES, PIECE, Felt, Touch
+from semnav_env.world import World
 from tests.small_plans import closed, plan_of
 
 SPEC = lidar_spec("tim561")
@@ -194,3 +196,21 @@ def test_the_scripted_agent_finds_its_way_around_a_pane(robot: str) -> None:
         over |= truncated
     assert info["is_success"]
     assert len(table(observation, "felt")) > 0
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.5, math.pi / 2, 2.0, math.pi, -1.0])
+def test_a_touch_lies_on_the_footprint_and_points_into_what_is_touched(heading: float) -> None:
+    plan = plan_of(closed((-3, -3), (3, -3), (3, 3), (-3, 3)))
+    world = World(plan, ROBOTS["spot"])
+    world.reset((0.0, 0.0, heading), np.random.default_rng(0))
+    assert world.touches == []
+    while not world.touches:
+        world.step((0.5, 0.0, 0.0))
+    copy = pickle.loads(pickle.dumps(world))
+    assert copy.touches == world.touches
+    half = np.array((world.robot.length, world.robot.width)) / 2
+    for x, y, inward in world.touches:
+        assert (np.abs((x, y)) < half + 0.01).all()
+        assert (np.abs((x, y)) > half - 0.01).any()
+        ahead = to_parent(world.pose, to_parent((x, y, inward), (0.05, 0.0)))
+        assert max(map(abs, ahead)) > 3.0

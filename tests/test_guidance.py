@@ -1,0 +1,73 @@
+"""The kernels under the coarse way: against plain code that is slower and easier to check."""
+
+from __future__ import annotations
+
+import heapq
+import math
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from semnav_env.agents.planning.free import points_around
+from semnav_env.agents.planning.heuristic import STEP, seconds_to
+from semnav_env.agents.planning.motion import Costs, crowding_at
+from semnav_env.agents.planning.planner import PlannerSettings, _costs
+from semnav_env.features.frames import FloatArray, points_to_local
+from semnav_env.robots import WHEELCHAIR
+
+COSTS = _costs(WHEELCHAIR, PlannerSettings())
+
+
+def dijkstra(
+    sources: NDArray[np.int64], first: FloatArray, room: FloatArray, costs: Costs
+) -> FloatArray:
+    """Least times with a priority queue."""
+    n, time = len(room), np.full(room.shape, np.inf)
+    heap = [(t, j, i) for (j, i), t in zip(sources.tolist(), first.tolist(), strict=True)]
+    for t, j, i in heap:
+        time[j, i] = min(time[j, i], t)
+    heapq.heapify(heap)
+    while heap:
+        t, j, i = heapq.heappop(heap)
+        if t > time[j, i]:
+            continue
+        for b in range(max(0, j - 1), min(n, j + 2)):
+            for a in range(max(0, i - 1), min(n, i + 2)):
+                length = STEP * math.sqrt((b - j) ** 2 + (a - i) ** 2)
+                slow = 1.0 + crowding_at(room[b, a], costs)
+                then = t + length / costs.speed * slow
+                if room[b, a] >= 0.0 and then < time[b, a]:
+                    time[b, a] = then
+                    heapq.heappush(heap, (then, b, a))
+    return time
+
+
+@given(st.integers(3, 24), st.integers(1, 6), st.floats(0.0, 0.7), st.integers(0, 2**31))
+def test_times_are_those_of_a_priority_queue_to_the_last_bit(
+    size: int, count: int, blocked: float, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    room = np.where(rng.random((size, size)) < blocked, -1.0, 0.4 * rng.random((size, size)))
+    sources = rng.integers(0, size, (count, 2))
+    first = 5.0 * rng.random(count)
+    np.testing.assert_array_equal(
+        seconds_to(sources, first, room, COSTS), dijkstra(sources, first, room, COSTS)
+    )
+
+
+def test_a_source_at_no_finite_time_is_none() -> None:
+    room = np.ones((4, 4))
+    time = seconds_to(np.array([(1, 1), (2, 2)]), np.array([math.inf, math.nan]), room, COSTS)
+    assert np.isinf(time).all()
+
+
+@given(st.floats(-9, 9), st.floats(-9, 9), st.floats(-4, 4), st.integers(0, 2**31))
+def test_points_around_are_those_of_the_square_in_its_frame(
+    x: float, y: float, heading: float, seed: int
+) -> None:
+    points = np.random.default_rng(seed).uniform(-12, 12, (60, 2))
+    inside = (np.abs(points - (x, y)) < 3.0).all(axis=1)
+    expected = points_to_local((x, y, heading), points[inside])
+    np.testing.assert_allclose(points_around((x, y, heading), points, 3.0), expected, atol=1e-12)
