@@ -16,7 +16,7 @@ from semnav_env.features.frames import Pose, compose
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding import Goal, GoalKind, GroundingError
 from semnav_env.grounding.follower import Follower
-from tests.hand_made import DOOR_WIDTH, corridor
+from tests.hand_made import DOOR_WIDTH, ROOM, corridor
 from tests.test_wider_grounding import last_goal
 
 QUARTER = math.pi / 2
@@ -207,6 +207,39 @@ def test_of_two_doors_as_straight_behind_none_is_chosen() -> None:
     doors = tuple(Door((-3.0, y), (-3.0, y + 0.9)) for y in (-1.2, 0.3))
     with pytest.raises(GroundingError, match="two there are equally nearly straight behind"):
         last_goal("go through the door behind you", Scene(walls, doors), (2.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("until", ["until", "past"])
+def test_a_door_that_is_far_behind_in_a_room_is_far_away(until: str) -> None:
+    scene = Scene(corridor(half=3.0).walls, (Door((-3.0, -0.45), (-3.0, 0.45)),))
+    text = f"go down the hallway {until} the door behind you"
+    assert last_goal(text, scene, (5.0, 0.0, 0.0)).pose[:2] == pytest.approx((-2.0, 0.0), abs=0.05)
+
+
+@pytest.mark.parametrize("until", ["until", "past"])
+def test_one_cannot_go_to_the_doorway_that_one_stands_in(until: str) -> None:
+    text = f"go down the hallway {until} the door behind you"
+    with pytest.raises(GroundingError, match="one stands in that doorway"):
+        last_goal(text, FACING, (3.0, 1.0, QUARTER))
+
+
+def test_who_stands_in_a_doorway_knows_at_once_that_no_second_door_is_behind() -> None:
+    text = "if you see a second door behind you, go through it, otherwise turn around"
+    seen = Scene(FACING.walls, FACING.doors[:1])
+    for scene, begin, pose in (
+        (seen, (3.0, 1.0, QUARTER), (3.0, 1.0, QUARTER)),
+        (ROOM, (0.0, 0.0, math.pi), (0.0, 0.0, 0.0)),  # who has looked round in a room
+    ):
+        follower = look(text, scene, pose, begin)
+        assert follower.active == 2
+        assert follower.goal.because == "turn around here"
+
+
+@pytest.mark.parametrize("nth", ["second", "third", "second-to-last", "third-to-last"])
+def test_no_condition_on_more_than_one_door_opposite_is_met(nth: str) -> None:
+    text = f"go to the first door on the left, if there is a {nth} door opposite, stop, otherwise "
+    goal = last_goal(text + "turn left by 90 degrees", FACING)
+    assert goal.kind is GoalKind.REACH
 
 
 @given(st.floats(-4.0, 4.0))

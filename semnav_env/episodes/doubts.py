@@ -18,7 +18,7 @@ from semnav_env.commands.command import reference_of
 from semnav_env.features.frames import Pose
 from semnav_env.features.hallway import Hallway, hallway
 from semnav_env.features.scene import PlainWalls, Scene
-from semnav_env.grounding import Goal, GroundingError, ground
+from semnav_env.grounding import Goal, GroundingError, UnclearError, ground
 from semnav_env.grounding.conditions import is_met
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.situation import Situation
@@ -121,8 +121,10 @@ def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
 def _is_missing(clause: Clause, scene: Scene, begin: Pose) -> bool:
     try:
         ground(clause, scene, begin, complete=True)
-    except GroundingError as error:
-        return "say " not in str(error)
+    except UnclearError:
+        return False
+    except GroundingError:
+        return True
     return False
 
 

@@ -2,6 +2,6 @@
 
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.ground import ground
-from semnav_env.grounding.situation import GroundingError
+from semnav_env.grounding.situation import GroundingError, UnclearError
 
-__all__ = ["Goal", "GoalKind", "GroundingError", "ground"]
+__all__ = ["Goal", "GoalKind", "GroundingError", "UnclearError", "ground"]

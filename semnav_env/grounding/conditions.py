@@ -9,39 +9,41 @@ from semnav_env.commands.references import OTHER, DoorReference, Place, PlaceRef
 from semnav_env.grounding.doors import doors_named
 from semnav_env.grounding.goal import Goal
 from semnav_env.grounding.junctions import junctions_ahead
-from semnav_env.grounding.opposite import doors_opposite
+from semnav_env.grounding.opposite import OF_ONE, doors_opposite
 from semnav_env.grounding.situation import Situation
 
 
 def is_met(condition: IfThere, situation: Situation) -> bool | Goal:
     """Whether a condition is met, or the goal of looking for what it speaks of.
 
-    What is there is known as soon as it is seen; that nothing is there, at the end of the hallway.
+    What is there is known as soon as it is seen; that nothing is there, at the end of the hallway,
+    or where there can be no more.
     """
     situation = situation.towards(condition.what)
     if isinstance(condition.what, DoorReference) and condition.what.side is Side.OPPOSITE:
         found = doors_opposite(condition.what, situation)
         if isinstance(found, Goal):
             return found
-        return (bool(found) and condition.what.ordinal <= 1) is not condition.absent
-    count, wanted = _count(condition.what, situation), condition.what.ordinal
-    from_start = wanted > OTHER
-    if (from_start or situation.seen_to_end) and count >= max(1, abs(wanted)):
+        return (bool(found) and condition.what.ordinal in OF_ONE) is not condition.absent
+    (count, more), wanted = _count(condition.what, situation), condition.what.ordinal
+    from_start, all_known = wanted > OTHER, situation.seen_to_end or not more
+    if (from_start or all_known) and count >= max(1, abs(wanted)):
         there = wanted != OTHER or count == 1
-    elif situation.seen_to_end:
+    elif all_known:
         there = False
     else:
         return situation.seek(condition.what)
     return there is not condition.absent
 
 
-def _count(what: DoorReference | PlaceReference, situation: Situation) -> int:
-    """How many of the kind have been seen so far."""
+def _count(what: DoorReference | PlaceReference, situation: Situation) -> tuple[int, bool]:
+    """How many of the kind have been seen so far, and whether there may be more farther on."""
     if isinstance(what, DoorReference):
-        return len(doors_named(what, situation)[0])
+        doors, more = doors_named(what, situation)
+        return len(doors), more
     if what.place is Place.END:
-        return int(situation.seen_to_end)
-    return len(junctions_ahead(situation.hallway, what.place))
+        return int(situation.seen_to_end), True
+    return len(junctions_ahead(situation.hallway, what.place)), True
 
 
 def after(clauses: Sequence[Clause], index: int, met: bool | None = None) -> int:

@@ -7,13 +7,17 @@ from dataclasses import replace
 
 from semnav_env.commands.clauses import Approach, GoToDoor
 from semnav_env.commands.references import Side
-from semnav_env.features.frames import Pose, compose, wrap_angle
+from semnav_env.features.frames import compose, wrap_angle
 from semnav_env.features.hallway import doorway_at
-from semnav_env.features.scene import Door
 from semnav_env.grounding.doors import OUT_OF_DOORWAY, STAND_OFF, CountedDoor, find_door
 from semnav_env.grounding.goal import Goal, GoalKind
-from semnav_env.grounding.situation import GroundingError, Situation, turned
-from semnav_env.grounding.surroundings import doors_around, of_one_room
+from semnav_env.grounding.situation import Situation, UnclearError, turned
+from semnav_env.grounding.surroundings import (
+    doors_around,
+    doors_of_the_room,
+    heading_between,
+    heading_through,
+)
 
 
 def ground_door(clause: GoToDoor, situation: Situation) -> Goal:
@@ -36,7 +40,7 @@ def ground_leave(situation: Situation) -> Goal:
     Who has not come by one leaves by the only door in view.
 
     Raises:
-        GroundingError: there is none, or there are several.
+        UnclearError: there is none, or there are several.
     """
     inward = situation.begin
     door = doorway_at(situation.scene, inward)
@@ -46,23 +50,15 @@ def ground_leave(situation: Situation) -> Goal:
     if door is None:
         around = doors_around(situation.scene, situation.begin)
         if not situation.complete:
-            around = of_one_room(around, situation.scene, situation.begin)
+            around = doors_of_the_room(around, situation.scene, situation.begin)
         if not around and not situation.complete:
             return situation.turn_to(turned(situation.begin)[2], "the door of the room")
         if len(around) != 1:
-            raise GroundingError(
-                "leave the room: by which door? say which, or enter the room first"
-            )
+            raise UnclearError("leave the room: by which door? say which, or enter the room first")
         door = around[0]
-        inward = (*door.midpoint, wrap_angle(_leading_away(door, situation.begin) + math.pi))
+        away = heading_through(door, heading_between(situation.begin[:2], door.midpoint))
+        inward = (*door.midpoint, wrap_angle(away + math.pi))
     outward = wrap_angle(inward[2] + math.pi)
     line = CountedDoor(door, 0.0, Side.BEHIND, outward)
     because = "leave the room"
     return Goal(GoalKind.PASS, line.pose(STAND_OFF), door, because=because, onward=line.pose(0.0))
-
-
-def _leading_away(door: Door, pose: Pose) -> float:
-    """The heading through a door for one who comes from a pose."""
-    (ax, ay), (bx, by) = door.start, door.end
-    left = (bx - ax) * (pose[1] - ay) - (by - ay) * (pose[0] - ax) > 0.0
-    return math.atan2(by - ay, bx - ax) + (-math.pi / 2 if left else math.pi / 2)

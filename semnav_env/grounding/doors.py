@@ -11,7 +11,13 @@ from semnav_env.features.hallway import Hallway
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal
 from semnav_env.grounding.opposite import find_opposite
-from semnav_env.grounding.situation import GroundingError, Situation, is_behind, turned
+from semnav_env.grounding.situation import (
+    GroundingError,
+    Situation,
+    UnclearError,
+    is_behind,
+    turned,
+)
 from semnav_env.grounding.surroundings import (
     bearing,
     doors_around,
@@ -51,12 +57,14 @@ class CountedDoor:
         along: where its middle lies along the hallway's axis, metres.
         side: on which side of the axis, or ahead.
         outward: the heading that leads through it, away from the hallway, scene frame.
+        off: how far it lies off straight behind, radians; only of doors that are ordered by it.
     """
 
     door: Door
     along: float
     side: Side
     outward: float
+    off: float = 0.0
 
     def pose(self, beyond: float) -> Pose:
         """The pose on the door's axis `beyond` its line (negative: before it), facing outward."""
@@ -73,15 +81,15 @@ def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | G
         situation: of one who looks towards it, see `Situation.towards`.
 
     Raises:
-        GroundingError: the hallway ended before, or the side is open and doors on both fit.
+        GroundingError: the hallway ended before.
+        UnclearError: the side is open and doors on both fit.
     """
     if reference.side is Side.OPPOSITE:
         found = find_opposite(reference, situation)
-        return (
-            found
-            if isinstance(found, Goal)
-            else CountedDoor(found[0], 0.0, Side.OPPOSITE, found[1])
-        )
+        if isinstance(found, Goal):
+            return found
+        door, outward = found
+        return CountedDoor(door, 0.0, Side.OPPOSITE, outward)
     doors, counted_on = doors_named(reference, situation)
     if counted_on and reference.ordinal <= OTHER and not situation.seen_to_end:
         return situation.seek(reference)
@@ -137,10 +145,11 @@ def _straight_behind(scene: Scene, pose: Pose) -> list[CountedDoor]:
     """
     seen = ((bearing(pose, door), door) for door in doors_around(scene, pose))
     return [
-        CountedDoor(door, off, Side.BEHIND, heading_through(door, heading))
+        CountedDoor(door, ahead, Side.BEHIND, heading_through(door, heading), off)
         for off, door in sorted(seen, key=lambda each: each[0])
         if off < math.pi / 4
         for heading in [heading_between(pose[:2], door.midpoint)]
+        for ahead in [to_local(pose, door.midpoint)[0]]
     ]
 
 
@@ -148,11 +157,11 @@ def _index(reference: DoorReference, count: int) -> int:
     """Which of `count` doors in the order of travel is meant; negative or too high if none.
 
     Raises:
-        GroundingError: "the other door", of several.
+        UnclearError: "the other door", of several.
     """
     if reference.ordinal == OTHER:
         if count > 1:
-            raise GroundingError(f"{reference}: there are {count}; say which")
+            raise UnclearError(f"{reference}: there are {count}; say which")
         return 0
     return reference.ordinal - 1 if reference.ordinal > 0 else count + reference.ordinal
 
@@ -176,15 +185,15 @@ def doors_along(scene: Scene, hallway: Hallway, side: Side | None = None) -> lis
 
 def _check_order(reference: DoorReference, doors: list[CountedDoor], index: int) -> None:
     """Refuse to choose between doors that are not one before the other."""
+    chosen = doors[index]
     for other in doors[max(0, index - 1) : index + 2]:
-        apart = abs(other.along - doors[index].along)
-        facing = apart < ABREAST
-        if other is not doors[index] and other.side is Side.BEHIND and apart < AS_STRAIGHT:
-            raise GroundingError(f"{reference}: two there are equally nearly straight behind")
-        if facing and other.side is not doors[index].side:
-            sides = " and ".join(sorted((other.side, doors[index].side)))
+        straight = other.side is Side.BEHIND and abs(other.off - chosen.off) < AS_STRAIGHT
+        if other is not chosen and straight:
+            raise UnclearError(f"{reference}: two there are equally nearly straight behind")
+        if abs(other.along - chosen.along) < ABREAST and other.side is not chosen.side:
+            sides = " and ".join(sorted((other.side, chosen.side)))
             say = "turn around first, and say" if is_behind(reference) else "say"
-            raise GroundingError(f"{reference}: there is one {sides} there; {say} on which side")
+            raise UnclearError(f"{reference}: there is one {sides} there; {say} on which side")
 
 
 def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> bool:

@@ -11,7 +11,14 @@ from semnav_env.features.frames import Pose, compose, to_parent
 from semnav_env.features.hallway import Hallway, Junction, doorway_at, hallway
 from semnav_env.grounding.doors import OUT_OF_DOORWAY, doors_along, find_door
 from semnav_env.grounding.goal import Goal, GoalKind
-from semnav_env.grounding.situation import END_MARGIN, GroundingError, Situation
+from semnav_env.grounding.situation import (
+    END_MARGIN,
+    GroundingError,
+    Situation,
+    UnclearError,
+    turned,
+)
+from semnav_env.grounding.surroundings import own_doorway
 
 ARM_DEPTH = 1.0
 """How far inside the arm of a junction a turn ends, metres."""
@@ -84,13 +91,16 @@ def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) 
     """Up to a door or past it.
 
     Raises:
-        GroundingError: it is opposite, across the hallway and not along it.
+        UnclearError: it is opposite, across the hallway and not along it; or the doorway that one
+            stands in.
     """
     if until.side is Side.OPPOSITE:
-        raise GroundingError(f"{clause}: it lies across; say to go to it, or through it")
+        raise UnclearError(f"{clause}: it lies across; say to go to it, or through it")
     door = find_door(until, situation)
     if isinstance(door, Goal):
         return door
+    if situation.back and door.door == own_doorway(situation.scene, turned(situation.begin)):
+        raise UnclearError(f"{clause}: one stands in that doorway; say to go through it")
     beside = JUST_BEHIND if clause.past else -JUST_BEFORE
     along = min(door.along + beside, situation.hallway.end - END_MARGIN)
     return replace(_go_on(situation, along, _past(clause)), beside=door.door)

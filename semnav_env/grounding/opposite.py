@@ -10,7 +10,7 @@ from semnav_env.features.frames import Pose, compose, to_local
 from semnav_env.features.kernels.probing import BODY_WIDTH
 from semnav_env.features.scene import Door
 from semnav_env.grounding.goal import Goal, GoalKind
-from semnav_env.grounding.situation import GroundingError, Situation
+from semnav_env.grounding.situation import GroundingError, Situation, UnclearError
 from semnav_env.grounding.surroundings import (
     doors_across,
     heading_between,
@@ -27,6 +27,9 @@ STEPPED_OUT = 0.5
 
 STEP_OUT = 1.0
 """... so one looks from here."""
+
+OF_ONE = (1, LAST, OTHER)
+"""The ordinals that a single door can have."""
 
 ROUND_ABOUT = {Side.AHEAD: 0.0, Side.LEFT: math.pi / 2, Side.RIGHT: -math.pi / 2}
 
@@ -99,16 +102,17 @@ def find_opposite(reference: DoorReference, situation: Situation) -> tuple[Door,
     """The door opposite and the heading through it, or the goal of looking for it.
 
     Raises:
-        GroundingError: there is none, or there are several.
+        GroundingError: there is none.
+        UnclearError: there are several.
     """
-    if reference.ordinal not in (1, LAST, OTHER):
+    if reference.ordinal not in OF_ONE:
         raise GroundingError(f"no {str(reference).removeprefix('the ')}: at most one is opposite")
     found = doors_opposite(reference, situation)
     if isinstance(found, Goal):
         return found
     if len(found) > 1:
         sides = " and ".join(sorted(look.side for look in found))
-        raise GroundingError(f"{reference}: there is one {sides} there; say on which side")
+        raise UnclearError(f"{reference}: there is one {sides} there; say on which side")
     for look, door in found.items():
         return door, heading_through(door, look.pose[2])
     here = "this place" if _look(situation) is None else "that door"

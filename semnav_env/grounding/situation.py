@@ -33,6 +33,10 @@ class GroundingError(ValueError):
     """The referent of a clause cannot be there; the message says what is."""
 
 
+class UnclearError(GroundingError):
+    """More must be said: several things fit a clause, or something else is meant by it."""
+
+
 @dataclass(frozen=True)
 class Situation:
     """What a clause is grounded on.

@@ -10,7 +10,7 @@ from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_a
 from semnav_env.features.hallway import doorway_at
 from semnav_env.features.scene import Door, Scene, ends_of
 
-LOOKED_AT = (0.2, 0.5, 0.8)
+SHARES = (0.2, 0.5, 0.8)
 """Where in an opening one looks to see whether it is in view, as shares of its width."""
 
 FARTHER = 0.3
@@ -45,7 +45,7 @@ def doors_around(scene: Scene, pose: Pose, own: Door | None = None) -> list[Door
     seen = []
     for k, door in enumerate(doors):
         between = np.vstack((walls, np.delete(openings, k, axis=0)))
-        shares = np.array(LOOKED_AT)[:, None]
+        shares = np.array(SHARES)[:, None]
         places = np.array(door.start) + shares * np.subtract(door.end, door.start)
         reach = np.array(pose[:2]) + SHORT_OF * (places - np.array(pose[:2]))
         if any(not _is_crossed(between, pose, place) for place in reach):
@@ -70,6 +70,23 @@ def doors_across(scene: Scene, pose: Pose, own: Door | None = None) -> list[Door
         own: a door that one stands in; it does not count.
     """
     return [door for door in doors_around(scene, pose, own) if _lies_across(door, pose)]
+
+
+def doors_of_the_room(doors: list[Door], scene: Scene, pose: Pose) -> list[Door]:
+    """Of the doors that a robot has made out around it those that lead out of the room.
+
+    What parts a room from its surroundings may not have been seen as a whole yet, so that doors
+    further on are in view: a door behind the line of another one is not the room's. Nor is a gap
+    between pieces of furniture, through which one sees a wall close by, or nothing where one sees
+    out by another door; nor what was seen far less often than another door.
+    """
+    depths = [_depth_behind(door, scene, pose) for door in doors]
+    out = [door for door, depth in zip(doors, depths, strict=True) if depth >= LEADS_OUT]
+    dark = [door for door, depth in zip(doors, depths, strict=True) if math.isnan(depth)]
+    doors = out or dark
+    most = max((door.sightings for door in doors), default=0)
+    often = [door for door in doors if SELDOM * door.sightings >= most]
+    return [door for door in often if not any(_lies_behind(door, other, pose) for other in often)]
 
 
 def bearing(pose: Pose, door: Door) -> float:
@@ -107,23 +124,6 @@ def _is_same(door: Door, other: Door) -> bool:
     return math.dist(door.midpoint, other.midpoint) < SAME
 
 
-def of_one_room(doors: list[Door], scene: Scene, pose: Pose) -> list[Door]:
-    """Of the doors that a robot has made out around it those that lead out of the room.
-
-    What parts a room from its surroundings may not have been seen as a whole yet, so that doors
-    further on are in view: a door behind the line of another one is not the room's. Nor is a gap
-    between pieces of furniture, through which one sees a wall close by, or nothing where one sees
-    out by another door; nor what was seen far less often than another door.
-    """
-    depths = [_depth_behind(door, scene, pose) for door in doors]
-    out = [door for door, depth in zip(doors, depths, strict=True) if depth >= LEADS_OUT]
-    dark = [door for door, depth in zip(doors, depths, strict=True) if math.isnan(depth)]
-    doors = out or dark
-    most = max((door.sightings for door in doors), default=0)
-    often = [door for door in doors if SELDOM * door.sightings >= most]
-    return [door for door in often if not any(_lies_behind(door, other, pose) for other in often)]
-
-
 def _depth_behind(door: Door, scene: Scene, pose: Pose) -> float:
     """How far behind a door the next wall or door is that one sees through it, metres; or NaN.
 
@@ -133,7 +133,7 @@ def _depth_behind(door: Door, scene: Scene, pose: Pose) -> float:
     solid = np.vstack((ends_of(scene.walls), ends_of(others)))
     across = heading_through(door, heading_between(pose[:2], door.midpoint))
     depths = []
-    for share in LOOKED_AT:
+    for share in SHARES:
         place = np.array(door.start) + share * np.subtract(door.end, door.start)
         heading = heading_between(pose[:2], (float(place[0]), float(place[1])))
         seen = _distance_to(solid, place + 0.01 * (place - pose[:2]), heading)

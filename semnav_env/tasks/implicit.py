@@ -23,7 +23,7 @@ from semnav_env.commands import (
     Turning,
 )
 from semnav_env.commands.command import reference_of
-from semnav_env.grounding import GroundingError
+from semnav_env.grounding import UnclearError
 
 Feasible = Callable[[Command], bool]
 
@@ -40,7 +40,7 @@ def with_implicit_steps(command: Command, feasible: Feasible, *, in_room: bool) 
         in_room: whether the robot begins in a room.
 
     Raises:
-        GroundingError: it can be carried out on both sides; says so.
+        UnclearError: it can be carried out on both sides; says so.
     """
     if feasible(command):
         return command
@@ -48,7 +48,7 @@ def with_implicit_steps(command: Command, feasible: Feasible, *, in_room: bool) 
         fuller = [c for c in _leaving(command, index) if feasible(c)]
         if len(fuller) > 1:
             ways = " or ".join(f'"{each}"' for each in fuller)
-            raise GroundingError(f"from inside the room this can mean {ways}; say which")
+            raise UnclearError(f"from inside the room this can mean {ways}; say which")
         if fuller:
             return fuller[0]
     return command
