@@ -13,6 +13,7 @@ from semnav_env.commands import (
     DoorReference,
     Follow,
     GoToDoor,
+    GoToRoom,
     IfThere,
     Leave,
     Place,
@@ -24,9 +25,9 @@ from semnav_env.commands import (
 )
 from semnav_env.directory import Directory
 from semnav_env.episodes import SPLITS
-from semnav_env.episodes.doubts import Doubts, exits
+from semnav_env.episodes.doubts import Doubts
 from semnav_env.episodes.drafts import Drafter
-from semnav_env.episodes.generate import BODY, SPACE, Site, generate_episode
+from semnav_env.episodes.generate import BODY, SPACE, Site, exits, generate_episode
 from semnav_env.episodes.random_clauses import Verb
 from semnav_env.episodes.wording import worded
 from semnav_env.features.frames import Pose, to_local
@@ -109,6 +110,14 @@ def test_who_is_told_to_leave_a_room_can_turn_round_and_has_one_way_out() -> Non
             across = ahead.end <= LEAST_AHEAD or ahead.half_width >= WIDEST_HALF
             assert not across or (isinstance(clause, Turn) and clause.at is None)
     assert seen > 3
+
+
+def test_where_no_room_has_a_name_none_is_spoken_of() -> None:
+    site = Site(replace(SITE.plan, rooms=()), OFFICE)
+    split = replace(SPLITS["val_unseen"], clauses=(1,))
+    for number in range(6):
+        clauses = generate_episode(site, split, number).meanings()[0].clauses
+        assert not any(isinstance(clause, GoToRoom) for clause in clauses)
 
 
 @pytest.mark.parametrize("clauses", [2, 3, 4])

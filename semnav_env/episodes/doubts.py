@@ -11,8 +11,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 
-import shapely
-
 from semnav_env.commands import Clause, DoorReference, Follow, GoToDoor, IfThere, Turn
 from semnav_env.commands.command import reference_of
 from semnav_env.features.frames import Pose
@@ -111,11 +109,6 @@ class Doubts:
                 yield ground(replace(clause, door=door), self.scenes[1], begin, complete=True)
             except GroundingError:
                 return
-
-
-def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
-    """How many open doors a room has."""
-    return sum(door.open and room.dwithin(shapely.Point(door.midpoint), 0.1) for door in plan.doors)
 
 
 def _is_missing(clause: Clause, scene: Scene, begin: Pose) -> bool:

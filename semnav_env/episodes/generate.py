@@ -14,7 +14,6 @@ from numpy.random import PCG64, Generator, SeedSequence
 
 from semnav_env.commands import Command
 from semnav_env.episodes.ambiguous import ambiguous_text
-from semnav_env.episodes.doubts import exits
 from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.episode import Episode, Expected
 from semnav_env.episodes.fingerprint import fingerprint
@@ -119,7 +118,7 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
     """
     rng = Generator(PCG64(SeedSequence((seed, zlib.crc32(split.name.encode()), number))))
     maker = _MAKERS[split.expected]
-    for clauses, verb in _wanted(split, number, seed):
+    for clauses, verb in _wanted(site.plan, split, number, seed):
         for _ in range(STARTS):
             start = _start(site, split, verb, rng)
             for _ in range(0 if start is None else DRAFTS):
@@ -132,12 +131,15 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
     raise TooBareError(f"{site.plan.name}: found no command of the kind of {split.name} there")
 
 
-def _wanted(split: Split, number: int, seed: int) -> list[tuple[int, Verb]]:
+def _wanted(plan: FloorPlan, split: Split, number: int, seed: int) -> list[tuple[int, Verb]]:
     """How many clauses an episode should have and about what, and what else would do.
 
     All take turns, in another order each time: so every tenth episode, say, is not about the same.
+    A room cannot be named where none has a name.
     """
     pairs = [(n, verb) for n in split.clauses for verb in verbs_of(n)]
+    if not plan.room_names:
+        pairs = [pair for pair in pairs if pair[1] is not Verb.ROOM]
     rounds, place = divmod(number, len(pairs))
     rng = Generator(PCG64(SeedSequence((seed, zlib.crc32(split.name.encode()), rounds, 1))))
     order = rng.permutation(len(pairs)).tolist()
@@ -228,6 +230,11 @@ def _start_in_room(site: Site, rng: Generator) -> Pose | None:
         return None
     fair = exits(plan, room.polygon) == 1 and len(doors_around(plan.scene, pose)) == 1
     return pose if fair and is_clear(plan, pose[:2], SPACE) else None
+
+
+def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
+    """How many open doors a room has."""
+    return sum(door.open and room.dwithin(shapely.Point(door.midpoint), 0.1) for door in plan.doors)
 
 
 def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | None:
