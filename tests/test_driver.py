@@ -202,6 +202,16 @@ def test_where_no_way_leads_on_the_robot_stands_and_is_not_done():
     assert driver.plans < 10
 
 
+@ROBOTS
+def test_a_short_way_is_driven_though_it_leads_only_near_the_target(robot):
+    """The target lies behind the end of a corridor, half a metre ahead of the robot's front."""
+    walls = polyline((-2, -1), (1.2, -1), (1.2, 1), (-2, 1), (-2, -1))
+    target = Target((1.6, 0.0, 0.0), 0.2, 0.15)
+    drive = drive_knowing(walls, robot, (0.0, 0.0, 0.0), target, steps=150)
+    assert drive.pose[0] > 0.2
+    assert drive.clearance > 0.0
+
+
 def test_a_command_into_a_wall_is_slowed_and_one_along_it_is_not():
     wall = np.stack((np.full(50, 0.72), np.linspace(-1.0, 1.0, 50)), axis=1)
     assert safe_share(wall, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) < 1.0

@@ -27,6 +27,10 @@ NOTHING: FloatArray = np.empty((0, 2))
 
 STOP = Steering(0.0, 0.0, 0.0, Progress())
 
+NEARLY = 0.3
+"""A path that does not lead all the way is planned anew when a metre is left, or of a short one this
+share: it must be driven, or nothing would change."""
+
 LOOK = 4.0
 """What is farther away than this does not matter to the next metres of a path, metres."""
 
@@ -144,7 +148,7 @@ class Driver:
             return True
         if _apart(self._target, target):
             return True
-        if not self.path.complete and self._remaining() < 1.0:
+        if not self.path.complete and self._remaining() < min(1.0, NEARLY * self.path.length):
             return True
         if self._step % self.check_every:
             return False
