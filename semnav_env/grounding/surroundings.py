@@ -83,7 +83,7 @@ def doors_of_the_room(doors: list[Door], scene: Scene, pose: Pose) -> list[Door]
     depths = [_depth_behind(door, scene, pose) for door in doors]
     out = [door for door, depth in zip(doors, depths, strict=True) if depth >= LEADS_OUT]
     dark = [door for door, depth in zip(doors, depths, strict=True) if math.isnan(depth)]
-    doors = out or dark
+    doors = out or dark or doors
     most = max((door.sightings for door in doors), default=0)
     often = [door for door in doors if SELDOM * door.sightings >= most]
     return [door for door in often if not any(_lies_behind(door, other, pose) for other in often)]
