@@ -28,8 +28,8 @@ NOTHING: FloatArray = np.empty((0, 2))
 STOP = Steering(0.0, 0.0, 0.0, Progress())
 
 NEARLY = 0.3
-"""A path that does not lead all the way is planned anew when a metre is left, or of a short one this
-share: it must be driven, or nothing would change."""
+"""A path that does not lead all the way is planned anew when a metre is left, or this share of a
+short one: it must be driven, or nothing would change."""
 
 LOOK = 4.0
 """What is farther away than this does not matter to the next metres of a path, metres."""
