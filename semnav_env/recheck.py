@@ -36,6 +36,9 @@ AT_REST, STILL_SPEED, STILL_RATE = 0.05, 0.02, 0.02
 LONGEST_STAND, SHORT_STAND = 10.0, 1.0
 """Standing still for longer, or for longer at the very end, is stopping short, seconds."""
 
+ROUNDING = 1e-9
+"""A heading that lies on the limit of a goal's is within it, however it is computed, radians."""
+
 FAR = 1000.0
 """Longer than any building, metres."""
 
@@ -145,7 +148,8 @@ class _Path:
             return _later(shapely.covers(there, self._points)[1:])
         near = shapely.distance(self._points, Point(goal.pose[:2])) <= goal.distance_tolerance
         turned = np.angle(np.exp(1j * (recording.poses[:, 2] - goal.pose[2])))
-        facing = (np.abs(turned) <= goal.heading_tolerance) | (goal.heading_tolerance >= np.pi)
+        aligned = np.abs(turned) <= goal.heading_tolerance + ROUNDING
+        facing = aligned | (goal.heading_tolerance >= np.pi)
         return _later((near & facing)[1:])
 
     def enters(self, places: Sequence[Polygon]) -> Mask:
