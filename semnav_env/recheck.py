@@ -37,7 +37,7 @@ LONGEST_STAND, SHORT_STAND = 10.0, 1.0
 """Standing still for longer, or for longer at the very end, is stopping short, seconds."""
 
 ROUNDING = 1e-9
-"""A heading that lies on the limit of a goal's is within it, however it is computed, radians."""
+"""What lies on the very limit of a goal is within it, however computed; metres and radians."""
 
 FAR = 1000.0
 """Longer than any building, metres."""
@@ -143,10 +143,11 @@ class _Path:
             beyond = _left_of(np.array([goal.pose[:2]]), jambs)
             return np.asarray(self.crosses(jambs) & (_left_of(recording.path, jambs) == beyond))
         if goal.places:
-            reach = goal.distance_tolerance
+            reach = goal.distance_tolerance + ROUNDING
             there = _placed(goal.pose, shapely.box(-reach, -BESIDE_WAY, reach, BESIDE_WAY))
             return _later(shapely.covers(there, self._points)[1:])
-        near = shapely.distance(self._points, Point(goal.pose[:2])) <= goal.distance_tolerance
+        away = shapely.distance(self._points, Point(goal.pose[:2]))
+        near = away <= goal.distance_tolerance + ROUNDING
         turned = np.angle(np.exp(1j * (recording.poses[:, 2] - goal.pose[2])))
         aligned = np.abs(turned) <= goal.heading_tolerance + ROUNDING
         facing = aligned | (goal.heading_tolerance >= np.pi)
