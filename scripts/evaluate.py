@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import fmean, median
@@ -28,6 +29,7 @@ from semnav_env.agents.evaluation import (
 from semnav_env.dynamics import OFF, Dynamics
 from semnav_env.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.metrics import SHARES
+from semnav_env.scripts.jsonl import JsonLines
 from semnav_env.scripts.outputs import check_file, check_folder, counted
 from semnav_env.scripts.progress import tracked
 
@@ -58,7 +60,7 @@ class Arguments:
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
         dynamics: what else moves.
-        out: file for every episode, one JSON object a line.
+        out: file for every episode, one JSON object a line, as they are driven.
         json: print the table as JSON.
     """
 
@@ -90,23 +92,28 @@ class Arguments:
             return self._ask([trial for trial in trials if isinstance(trial, Episode)])
         seeds = range(self.first_seed, self.first_seed + self.seeds)
         total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
-        results: list[Result] = []
         extras = Extras(self.recheck, self.pictures)
         how = self.workers, extras, self.dynamics
-        episodes = run_suite(trials, self.agent, self.robot, seeds, *how)
-        for result in tracked(episodes, lambda n: f"{n} episodes", lambda: len(results) / total):
-            results.append(result)
+        results = self._drive(run_suite(trials, self.agent, self.robot, seeds, *how), total)
         groups = list(dict.fromkeys(trial.group for trial in trials))
         if isinstance(trials[0], Episode):
             groups.sort()
-        results.sort(key=lambda result: (groups.index(result.group), result.seed))
-        if self.out is not None:
-            self.out.parent.mkdir(parents=True, exist_ok=True)
-            self.out.write_text("".join(json.dumps(r.row()) + "\n" for r in results))
         self._show([_summary(group, results) for group in groups], results)
         if self.out is not None and not self.json:
             print(f"wrote {self.out}")
         return 0
+
+    def _drive(self, episodes: Iterator[Result], total: int) -> list[Result]:
+        """All results; each is written as it comes, so that an interruption loses none."""
+        results: list[Result] = []
+        with JsonLines(self.out) if self.out else nullcontext() as out:
+            for result in tracked(
+                episodes, lambda n: f"{n} episodes", lambda: len(results) / total
+            ):
+                results.append(result)
+                if out:
+                    out.write(result.row())
+        return results
 
     def _trials(self) -> Sequence[Trial | Episode]:
         if not is_episodes(self.suite):

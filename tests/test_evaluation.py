@@ -126,6 +126,25 @@ def test_a_split_is_evaluated_by_its_clauses_and_failures_are_told_by_their_epis
     assert [row["episode"] for row in rows] == ["test_real-00000", "test_real-00100"]
 
 
+def test_an_interrupted_evaluation_keeps_the_episodes_that_were_driven(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    drive, left = runner.drive, [None, None]
+
+    def impatient(*arguments: Any) -> Any:
+        if not left:
+            raise KeyboardInterrupt
+        left.pop()
+        return drive(*arguments)
+
+    monkeypatch.setattr(runner, "drive", impatient)
+    out = tmp_path / "out.jsonl"
+    assert main(["evaluate", "test_real", "--episodes", "4", "--out", str(out)]) == 130
+    rows = [json.loads(line) for line in out.read_text().splitlines()]
+    assert [row["episode"] for row in rows] == ["test_real-00000", "test_real-00050"]
+
+
 def test_standing_still_is_no_answer_unless_the_robot_says_why(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

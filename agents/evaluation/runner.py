@@ -68,14 +68,14 @@ def run_suite(
     extras: Extras = NO_EXTRAS,
     dynamics: Dynamics = OFF,
 ) -> Iterator[Result]:
-    """The result of every trial with every seed, as they come.
+    """The result of every trial with every seed, in their order.
 
     Args:
         trials: what to run; an episode has one seed, its number.
         agent: name of an agent, or the path of a trained one.
         robot: name of a body.
         seeds: each gives a trial's start pose, sensor noise and odometry drift.
-        workers: processes; results do not depend on it, but for their order.
+        workers: processes; results do not depend on it.
         extras: what else to do with each episode.
         dynamics: what else moves.
     """
@@ -89,7 +89,7 @@ def run_suite(
         yield from (result for job in jobs for result in runner.run(job))
         return
     with multiprocessing.get_context("spawn").Pool(workers, _start_worker) as pool:
-        for results in pool.imap_unordered(_work, jobs, chunksize=4):
+        for results in pool.imap(_work, jobs, chunksize=4):
             yield from results
 
 
