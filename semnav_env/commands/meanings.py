@@ -1,4 +1,4 @@
-"""What the rules of a grammar mean; the same for every language.
+"""What the rules of a grammar for steps mean; the same for every language.
 
 A rule's name says what it means. Its parts are told apart by what they are, not by their order, so
 each language may put them where it likes.
@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from lark import Token, Transformer, v_args
+from lark import Token, v_args
 from lark.tree import Meta
 
 from semnav_env.commands.clauses import (
@@ -45,26 +45,16 @@ from semnav_env.commands.parts import (
     sure,
     whole,
 )
-from semnav_env.commands.references import (
-    LAST,
-    OTHER,
-    Distance,
-    DoorReference,
-    Place,
-    PlaceReference,
-    Side,
-    Unit,
-)
+from semnav_env.commands.reference_meanings import ReferenceMeanings
+from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference, Side
 
 
-class _Meanings(Transformer[Token, list[Found]]):
+class _Meanings(ReferenceMeanings):
     """Builds the value of each rule, from the innermost outwards."""
 
     def __init__(self, language: Language, rooms: dict[str, str]) -> None:
-        super().__init__()
-        self._language = language
+        super().__init__(language)
         self._rooms = rooms
-        self._last_door: DoorReference | None = None
 
     def start(self, found: list[Found]) -> list[Found]:
         return found
@@ -237,59 +227,6 @@ class _Meanings(Transformer[Token, list[Found]]):
 
     def stop_past(self, parts: Parts) -> Readings:
         return ((Follow(reference_in(parts), past=True), Stop()),)
-
-    def junction(self, parts: Parts) -> PlaceReference:
-        self._last_door = None
-        return PlaceReference(members(parts, Place)[0], ordinal_in(parts))
-
-    def place(self, _: Parts) -> PlaceReference:
-        return PlaceReference(Place.END)
-
-    def counted_junctions(self, parts: Parts) -> PlaceReference:
-        return PlaceReference(Place.INTERSECTION, whole(one(parts, float)))
-
-    def door(self, parts: Parts) -> DoorReference:
-        self._last_door = DoorReference(ordinal_in(parts), side_in(parts))
-        return self._last_door
-
-    room = door
-
-    def door_again(self, parts: Parts) -> DoorReference:
-        if self._last_door is None:
-            raise ValueError("one of what? name the door")
-        return DoorReference(ordinal_in(parts), side_in(parts) or self._last_door.side)
-
-    def door_from_end(self, parts: Parts) -> DoorReference:
-        ordinal = ordinal_in(parts)
-        if ordinal <= OTHER:
-            raise ValueError("one counts from the end with first, second, third ...")
-        return DoorReference(-ordinal, side_in(parts))
-
-    def last_door(self, parts: Parts) -> DoorReference:
-        return DoorReference(LAST, side_in(parts))
-
-    def counted_doors(self, parts: Parts) -> DoorReference:
-        return DoorReference(whole(one(parts, float)), side_in(parts))
-
-    def ahead(self, _: Parts) -> Side:
-        return Side.AHEAD
-
-    def distance(self, parts: Parts) -> Distance:
-        amounts = [part for part in parts if isinstance(part, float)]
-        return Distance(amounts[0] if amounts else 1.0, members(parts, Unit)[0])
-
-    @v_args(inline=True)
-    def number(self, words: Token) -> float:
-        return float(self._language.number(words))
-
-    @v_args(inline=True)
-    def nth(self, words: Token) -> int:
-        return self._language.counts[words]
-
-    from_end = nth
-
-    def other(self, _: Parts) -> int:
-        return OTHER
 
 
 def _first_open(door: DoorReference) -> DoorReference:
