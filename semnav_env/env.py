@@ -205,7 +205,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     @property
     def believed_pose(self) -> Pose:
         """Where the robot believes to be, in the odometry frame."""
-        return self.world.pose if self._truth else self.odometry.pose
+        return self.perception.pose
 
     @property
     def seconds(self) -> float:
@@ -228,7 +228,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
 
     def _sense(self, pose: Pose, velocity: Pose) -> None:
         key = self._noise_seed, 0, self._steps
-        self.perception.sense(pose, self.believed_pose, velocity, key, self.world.touches)
+        odometry = pose if self._truth else self.odometry.pose
+        self.perception.sense(pose, odometry, velocity, key, self.world.touches)
 
     def _observation(self) -> dict[str, NDArray[Any]]:
         return self._observer.pack(self.perception.row, self.task.verifier.tokens)

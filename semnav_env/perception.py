@@ -11,7 +11,7 @@ import numpy as np
 
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import FloatArray, Pose, compose, relative
 from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
@@ -46,8 +46,11 @@ class Perception:
     Args:
         lidar: on its mount.
         settings: of the feature extractor.
+        drifts: odometry does, and walls that are seen again correct it.
 
     Attributes:
+        pose: where the robot takes itself to be, in the frame of its memory, which is that of
+            odometry at the start.
         row: the observation of this step, `ROW_SIZE` values and the scan.
         features: of this step's scan, lidar frame.
         ranges: of this step's scan, metres.
@@ -57,9 +60,9 @@ class Perception:
         follower: how far the command has come, as the robot sees it.
     """
 
-    def __init__(self, lidar: Lidar, settings: ExtractorSettings) -> None:
+    def __init__(self, lidar: Lidar, settings: ExtractorSettings, drifts: bool = True) -> None:
         beams = lidar.spec.beams
-        self.lidar = lidar
+        self.lidar, self.drifts = lidar, drifts
         self.row = np.zeros(ROW_SIZE + beams, dtype=np.float32)
         self.ranges = np.zeros(beams)
         self.features = allocate_features()
@@ -105,7 +108,7 @@ class Perception:
         write_felt(self.row, self.felt.ends, ORIGIN)
         guide = Told({clause: way.seen_from(start) for clause, way in ways.items()})
         self.follower = Follower(command, care=0.5, jamb_margin=0.3, guide=guide)
-        self._started, self._was = False, ORIGIN
+        self._started, self.pose, self._odometry = False, ORIGIN, ORIGIN
         self._looked_from: Pose = (0.0, 0.0, 0.0)
         self._looked_at, self._looked_on = 0, (0, 0)
 
@@ -126,26 +129,34 @@ class Perception:
             key: (seed, episode, step) of the noise.
             touches: what the robot touches.
         """
-        observe(self.senses, true_pose, odometry, key)
-        if touches and self.felt.note(touches, self.ranges, odometry):
+        was, guess = self.pose, self._carried_on(odometry)
+        self.pose = pose = observe(self.senses, true_pose, guess, key, self.drifts)
+        if touches and self.felt.note(touches, self.ranges, pose):
             self._looked_from = NOWHERE
         if self.felt:
-            self.felt.pass_on(self._was, odometry)
-            write_felt(self.row, self.felt.ends, odometry)
-        self._was = odometry
-        self._think(odometry, math.hypot(velocity[0], velocity[1]), key[2])
+            self.felt.pass_on(was, pose)
+            write_felt(self.row, self.felt.ends, pose)
+        self._think(pose, math.hypot(velocity[0], velocity[1]), key[2])
         follower = self.follower
-        goal = follower.goal.towards(odometry)
+        goal = follower.goal.towards(pose)
         write_state(
             self.row,
             follower.active,
-            odometry,
+            pose,
             velocity,
             goal.kind.value,  # numba is slow to recognise an enum
             goal.pose,
             door_ends(goal),
             goal.door is not None,
         )
+
+    def _carried_on(self, odometry: Pose) -> Pose:
+        """Where the robot is if odometry was right since the last scan."""
+        if not self.drifts:
+            return odometry
+        moved = relative(self._odometry, odometry)
+        self._odometry = odometry
+        return compose(self.pose, moved)
 
     def _think(self, odometry: Pose, speed: float, step: int) -> None:
         """Move on to the next clause or ground this one anew, if there is reason to."""
@@ -201,7 +212,7 @@ class TruePerception(Perception):
     """
 
     def __init__(self, lidar: Lidar, settings: ExtractorSettings, scene: Scene) -> None:
-        super().__init__(lidar, settings)
+        super().__init__(lidar, settings, drifts=False)
         self._scene = scene
 
     def begin(

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.chain import extract_arrays
-from semnav_env.features.kernels.memory import remember
+from semnav_env.features.kernels.memory import relocate, remember
 from semnav_env.lidar.lidar import sense
 from semnav_env.observation_row import write_features, write_remembered, write_scan
 from semnav_env.observations import ROW_SIZE
@@ -82,14 +82,19 @@ def observe(
     robot_world: Pose,
     robot_odom: Pose,
     key: tuple[int, int, int],
-) -> None:
+    drifts: bool,
+) -> Pose:
     """Scan, extract, remember and write the observation row (but for goal and odometry).
 
     Args:
         senses: the arrays to read and write.
         robot_world: true pose of the robot's centre, world frame.
-        robot_odom: the same by odometry.
+        robot_odom: the same by odometry, in the memory's frame.
         key: (seed, episode, step) of the noise.
+        drifts: walls that are seen again tell where the robot is, and odometry only about where.
+
+    Returns:
+        Where the robot takes itself to be, in the memory's frame.
     """
     ranges, features, row = senses.ranges, senses.features, senses.row
     grid, starts, ends, directions, sensor, discs, leaves = senses.lidar
@@ -114,6 +119,10 @@ def observe(
     limits = sensor[0]
     extract_features(senses)
     write_features(row, features, senses.mount)
+    robot, lidar = robot_odom, _mounted(robot_odom, senses.mount)
+    if drifts:
+        lidar = relocate(features.walls, features.counts, lidar, senses.remembered)
+        robot = _carrying(lidar, senses.mount)
     remember(
         features.walls,
         features.doors,
@@ -121,12 +130,13 @@ def observe(
         ranges,
         limits.angle_min,
         limits.angle_increment,
-        _mounted(robot_odom, senses.mount),
+        lidar,
         senses.remembered,
     )
     _, doors, used = senses.remembered
-    write_remembered(row, doors, used[1], robot_odom)
+    write_remembered(row, doors, used[1], robot)
     write_scan(row[ROW_SIZE:], ranges, limits.range_min, limits.range_max)
+    return robot
 
 
 @njit(cache=True, error_model="numpy")
@@ -156,3 +166,12 @@ def _mounted(robot: Pose, mount: Pose) -> Pose:
     c, s = math.cos(robot[2]), math.sin(robot[2])
     x, y = robot[0] + c * mount[0] - s * mount[1], robot[1] + s * mount[0] + c * mount[1]
     return x, y, robot[2] + mount[2]
+
+
+@njit(cache=True, error_model="numpy")
+def _carrying(lidar: Pose, mount: Pose) -> Pose:
+    """The pose of a robot whose lidar on its mount has a pose."""
+    heading = lidar[2] - mount[2]
+    heading -= 2.0 * math.pi * np.rint(heading / (2.0 * math.pi))
+    c, s = math.cos(heading), math.sin(heading)
+    return lidar[0] - c * mount[0] + s * mount[1], lidar[1] - s * mount[0] - c * mount[1], heading

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.door_memory import door_counts, doubt_doors, remember_door
+from semnav_env.features.kernels.drift import without_drift
 from semnav_env.features.kernels.layout import DOORS, WALLS
 from semnav_env.features.kernels.remembered import Ends, place_for_new
 from semnav_env.features.kernels.seen_through import is_seen_through
@@ -76,6 +77,24 @@ def remember(
         ranges, angle_min, angle_increment, pose, known_walls[used[2] % TURNS : used[0] : TURNS]
     )
     used[2] += 1
+
+
+@njit(cache=True, error_model="numpy")
+def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) -> Pose:
+    """Where the lidar is by what it sees again of the memory, if odometry says `pose`.
+
+    Args:
+        walls: the scan's walls (`layout.WALL`), lidar frame.
+        counts: entries used, by kind.
+        pose: of the lidar in the memory's frame.
+        memory: as `remember` has it.
+    """
+    seen = np.empty((counts[WALLS], 4))
+    for i in range(counts[WALLS]):
+        wall = walls[i]
+        seen[i] = placed((wall.start_x, wall.start_y, wall.end_x, wall.end_y), pose)
+    known, _, used = memory
+    return without_drift(seen, known[: used[0]], pose)
 
 
 @njit(cache=True, error_model="numpy")

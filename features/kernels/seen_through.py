@@ -10,7 +10,10 @@ from numba import njit
 from semnav_env.features.frames import FloatArray
 
 LOOKS, LEAST = 6, 4
-"""So many places along a wall are looked at, and so many of them must be in good view."""
+"""So many places along a wall are looked at, and so many of them must be in the scan."""
+SHARE, STRETCH = 0.6, 1.5
+"""They lie in the stretch in good view, which is so much of the wall, or so long, metres: longer
+than a doorway."""
 REACH = 6.0
 """A place farther off is not in good view, metres."""
 FLATTEST = math.sin(math.radians(20.0))
@@ -38,14 +41,20 @@ def is_seen_through(
     """
     dx, dy = wall.end_x - wall.start_x, wall.end_y - wall.start_y
     x, y = wall.start_x - pose[0], wall.start_y - pose[1]
-    across = abs(x * dy - y * dx) / math.sqrt(dx * dx + dy * dy)
+    length = math.sqrt(dx * dx + dy * dy)
+    across = abs(x * dy - y * dx) / length
+    reach = min(REACH, across / FLATTEST)
+    if reach <= across:
+        return False
+    foot, half = -(x * dx + y * dy) / length, math.sqrt(reach * reach - across * across)
+    first, last = max(foot - half, 0.0), min(foot + half, length)
+    if last - first < min(SHARE * length, STRETCH):
+        return False
     in_view = passed = 0
     for k in range(LOOKS):
-        share = (k + 0.5) / LOOKS
+        share = (first + (k + 0.5) / LOOKS * (last - first)) / length
         px, py = x + share * dx, y + share * dy
         distance = math.sqrt(px * px + py * py)
-        if distance > REACH or across < FLATTEST * distance:
-            continue
         turn = math.atan2(py, px) - pose[2] - angle_min
         turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi))
         beam = int(turn / angle_increment + 0.5)
