@@ -61,7 +61,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     | felt, felt_mask | 16 * 4, 16 | x, y of ends of what was run into unseen, such as glass |
     | command | 8 * 5 | the command as tokens, see `commands.tokens.encode` |
     | clause | 8 | one-hot: the clause that the robot believes to be under way |
-    | odometry | 7 | x, y, cosine and sine of heading; speed forward, left and turning |
+    | odometry | 7 | x, y, cosine and sine of heading as the robot believes; its speeds |
     | goal | 13 | seek, reach, pass or stop; x, y, cosine, sine; jambs; has a door |
     | scan | beams | ranges; no return reads as the lidar's range |
 
@@ -87,9 +87,10 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     ## Arguments
     robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a
     `FloorPlan`. observation: see above. lidar: "tim561", "barbret" or a `LidarSpec`. odometry:
-    drift. extractor: limits of the feature extractor. rewards: weights. dynamics: what else moves.
-    max_seconds: of simulated time. render_mode: "rgb_array" or "human" (extra `render`). episodes:
-    to draw from: the name of a split, a file, or `Episode`s.
+    drift, and whether walls seen again correct it. extractor: limits of the feature extractor.
+    rewards: weights. dynamics: what else moves. max_seconds: of simulated time. render_mode:
+    "rgb_array" or "human" (extra `render`). episodes: to draw from: the name of a split, a file,
+    or `Episode`s.
 
     ## Version History
     v0: first version.
@@ -222,7 +223,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         exact = replace(self.lidar_spec, sigma=0.0, dropout=0.0, systematic=0.0)
         spec = exact if self._truth else self.lidar_spec
         lidar = Lidar(self.world.still, spec, self.robot.lidar_mount, self.world.moving_shapes)
-        self.perception: Perception = Perception(lidar, self.extractor)
+        corrected = self.odometry.settings.corrected
+        self.perception: Perception = Perception(lidar, self.extractor, corrected)
         if self._truth:
             self.perception = TruePerception(lidar, self.extractor, floor_plan.scene)
 

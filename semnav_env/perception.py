@@ -11,7 +11,7 @@ import numpy as np
 
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import FloatArray, Pose, compose, relative
+from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
@@ -129,8 +129,9 @@ class Perception:
             key: (seed, episode, step) of the noise.
             touches: what the robot touches.
         """
-        was, guess = self.pose, self._carried_on(odometry)
-        self.pose = pose = observe(self.senses, true_pose, guess, key, self.drifts)
+        was, before = self.pose, (self._odometry, self.pose)
+        pose = observe(self.senses, true_pose, odometry, before, self.drifts, key)
+        self.pose, self._odometry = pose, odometry
         if touches and self.felt.note(touches, self.ranges, pose):
             self._looked_from = NOWHERE
         if self.felt:
@@ -149,14 +150,6 @@ class Perception:
             door_ends(goal),
             goal.door is not None,
         )
-
-    def _carried_on(self, odometry: Pose) -> Pose:
-        """Where the robot is if odometry was right since the last scan."""
-        if not self.drifts:
-            return odometry
-        moved = relative(self._odometry, odometry)
-        self._odometry = odometry
-        return compose(self.pose, moved)
 
     def _think(self, odometry: Pose, speed: float, step: int) -> None:
         """Move on to the next clause or ground this one anew, if there is reason to."""

@@ -80,18 +80,21 @@ def join_senses(
 def observe(
     senses: Senses,
     robot_world: Pose,
-    robot_odom: Pose,
-    key: tuple[int, int, int],
+    odometry: Pose,
+    before: tuple[Pose, Pose],
     drifts: bool,
+    key: tuple[int, int, int],
 ) -> Pose:
     """Scan, extract, remember and write the observation row (but for goal and odometry).
 
     Args:
         senses: the arrays to read and write.
         robot_world: true pose of the robot's centre, world frame.
-        robot_odom: the same by odometry, in the memory's frame.
+        odometry: the same by odometry, odometry frame.
+        before: odometry at the last scan, and what was returned for it.
+        drifts: walls that are seen again tell where the robot is, and odometry only about where;
+            else the memory's frame is that of odometry.
         key: (seed, episode, step) of the noise.
-        drifts: walls that are seen again tell where the robot is, and odometry only about where.
 
     Returns:
         Where the robot takes itself to be, in the memory's frame.
@@ -119,7 +122,8 @@ def observe(
     limits = sensor[0]
     extract_features(senses)
     write_features(row, features, senses.mount)
-    robot, lidar = robot_odom, _mounted(robot_odom, senses.mount)
+    robot = _moved_on(odometry, before) if drifts else odometry
+    lidar = _mounted(robot, senses.mount)
     if drifts:
         lidar = relocate(features.walls, features.counts, lidar, senses.remembered)
         robot = _carrying(lidar, senses.mount)
@@ -175,3 +179,12 @@ def _carrying(lidar: Pose, mount: Pose) -> Pose:
     heading -= 2.0 * math.pi * np.rint(heading / (2.0 * math.pi))
     c, s = math.cos(heading), math.sin(heading)
     return lidar[0] - c * mount[0] + s * mount[1], lidar[1] - s * mount[0] - c * mount[1], heading
+
+
+@njit(cache=True, error_model="numpy")
+def _moved_on(odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
+    """Where a robot is if odometry was right since it was somewhere; its heading is not wrapped."""
+    last, pose = before
+    x, y, turned = odometry[0] - last[0], odometry[1] - last[1], pose[2] - last[2]
+    c, s = math.cos(turned), math.sin(turned)
+    return pose[0] + c * x - s * y, pose[1] + s * x + c * y, odometry[2] + turned

@@ -8,6 +8,7 @@ from typing import TypeAlias
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.normal_equations import solved
 
 Ray: TypeAlias = tuple[float, float, float]
 """A ray that touches a circle: its unit normal towards the centre, and its weight, the variance of
@@ -137,28 +138,7 @@ def gauss_newton(
         bx += weight * nx * error
         by += weight * ny * error
         br -= weight * error
-    return solved(x, y, radius, (xx, xy, yy, xr, yr, rr), (bx, by, br))
-
-
-@njit(cache=True, error_model="numpy")
-def solved(
-    x: float,
-    y: float,
-    radius: float,
-    normal: tuple[float, float, float, float, float, float],
-    right: tuple[float, float, float],
-) -> tuple[float, float, float]:
-    """The circle moved by the solution of the normal equations, by Cramer's rule."""
-    xx, xy, yy, xr, yr, rr = normal
-    bx, by, br = right
-    a, b, c = yy * rr - yr * yr, xr * yr - xy * rr, xy * yr - xr * yy
-    d, e, f = xx * rr - xr * xr, xr * xy - xx * yr, xx * yy - xy * xy
-    determinant = xx * a + xy * b + xr * c
-    return (
-        x + (a * bx + b * by + c * br) / determinant,
-        y + (b * bx + d * by + e * br) / determinant,
-        radius + (c * bx + e * by + f * br) / determinant,
-    )
+    return solved((x, y, radius), (xx, xy, yy, xr, yr, rr), (bx, by, br))
 
 
 @njit(cache=True, error_model="numpy")

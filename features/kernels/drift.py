@@ -1,6 +1,7 @@
 """Numba kernel that takes drift out of odometry: walls that are seen again lie where they lay.
 
-Mes 2021 corrects the drift of SPOT's odometry by known walls; here they are the remembered ones.
+Mes 2021 corrects the drift of SPOT's odometry by walls that are known; here they are the remembered
+ones.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.normal_equations import solved
 
 KNOWN_HITS = 5
 """A remembered wall tells where the robot is once it was seen so often."""
 
 OVERLAP, MOST_OVERLAP = 0.4, 3.0
-"""Two walls are compared where both are, along at least so much; more than the second counts as that
-much, metres."""
+"""Walls are compared where both are, if that is so long; longer than the second, metres, weighs no
+more."""
 
 BESIDE = 0.3
 """Walls farther than this beside each other are two walls, metres."""
@@ -35,77 +37,96 @@ OUTLIER = 0.1
 SHIFT, TURN = 0.01, 0.004
 """Standard deviations of the drift from one scan to the next, metres and radians."""
 
+XX, XY, YY, XR, YR, RR, BX, BY, BR = range(9)
+"""Entries of the normal equations, as `solved` has them."""
+
 
 @njit(cache=True, error_model="numpy")
 def without_drift(walls: FloatArray, known: Any, pose: Pose) -> Pose:
     """The pose at which the walls of a scan lie best on the remembered ones.
 
-    It minimises sum w_i d_i^2 + (dx^2 + dy^2) / SHIFT^2 + dtheta^2 / TURN^2 in one Gauss-Newton step:
+    One Gauss-Newton step towards the least
+
+        sum w_i d_i^2 + (dx^2 + dy^2) / SHIFT^2 + dtheta^2 / TURN^2:
+
     d_i are the distances of the ends of each shared stretch from the remembered line, and w_i grows
     with its length. What the walls do not tell, such as the place along a bare corridor, stays.
 
     Args:
-        walls: ends x1, y1, x2, y2 of the scan's walls as the pose places them, metres, shape (n, 4).
+        walls: x1, y1, x2, y2 of the scan's walls as the pose places them, metres, shape (n, 4).
         known: `REMEMBERED_WALL`, in the same frame.
         pose: of the lidar by odometry, in the same frame.
 
     Returns:
         The corrected pose.
     """
-    normal = np.zeros((3, 3))
-    normal[0, 0] = normal[1, 1] = 1.0 / SHIFT**2
-    normal[2, 2] = 1.0 / TURN**2
-    pull = np.zeros(3)
+    sums = np.zeros(9)
+    sums[XX] = sums[YY] = 1.0 / SHIFT**2
+    sums[RR] = 1.0 / TURN**2
     for i in range(len(walls)):
-        _compare(walls[i], known, pose, normal, pull)
-    if not pull.any():
-        return pose
-    dx, dy, turn = np.linalg.solve(normal, pull)
-    return pose[0] + dx, pose[1] + dy, pose[2] + turn
+        like, begin, end = _nearest_like(walls[i], known)
+        if like >= 0:
+            _add(walls[i], begin, end, known[like], pose, sums)
+    xx, xy, yy, xr, yr, rr, bx, by, br = sums
+    return solved(pose, (xx, xy, yy, xr, yr, rr), (bx, by, br))
 
 
 @njit(cache=True, error_model="numpy")
-def _compare(
-    wall: FloatArray, known: Any, pose: Pose, normal: FloatArray, pull: FloatArray
-) -> None:
-    """Add what a wall, shape (4,), tells beside the nearest remembered one that is like it."""
+def _nearest_like(wall: FloatArray, known: Any) -> tuple[int, float, float]:
+    """The remembered wall nearest beside a wall, shape (4,), that faces and runs as it does.
+
+    Returns:
+        Its index, -1 if there is none; and the shares of the wall between which both are.
+    """
     x1, y1, x2, y2 = wall
     ux, uy = x2 - x1, y2 - y1
-    length = math.hypot(ux, uy)
-    nearest, best, begin, end = BESIDE, -1, 0.0, 0.0
+    nearest, like, begin, end = BESIDE, -1, 0.0, 0.0
     for k in range(len(known)):
         old = known[k]
         dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
-        if old.hits < KNOWN_HITS or ux * dx + uy * dy < 0.0:
+        dot, square = ux * dx + uy * dy, dx * dx + dy * dy
+        if dot < 0.0 or dot * dot < SLANT**2 * (ux * ux + uy * uy) * square:
             continue
-        reach = math.hypot(dx, dy)
-        if ux * dx + uy * dy < SLANT * length * reach:
+        if old.hits < KNOWN_HITS:
             continue
-        first = ((x1 - old.start_x) * dx + (y1 - old.start_y) * dy) / reach
-        last = ((x2 - old.start_x) * dx + (y2 - old.start_y) * dy) / reach
-        low, high = max(first, 0.0), min(last, reach)
+        length = math.sqrt(square)
+        first = ((x1 - old.start_x) * dx + (y1 - old.start_y) * dy) / length
+        last = ((x2 - old.start_x) * dx + (y2 - old.start_y) * dy) / length
+        low, high = max(first, 0.0), min(last, length)
         if high - low < OVERLAP:
             continue
         low, high = (low - first) / (last - first), (high - first) / (last - first)
         middle = 0.5 * (low + high)
         x, y = x1 + middle * ux - old.start_x, y1 + middle * uy - old.start_y
-        beside = abs(y * dx - x * dy) / reach
+        beside = abs(y * dx - x * dy) / length
         if beside < nearest:
-            nearest, best, begin, end = beside, k, low, high
-    if best < 0:
-        return
-    old = known[best]
+            nearest, like, begin, end = beside, k, low, high
+    return like, begin, end
+
+
+@njit(cache=True, error_model="numpy")
+def _add(
+    wall: FloatArray, begin: float, end: float, old: Any, pose: Pose, sums: FloatArray
+) -> None:
+    """Add to the normal equations what a stretch of a wall tells beside a remembered one."""
+    x1, y1, x2, y2 = wall
+    ux, uy = x2 - x1, y2 - y1
     dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
-    reach = math.hypot(dx, dy)
-    nx, ny = -dy / reach, dx / reach
-    weight = 0.5 * min((end - begin) * length, MOST_OVERLAP) / ROUGH**2
+    length = math.sqrt(dx * dx + dy * dy)
+    nx, ny = -dy / length, dx / length
+    shared = (end - begin) * math.sqrt(ux * ux + uy * uy)
+    weight = 0.5 * min(shared, MOST_OVERLAP) / ROUGH**2
     for share in (begin, end):
         x, y = x1 + share * ux, y1 + share * uy
         off = nx * (x - old.start_x) + ny * (y - old.start_y)
         lever = ny * (x - pose[0]) - nx * (y - pose[1])
         counts = weight / (1.0 + (off / OUTLIER) ** 2)
-        row = (nx, ny, lever)
-        for i in range(3):
-            pull[i] -= counts * row[i] * off
-            for j in range(3):
-                normal[i, j] += counts * row[i] * row[j]
+        sums[XX] += counts * nx * nx
+        sums[XY] += counts * nx * ny
+        sums[YY] += counts * ny * ny
+        sums[XR] += counts * nx * lever
+        sums[YR] += counts * ny * lever
+        sums[RR] += counts * lever * lever
+        sums[BX] -= counts * nx * off
+        sums[BY] -= counts * ny * off
+        sums[BR] -= counts * lever * off
