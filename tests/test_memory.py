@@ -236,6 +236,29 @@ def test_a_scan_that_cannot_tell_says_nothing_of_a_wall(ranges: FloatArray) -> N
     assert memory.size[0] == 1
 
 
+def test_a_long_wall_is_given_up_by_those_who_pass_close_to_it() -> None:
+    """Of a wall of 12 m they see but a quarter in good view."""
+    memory = SceneMemory()
+    for _ in range(3):
+        see(memory, walls=[(6.0, 0.8, -6.0, 0.8)])
+    for _ in range(40):
+        see(memory, ranges=beams_that_end_at(2.0))
+    assert memory.size == (0, 0)
+
+
+def test_a_long_wall_is_not_given_up_for_the_view_through_a_doorway() -> None:
+    memory = SceneMemory()
+    for _ in range(3):
+        see(memory, walls=[(6.0, 0.8, -6.0, 0.8)])
+    at_wall, behind = beams_that_end_at(0.8), beams_that_end_at(5.0)
+    angles = ANGLES[0] + ANGLES[1] * np.arange(360)
+    through = np.abs(np.cos(angles)) * 0.8 < 0.5 * np.sin(angles)
+    ranges = np.where(through, behind, at_wall)
+    for _ in range(40):
+        see(memory, ranges=ranges)
+    assert memory.size == (1, 0)
+
+
 def test_of_two_doors_in_one_place_the_one_seen_more_often_counts() -> None:
     wide = (2.55, 1.05, 4.0, 1.0)
     memory = SceneMemory()

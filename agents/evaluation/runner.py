@@ -170,7 +170,8 @@ def conclude(
     )
     if extras.pictures is not None and not result.success:
         name = picture_name(driven, episode or command, seed)
-        driven.save_picture(extras.pictures / name, f"{command}: {failure_line(result)}")
+        said = failure_line(result)
+        driven.save_picture(extras.pictures / name, said if episode else f"{command}: {said}")
     return result
 
 

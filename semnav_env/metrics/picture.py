@@ -74,7 +74,7 @@ def save_episode(
     draw_episode(ax, recording, robot, route, goals)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     _name_doors(ax, floor_plan, low, high)
-    ax.set_title("\n".join(textwrap.wrap(title, int(10 * size[0]))), fontsize=10)
+    figure.suptitle("\n".join(textwrap.wrap(title, int(10 * size[0]))), fontsize=10)
     figure.legend(loc="outside lower center", ncols=4, fontsize=9)
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=90)
