@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.door_memory import REMEMBERED_DOOR
+from semnav_env.features.kernels.drift import without_drift
 from semnav_env.features.kernels.layout import DOOR, DOORS, PIECES, WALL, WALLS
 from semnav_env.features.kernels.memory import (
     REMEMBERED_WALL,
@@ -84,6 +85,16 @@ class SceneMemory:
         counts[WALLS], counts[DOORS] = len(walls), len(doors)
         angles = scan.angle_min, scan.angle_increment
         self.update(walls, doors, counts, scan.ranges, angles, lidar_pose)
+
+    def locate(self, scene: Scene, lidar_pose: Pose) -> Pose:
+        """Where a lidar is by the walls that it sees again (`kernels.drift`); call it before `see`.
+
+        Args:
+            scene: what was extracted from a scan, lidar frame.
+            lidar_pose: of the lidar by odometry since the last scan, in the memory's frame.
+        """
+        walls = ends_of(scene.placed(lidar_pose).walls)
+        return without_drift(walls, self._walls[: self._used[0]], lidar_pose)
 
     @property
     def size(self) -> tuple[int, int]:

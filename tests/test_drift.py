@@ -12,9 +12,13 @@ from hypothesis import strategies as st
 from semnav_env.agents.base import steps
 from semnav_env.agents.registry import make_agent
 from semnav_env.env import SemNavEnv
+from semnav_env.features import extract
 from semnav_env.features.frames import FloatArray, Pose, compose, relative, to_parent
 from semnav_env.features.kernels.drift import BESIDE, KNOWN_HITS, without_drift
 from semnav_env.features.kernels.memory import REMEMBERED_WALL
+from semnav_env.features.memory import SceneMemory
+from semnav_env.lidar import Lidar
+from semnav_env.maps import load_floor_plan
 from semnav_env.odometry import OdometrySettings
 
 ROOM = np.array([(4, 3, -4, 3), (-4, 3, -4, -3), (-4, -3, 4, -3), (4, -3, 4, 3)], dtype=float)
@@ -86,6 +90,18 @@ def test_one_scan_corrects_a_part_and_never_more_than_the_whole(error: Pose) -> 
 )
 def test_walls_that_are_not_those_seen_do_not_move_the_robot(memory: np.ndarray) -> None:
     assert without_drift(CORRIDOR, memory, HERE) == HERE
+
+
+def test_a_memory_locates_a_lidar_by_what_it_saw_before() -> None:
+    memory, lidar = SceneMemory(), Lidar(load_floor_plan("office_cross"))
+    start = (6.0, 9.1, 0.2)
+    for step in range(KNOWN_HITS + 1):
+        scan = lidar.scan(start, (0, 0, step))
+        memory.see(extract(scan), scan, start)
+    believed = compose(start, (0.05, -0.05, 0.02))
+    for _ in range(60):
+        believed = memory.locate(extract(scan), believed)
+    assert believed == pytest.approx(start, abs=0.01)
 
 
 def test_a_robot_that_corrects_its_odometry_knows_better_where_it_is() -> None:
