@@ -127,6 +127,16 @@ def test_a_target_outside_the_window_is_approached():
     assert path.end[0] > 4.0
 
 
+@ROBOTS
+def test_round_the_corner_of_a_long_hallway_is_not_too_far(robot):
+    outer, inner = [(-2, -1), (46, -1), (46, 12)], [(-2, 1), (44, 1), (44, 12)]
+    walls = points_of(np.concatenate((polyline(*outer), polyline(*inner))))
+    target = Target((45.0, 8.0, math.pi / 2), 0.2, 0.15)
+    path = plan(walls, (0.0, 0.0, 0.0), target, robot)
+    assert path.complete
+    assert meets(path, target)
+
+
 @pytest.mark.parametrize("gap", [0.02, 0.01, 0.0])
 def test_a_robot_that_touches_a_wall_finds_a_way_out(gap):
     wall = points_of(polyline((-5.0, 0.0), (8.0, 0.0)))

@@ -64,7 +64,7 @@ class PlannerSettings:
     margins: tuple[float, ...] = (0.10, 0.06, 0.03, 0.0)
     detour: float = 1.0
     half_window: float = 7.0
-    widest: float = 32.0
+    widest: float = 64.0
     speed: float = 1.0
     turn_rate: float = 0.8
     reverse: float = 3.0
