@@ -84,7 +84,7 @@ class DemonstrationFile:
                 'demonstrations are kept by minari and h5py: pip install "semnav-env[data]"'
             ) from None
         named = DATASET_NAME.fullmatch(out) is not None
-        self.folder = Path(get_dataset_path(out)) if named else Path(out)
+        self.folder = Path(get_dataset_path(out) if named else out).absolute()
         if self.folder.exists() and (not self.folder.is_dir() or any(self.folder.iterdir())):
             raise FileExistsError(
                 17, "there is something already; give another name or folder", str(self.folder)

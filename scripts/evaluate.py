@@ -60,7 +60,8 @@ class Arguments:
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
         dynamics: what else moves.
-        out: file for every episode, one JSON object a line, as they are driven.
+        out: file for every episode, one JSON object a line, as they are driven; named
+            `.part` until the end or an interruption.
         json: print the table as JSON.
     """
 
@@ -119,6 +120,8 @@ class Arguments:
         if not is_episodes(self.suite):
             return suite(self.suite)
         found = load_episodes(self.suite)
+        if self.episodes is not None and self.episodes > len(found):
+            raise ValueError(f"--episodes is {self.episodes}; {self.suite} has {len(found)}")
         return found if self.episodes is None else evenly(found, self.episodes)
 
     def _ask(self, episodes: Sequence[Episode]) -> int:

@@ -5,4 +5,8 @@ Importing it registers `SemNav-v0`; say `gymnasium.make("semnav_env:SemNav-v0")`
 
 import gymnasium
 
-gymnasium.register("SemNav-v0", entry_point="semnav_env.env:SemNavEnv")
+gymnasium.register(
+    "SemNav-v0",
+    entry_point="semnav_env.env:SemNavEnv",
+    disable_env_checker=True,  # it cannot step after a first reset that was refused
+)

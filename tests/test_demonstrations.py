@@ -53,6 +53,17 @@ def test_a_demonstration_reads_back_as_it_was(
     assert demonstration.success
 
 
+def test_a_folder_may_be_named_from_where_one_stands(
+    driven: tuple[SemNavEnv, Demonstration], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    env, demonstration = driven
+    monkeypatch.chdir(tmp_path)
+    file = DemonstrationFile("new set", env, "oracle")
+    file.add(demonstration)
+    assert file.count == 1
+    assert minari.MinariDataset(tmp_path / "new set" / "data").total_episodes == 1
+
+
 def test_what_was_driven_before_an_interruption_is_kept(
     driven: tuple[SemNavEnv, Demonstration],
     tmp_path: Path,

@@ -208,6 +208,14 @@ def test_a_failed_reset_leaves_nothing_to_step() -> None:
         env.step(np.zeros(2))
 
 
+def test_after_a_first_reset_that_was_refused_one_can_reset_and_step() -> None:
+    env = gym.make("semnav_env:SemNav-v0")
+    with pytest.raises(CommandError):
+        env.reset(options={"command": "turn lef"})
+    env.reset(seed=0, options={"command": "turn left"})
+    env.step(env.action_space.sample())
+
+
 def test_options_that_are_no_dict_are_refused() -> None:
     with pytest.raises(ValueError, match="options are a dict"):
         SemNavEnv().reset(options="turn left")  # type: ignore[arg-type]

@@ -105,8 +105,13 @@ def test_the_office_suite_has_twenty_commands_of_one_to_three_clauses() -> None:
 
 
 def test_an_unknown_suite_is_an_error_that_lists_the_known_ones() -> None:
-    with pytest.raises(ValueError, match="heidelberg, office_cross, all"):
+    with pytest.raises(ValueError, match="heidelberg, office_cross, all, and the splits train"):
         suite("moon")
+
+
+def test_more_episodes_than_there_are_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["evaluate", "test_real", "--episodes", "201"]) == 2
+    assert "--episodes is 201; test_real has 200" in capsys.readouterr().err
 
 
 def test_a_split_is_evaluated_by_its_clauses_and_failures_are_told_by_their_episodes(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from semnav_env.episodes import SPLITS
 from semnav_env.features.frames import Pose
 
 
@@ -101,5 +102,6 @@ def suite(name: str) -> tuple[Trial, ...]:
     if name == "all":
         return tuple(trial for trials in SUITES.values() for trial in trials)
     if name not in SUITES:
-        raise ValueError(f"no suite {name!r}; there are: {', '.join(SUITES)}, all")
+        there = f"{', '.join(SUITES)}, all, and the splits {', '.join(SPLITS)}"
+        raise ValueError(f"no suite {name!r}; there are: {there}")
     return SUITES[name]
