@@ -25,7 +25,7 @@ MAX_WALLS, MAX_DOORS = 512, 64
 
 
 class SceneMemory:
-    """What was seen so far, in one fixed frame (the odometry frame).
+    """What was seen so far, in one fixed frame, such as that of odometry.
 
     A wall counts from its second sighting, until scans pass through it (`kernels.seen_through`).
     A door counts while its sightings, by their confidence, outweigh the scans that looked at its

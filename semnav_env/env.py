@@ -205,7 +205,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
 
     @property
     def believed_pose(self) -> Pose:
-        """Where the robot believes to be, in the odometry frame."""
+        """Where the robot believes to be, seen from its start; on the truth, in the world."""
         return self.perception.pose
 
     @property

@@ -43,7 +43,7 @@ class OdometrySettings:
     corrected: bool = True
 
     def __post_init__(self) -> None:
-        for field in fields(self)[:-1]:
+        for field in (each for each in fields(self) if each.name != "corrected"):
             value = getattr(self, field.name)
             if not 0.0 <= value < math.inf:
                 raise ValueError(f"{field.name} is {value}; it must be finite and not negative")

@@ -55,8 +55,8 @@ class Perception:
         features: of this step's scan, lidar frame.
         ranges: of this step's scan, metres.
         senses: all of these arrays, as the kernels take them.
-        memory: what was seen so far, odometry frame.
-        felt: walls that were run into unseen, odometry frame.
+        memory: what was seen so far, in that frame.
+        felt: walls that were run into unseen, in that frame.
         follower: how far the command has come, as the robot sees it.
     """
 
@@ -124,7 +124,7 @@ class Perception:
 
         Args:
             true_pose: of the robot's centre in the world: where the beams start.
-            odometry: the same as the robot believes, in the odometry frame.
+            odometry: the same by odometry alone.
             velocity: forward, left (m/s) and turning (rad/s), robot frame.
             key: (seed, episode, step) of the noise.
             touches: what the robot touches.
@@ -151,17 +151,15 @@ class Perception:
             goal.door is not None,
         )
 
-    def _think(self, odometry: Pose, speed: float, step: int) -> None:
+    def _think(self, pose: Pose, speed: float, step: int) -> None:
         """Move on to the next clause or ground this one anew, if there is reason to."""
         if not self._started:
             self._started = True
-            self.follower.start(self.scene(), odometry)
-            self._note_look(odometry, step)
-        elif self.follower.advance(self.scene, odometry, speed) or self._should_look(
-            odometry, step
-        ):
-            self.follower.look(self.scene(), odometry)
-            self._note_look(odometry, step)
+            self.follower.start(self.scene(), pose)
+            self._note_look(pose, step)
+        elif self.follower.advance(self.scene, pose, speed) or self._should_look(pose, step):
+            self.follower.look(self.scene(), pose)
+            self._note_look(pose, step)
 
     def hits(self) -> FloatArray:
         """Where this step's beams ended, lidar frame, shape (n, 2); NaN without a return."""
@@ -170,7 +168,7 @@ class Perception:
         return np.where(valid, self.ranges, np.nan)[:, None] * self._beams
 
     def scene(self) -> Scene:
-        """What is remembered, in the odometry frame."""
+        """What is remembered, in the frame of `pose`."""
         return self.felt.join(self.memory.scene())
 
     def _should_look(self, pose: Pose, step: int) -> bool:

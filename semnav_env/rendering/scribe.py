@@ -36,7 +36,7 @@ class Stage(Protocol):
 
     @property
     def believed_pose(self) -> Pose:
-        """Where the robot believes to be, in the odometry frame."""
+        """Where the robot believes to be, in the frame of its memory."""
 
     @property
     def seconds(self) -> float:
