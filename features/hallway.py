@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
 from semnav_env.features.kernels.hallway import first_gap, stands_in, survey
 from semnav_env.features.kernels.probing import BEHIND, SPACING
@@ -135,12 +137,14 @@ def hallway(scene: Scene, pose: Pose) -> Hallway:
 
     Args:
         scene: walls and doors. Doors close their gaps here, for they are no openings; but not
-            one that the robot stands in, looking through it.
+            one that the robot stands in, looking through it, nor a perceived one (without a name)
+            across a hallway that only narrows there.
         pose: where and which way, in the scene's frame; the axis is the direction, within 45
             degrees of the heading, that most of the wall in view runs along.
     """
+    named = np.array([door.name is not None for door in scene.doors], dtype=np.bool_)
     (x, y, heading), half_width, end, (left, right), rows = survey(
-        ends_of(scene.walls), ends_of(scene.doors), *pose
+        ends_of(scene.walls), ends_of(scene.doors), named, *pose
     )
     openings = [Opening(on_left > 0.0, *edges) for on_left, *edges in rows.tolist()]
     frame = x, y, wrap_angle(heading)

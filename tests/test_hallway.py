@@ -182,6 +182,41 @@ def test_a_door_close_to_the_corner_leads_out_as_the_wall_does(offset: float, le
     assert ways_on(seen) == ([(True, False, True)] if leads else [])
 
 
+def test_a_wall_with_a_door_in_it_right_at_the_corner_leads_out() -> None:
+    sides = polyline((-3.0, 1.0), (6.0, 1.0), (6.0, 1.1))
+    sides += polyline((8.0, 1.0), (14.0, 1.0), (14.0, -1.0), (-3.0, -1.0))
+    door = Door((6.0, 1.1), (6.0, 2.0))
+    beyond = Wall((6.0, 2.0), (6.0, 5.0))
+    assert ways_on(hallway(Scene((*sides, beyond), (door,)), START)) == [(True, False, True)]
+    assert ways_on(hallway(Scene((*sides, beyond), ()), START)) == []
+    assert ways_on(hallway(Scene(tuple(sides), (door,)), START)) == []
+
+
+@pytest.mark.parametrize("edges", ["near", "far", "both"])
+@pytest.mark.parametrize(("width", "narrow"), [(1.15, True), (1.55, False)])
+def test_a_narrow_opening_needs_walls_that_lead_out_of_both_edges(
+    width: float, narrow: bool, edges: str
+) -> None:
+    far = 6.05 + width
+    sides = polyline((-3.0, 1.0), (6.05, 1.0))
+    sides += polyline((far, 1.0), (14.0, 1.0), (14.0, -1.0), (-3.0, -1.0))
+    out = {"near": (6.05,), "far": (far,), "both": (6.05, far)}[edges]
+    walls = tuple(Wall((x, 1.0), (x, 5.0)) for x in out)
+    seen = hallway(Scene((*sides, *walls)), START)
+    assert ways_on(seen) == ([] if narrow and edges != "both" else [(True, False, True)])
+
+
+@pytest.mark.parametrize("seed", [2000006, 1000022])
+def test_the_wall_of_the_doorway_that_one_stands_in_does_not_end_the_way_out(seed: int) -> None:
+    """Open leaves turn the axis a little, so that half of that wall lies ahead of x = 0."""
+    plan = load_floor_plan(f"office:large:{seed}")
+    for door in plan.doors:
+        dx, dy = door.end[0] - door.start[0], door.end[1] - door.start[1]
+        out = (*door.midpoint, math.atan2(dx, -dy))
+        ends = [hallway(plan.scene, compose(out, (0.0, 0.0, turn))).end for turn in (0.0, math.pi)]
+        assert min(ends) > 0.3, door.name
+
+
 def test_an_opening_is_not_unseen() -> None:
     seen = hallway(SIDE_ARMS, START)
     assert math.isinf(seen.unseen(True, 0.0, 13.0))

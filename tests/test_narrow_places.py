@@ -45,11 +45,19 @@ def test_a_pilaster_makes_no_door_whatever_the_frame(a, b, c, d, turn, away):
 
 @pytest.mark.parametrize(
     "steps",
-    [(0.3, 0.3, 0.3, 0.3), (0.0, 0.0, 1.0, 0.0), (0.5, 0.5, 0.0, 0.0), (0.0, 0.0, 2.0, 2.0)],
+    [(0.3, 0.3, 0.3, 0.3), (0.25, 0.25, 1.0, 0.25), (0.5, 0.5, 0.1, 0.1), (0.0, 0.0, 2.0, 2.0)],
     ids=["a door in the hallway", "a room flush with it", "a narrow arm", "a room at its end"],
 )
 def test_where_the_hallway_is_wider_than_the_opening_it_is_a_door(steps):
     assert not is_narrow_place(OPENING, passage(*steps))
+
+
+def test_where_one_side_runs_through_a_hallway_ends_in_a_wider_place():
+    lobby = passage(0.1, 0.1, 0.1, 3.0)
+    assert is_narrow_place(OPENING, lobby)
+    assert is_narrow_place(OPENING, lobby * [-1.0, 1.0, -1.0, 1.0])
+    leaf = np.array([(0.0, 0.6, 1.2, 0.6)])
+    assert not is_narrow_place(OPENING, np.vstack((passage(0.1, 0.1, 3.0, 3.0), leaf)))
 
 
 def test_sides_that_are_not_seen_to_run_on_leave_a_door_a_door():
@@ -72,3 +80,10 @@ def test_a_hallway_ends_at_a_door_across_it_and_not_where_it_narrows(steps, end)
     assert [door.door for door in doors_along(scene, seen)] == [
         on_the_left if end > 4.0 else across
     ]
+
+
+def test_a_door_of_the_floor_plan_is_a_door_wherever_it_is():
+    walls = np.vstack((passage(), (4.0, 2.0, 4.0, -2.0)))
+    for name, end in (("1.01", 4.0), (None, 8.0)):
+        scene = Scene(PlainWalls(walls), (Door((0.0, 0.6), (0.0, -0.6), name),))
+        assert hallway(scene, (-4.0, 0.0, 0.0)).end == pytest.approx(end, abs=0.05)

@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.heading import prevailing_heading
@@ -47,8 +48,17 @@ RECENT = 2.0
 OPENING_WIDTH = 1.35
 """Where a side steps back for longer than this it may be an opening, metres; shorter, a doorway."""
 
+NARROW_OPENING = 1.0
+"""Shorter than that but longer than this it is one if walls lead out of both edges, metres."""
+
 LEAF = 1.2
 """Longer than any door leaf, metres: so far a wall leads out at an edge of an opening."""
+
+JOINT = 0.3
+"""Parts of a wall no farther apart than this belong together, metres."""
+
+ABREAST = 0.25
+"""A wall leads out of an edge if it begins no farther from it along the hallway, metres."""
 
 MAX_OPENINGS = 32
 """More openings along a hallway are left out."""
@@ -60,14 +70,20 @@ Frame: TypeAlias = tuple[float, float, float]
 
 @njit(cache=True)
 def survey(
-    walls: FloatArray, doors: FloatArray, x: float, y: float, heading: float
+    walls: FloatArray,
+    doors: FloatArray,
+    certain: NDArray[np.bool_],
+    x: float,
+    y: float,
+    heading: float,
 ) -> tuple[Frame, float, float, FloatArray, FloatArray]:
     """Look along the hallway that a robot at (x, y, heading) stands in.
 
     Args:
         walls: shape (n, 4), metres.
         doors: shape (m, 4); they close their gaps, but for one that the robot stands in, and for
-            those across the hallway where that only narrows.
+            doubtful ones across the hallway where that only narrows.
+        certain: which doors cannot be anything else, shape (m,).
         x: of the robot, metres.
         y: the same.
         heading: of the robot, radians.
@@ -78,7 +94,7 @@ def survey(
         (2, PROBES); and for each opening 1 if on the left or 0, its near and far edge along the
         axis, and the distance of its side, shape (n, 4).
     """
-    solid = _solid(walls, doors, x, y, heading)
+    solid = _solid(walls, doors, certain, x, y, heading)
     heading = prevailing_heading(solid, len(walls), x, y, heading)
     local = in_frame(solid, x, y, heading)
     offset, straight = way_ahead(local)
@@ -124,7 +140,14 @@ def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
 
 
 @njit(cache=True)
-def _solid(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: float) -> FloatArray:
+def _solid(
+    walls: FloatArray,
+    doors: FloatArray,
+    certain: NDArray[np.bool_],
+    x: float,
+    y: float,
+    heading: float,
+) -> FloatArray:
     """The walls, then the doors that the robot does not stand in and that do part the hallway."""
     known = np.concatenate((walls, doors))
     solid = np.empty((len(known), 4))
@@ -133,7 +156,8 @@ def _solid(walls: FloatArray, doors: FloatArray, x: float, y: float, heading: fl
     for i in range(len(doors)):
         if stands_in(doors[i], x, y, heading):
             continue
-        if _is_across(doors[i], heading) and is_narrow_place(doors[i], known):
+        doubtful = not certain[i] and _is_across(doors[i], heading)
+        if doubtful and is_narrow_place(doors[i], known):
             continue
         solid[count] = doors[i]
         count += 1
@@ -217,12 +241,15 @@ def _note_opening(
     openings: FloatArray,
     count: int,
 ) -> int:
-    """Note the probes [first, last) as an opening, if wide and a wall leads out of an edge."""
+    """Note the probes [first, last) as an opening, if wide and walls lead out of its edges."""
     near = (first - 0.5) * SPACING - BEHIND
     far = (last - 0.5) * SPACING - BEHIND
-    if far - near < OPENING_WIDTH or count == len(openings):
+    if far - near < NARROW_OPENING or count == len(openings):
         return count
-    if not (_leads_out(solid, sign, near, offset) or _leads_out(solid, sign, far, offset)):
+    leading = 0
+    for edge in (near, far):
+        leading += _leads_out(solid, sign, edge, offset)
+    if leading < (1 if far - near >= OPENING_WIDTH else 2):
         return count
     openings[count] = max(sign, 0.0), near, far, offset
     return count + 1
@@ -230,17 +257,20 @@ def _note_opening(
 
 @njit(cache=True)
 def _leads_out(solid: FloatArray, sign: float, edge: float, offset: float) -> bool:
-    """Whether a wall, or a door close to the edge, leads away from the axis at x = `edge`.
+    """Whether walls and doors in one line lead away from the axis at x = `edge`.
 
-    It does so from y = `offset` on.
+    They do so from y = `offset` on, farther than a leaf.
     """
-    for i in range(len(solid)):
-        x1, y1, x2, y2 = solid[i, 0], sign * solid[i, 1], solid[i, 2], sign * solid[i, 3]
-        if y2 < y1:
-            x1, y1, x2, y2 = x2, y2, x1, y1
-        if not (y2 - y1 > abs(x2 - x1) and y1 < offset + 0.6 and y2 > offset + LEAF):
-            continue
-        beside = x1 + (x2 - x1) * max(0.0, offset - y1) / (y2 - y1)
-        if abs(beside - edge) < 0.25:
-            return True
-    return False
+    reach, grown = offset + JOINT, True
+    while grown:
+        grown = False
+        for i in range(len(solid)):
+            x1, y1, x2, y2 = solid[i, 0], sign * solid[i, 1], solid[i, 2], sign * solid[i, 3]
+            if y2 < y1:
+                x1, y1, x2, y2 = x2, y2, x1, y1
+            if not (y2 - y1 > abs(x2 - x1) and y1 < reach + JOINT and y2 > reach):
+                continue
+            beside = x1 + (x2 - x1) * max(0.0, offset - y1) / (y2 - y1)
+            if abs(beside - edge) < ABREAST:
+                reach, grown = y2, True
+    return reach > offset + LEAF

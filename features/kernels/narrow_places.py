@@ -19,6 +19,9 @@ BIN = 0.1
 LONG, SHORT = 1.0, 0.5
 """Sides run on if so much of them is there, on one side of the opening and on the other, metres."""
 
+THROUGH = 1.25
+"""One side runs through if so much of it is there beyond the opening, more than a leaf, metres."""
+
 WIDER = 0.45
 """A hallway with a door across it is wider than the door by more than this, metres."""
 
@@ -37,7 +40,8 @@ def is_narrow_place(door: FloatArray, solid: FloatArray) -> bool:
     """Whether a passage about as wide as an opening leads up to it and away from it.
 
     Then it is no doorway but a hallway that narrows, between a pilaster and a wall for instance: a
-    hallway with a door in it, or a room behind one, is wider than the door.
+    hallway with a door in it, or a room behind one, is wider than the door. Where the hallway ends
+    in a room or a lobby one of its sides runs through.
 
     Args:
         door: the opening's jambs, shape (4,), metres.
@@ -63,11 +67,12 @@ def is_narrow_place(door: FloatArray, solid: FloatArray) -> bool:
                 _mark(-along1, -along2, there[1, side, step])
     for step in range(1, STEPS):
         there[:, :, step] |= there[:, :, step - 1]
-    return (
-        _runs(there[0], SHORT)
-        and _runs(there[1], SHORT)
-        and (_runs(there[0], LONG) or _runs(there[1], LONG))
-    )
+    for here, beyond in ((there[0], there[1]), (there[1], there[0])):
+        if _runs(here, LONG) and _runs(beyond, SHORT):
+            return True
+        if _runs(here, THROUGH) and _runs_through(here, beyond):
+            return True
+    return False
 
 
 @njit(cache=True, error_model="numpy")
@@ -86,12 +91,27 @@ def _mark(along1: float, along2: float, there: NDArray[np.bool_]) -> None:
 
 
 @njit(cache=True, error_model="numpy")
+def _runs_through(here: NDArray[np.bool_], beyond: NDArray[np.bool_]) -> bool:
+    """Whether one side runs on from this side of the opening to beyond it."""
+    for side in range(2):
+        if min(_length(here[side, -1]), _length(beyond[side, -1])) >= THROUGH:
+            return True
+    return False
+
+
+@njit(cache=True, error_model="numpy")
+def _length(pieces: NDArray[np.bool_]) -> float:
+    """Of the pieces that are there, metres; a hair more, for it is compared."""
+    return pieces.sum() * BIN + 1e-9
+
+
+@njit(cache=True, error_model="numpy")
 def _runs(there: NDArray[np.bool_], length: float) -> bool:
     """Whether both sides run on for a length, together less than `WIDER` outside the jambs."""
     aside = 0.0
     for side in range(2):
         step = 0
-        while step < STEPS and there[side, step].sum() * BIN < length - 0.5 * BIN:
+        while step < STEPS and _length(there[side, step]) < length:
             step += 1
         aside += WIDER * step / STEPS
     return aside < WIDER - 1e-9

@@ -33,6 +33,9 @@ FURNITURE = 1.5
 DOORWAY = 0.5
 """Nearer than this to a door that lies across the way, one stands in the doorway, metres."""
 
+SILL = 0.1
+"""A wall nearer than this is the one in whose doorway one stands, not one ahead, metres."""
+
 LANE = 0.1
 """Distance between the lanes, metres."""
 
@@ -134,7 +137,7 @@ def way_ahead(local: FloatArray) -> tuple[float, float]:
     Returns:
         How far it lies to the left of the robot, and how far it goes on, metres.
     """
-    ways = _ways(_lanes(local, -ASIDE, round(2.0 * ASIDE / LANE) + 1, 0.0))
+    ways = _ways(_lanes(local, -ASIDE, round(2.0 * ASIDE / LANE) + 1, SILL))
     farthest, middle = ways.max(), (len(ways) - 1) // 2
     for k in range(middle + 1):
         for way in (middle - k, middle + k):
@@ -161,7 +164,7 @@ def way_back(local: FloatArray) -> float:
 @njit(cache=True)
 def farthest_way(local: FloatArray, left: float, right: float) -> float:
     """The farthest that any way for a body goes on between the sides, metres."""
-    ways = _ways(_lanes(local, LANE - right, max(1, int((left + right) / LANE) - 1), 0.0))
+    ways = _ways(_lanes(local, LANE - right, max(1, int((left + right) / LANE) - 1), SILL))
     return float(ways.max())
 
 
