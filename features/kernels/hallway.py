@@ -48,17 +48,11 @@ RECENT = 2.0
 OPENING_WIDTH = 1.35
 """Where a side steps back for longer than this it may be an opening, metres; shorter, a doorway."""
 
-NARROW_OPENING = 1.0
+NARROW_OPENING = 1.25
 """Shorter than that but longer than this it is one if walls lead out of both edges, metres."""
 
 LEAF = 1.2
 """Longer than any door leaf, metres: so far a wall leads out at an edge of an opening."""
-
-JOINT = 0.3
-"""Parts of a wall no farther apart than this belong together, metres."""
-
-ABREAST = 0.25
-"""A wall leads out of an edge if it begins no farther from it along the hallway, metres."""
 
 MAX_OPENINGS = 32
 """More openings along a hallway are left out."""
@@ -257,20 +251,17 @@ def _note_opening(
 
 @njit(cache=True)
 def _leads_out(solid: FloatArray, sign: float, edge: float, offset: float) -> bool:
-    """Whether walls and doors in one line lead away from the axis at x = `edge`.
+    """Whether a wall, or a door close to the edge, leads away from the axis at x = `edge`.
 
-    They do so from y = `offset` on, farther than a leaf.
+    It does so from y = `offset` on.
     """
-    reach, grown = offset + JOINT, True
-    while grown:
-        grown = False
-        for i in range(len(solid)):
-            x1, y1, x2, y2 = solid[i, 0], sign * solid[i, 1], solid[i, 2], sign * solid[i, 3]
-            if y2 < y1:
-                x1, y1, x2, y2 = x2, y2, x1, y1
-            if not (y2 - y1 > abs(x2 - x1) and y1 < reach + JOINT and y2 > reach):
-                continue
-            beside = x1 + (x2 - x1) * max(0.0, offset - y1) / (y2 - y1)
-            if abs(beside - edge) < ABREAST:
-                reach, grown = y2, True
-    return reach > offset + LEAF
+    for i in range(len(solid)):
+        x1, y1, x2, y2 = solid[i, 0], sign * solid[i, 1], solid[i, 2], sign * solid[i, 3]
+        if y2 < y1:
+            x1, y1, x2, y2 = x2, y2, x1, y1
+        if not (y2 - y1 > abs(x2 - x1) and y1 < offset + 0.6 and y2 > offset + LEAF):
+            continue
+        beside = x1 + (x2 - x1) * max(0.0, offset - y1) / (y2 - y1)
+        if abs(beside - edge) < 0.25:
+            return True
+    return False
