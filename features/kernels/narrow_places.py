@@ -102,7 +102,7 @@ def _runs_through(here: NDArray[np.bool_], beyond: NDArray[np.bool_]) -> bool:
 @njit(cache=True, error_model="numpy")
 def _length(pieces: NDArray[np.bool_]) -> float:
     """Of the pieces that are there, metres; a hair more, for it is compared."""
-    return pieces.sum() * BIN + 1e-9
+    return float(pieces.sum()) * BIN + 1e-9
 
 
 @njit(cache=True, error_model="numpy")
