@@ -59,7 +59,7 @@ MAX_OPENINGS = 32
 
 
 Frame: TypeAlias = tuple[float, float, float]
-"""Of an axis: x, y of its origin and its heading, metres and radians."""
+"""Of an axis or a robot: x, y of its origin and its heading, metres and radians."""
 
 
 @njit(cache=True)
@@ -88,7 +88,7 @@ def survey(
         (2, PROBES); and for each opening 1 if on the left or 0, its near and far edge along the
         axis, and the distance of its side, shape (n, 4).
     """
-    solid = _solid(walls, doors, certain, x, y, heading)
+    solid = _solid(walls, doors, certain, (x, y, heading))
     heading = prevailing_heading(solid, len(walls), x, y, heading)
     local = in_frame(solid, x, y, heading)
     offset, straight = way_ahead(local)
@@ -135,12 +135,7 @@ def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
 
 @njit(cache=True)
 def _solid(
-    walls: FloatArray,
-    doors: FloatArray,
-    certain: NDArray[np.bool_],
-    x: float,
-    y: float,
-    heading: float,
+    walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> FloatArray:
     """The walls, then the doors that the robot does not stand in and that do part the hallway."""
     known = np.concatenate((walls, doors))
@@ -148,9 +143,9 @@ def _solid(
     solid[: len(walls)] = walls
     count = len(walls)
     for i in range(len(doors)):
-        if stands_in(doors[i], x, y, heading):
+        if stands_in(doors[i], *pose):
             continue
-        doubtful = not certain[i] and _is_across(doors[i], heading)
+        doubtful = not certain[i] and _is_across(doors[i], pose[2])
         if doubtful and is_narrow_place(doors[i], known):
             continue
         solid[count] = doors[i]
