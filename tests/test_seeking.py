@@ -1,0 +1,85 @@
+"""What a robot looks for that it has not seen yet, and when it has seen enough."""
+
+from __future__ import annotations
+
+import pytest
+
+from semnav_env.features.scene import Scene, Wall
+from semnav_env.grounding import GoalKind, GroundingError, ground
+from tests.grounded import DOORS, START, clause, middle
+from tests.hand_made import L_LEFT, corridor
+
+
+def test_what_is_not_seen_yet_is_looked_for_along_the_hallway() -> None:
+    near = Scene(tuple(Wall(w.start, (min(w.end[0], 6.0), w.end[1])) for w in corridor().walls[:2]))
+    for text in (
+        "go through the first door on the right",
+        "turn left at the intersection",
+        "go to the end of the hallway",
+        "follow the hallway until the corner",
+    ):
+        goal = ground(clause(text), near, START, (1.0, 0.3, 0.4))
+        assert goal.kind is GoalKind.SEEK
+        assert goal.pose == pytest.approx((5.0, 0.0, 0.0), abs=0.01)
+        assert goal.because.startswith("looking for the")
+
+
+def seen_without_a_door() -> Scene:
+    """Doors at 3 and 6 on the left, of which only the second has been recognised."""
+    scene = corridor(left=(3.0, 6.0))
+    return Scene(scene.walls, scene.doors[1:])
+
+
+@pytest.mark.parametrize(("progress", "kind"), [(0.0, "SEEK"), (2.0, "SEEK"), (3.2, "PASS")])
+def test_while_a_stretch_before_the_door_is_unseen_one_looks_there_first(
+    progress: float, kind: str
+) -> None:
+    text = "go through the first door on the left"
+    goal = ground(clause(text), seen_without_a_door(), START, (progress, 0.0, 0.0))
+    assert goal.kind.name == kind
+    assert goal.pose[0] <= 6.0 + 1e-6
+
+
+def test_the_last_door_is_known_only_at_the_end() -> None:
+    last = clause("go through the last door on the left")
+    assert ground(last, DOORS, START, (9.0, 0.0, 0.0)).kind is GoalKind.SEEK
+    assert middle(ground(last, DOORS, START, (12.6, 0.0, 0.0))) == pytest.approx(9.0)
+
+
+def test_a_perceived_door_is_missing_only_when_the_end_has_been_seen() -> None:
+    third = clause("go through the third door on the right")
+    assert ground(third, DOORS, START, (9.0, 0.0, 0.0)).kind is GoalKind.SEEK
+    with pytest.raises(GroundingError, match=r"no third door on the right: .* ended after 2"):
+        ground(third, DOORS, START, (12.6, 0.0, 0.0))
+
+
+def test_looking_goes_on_to_a_place_from_which_the_end_counts_as_seen() -> None:
+    goal = ground(clause("take the third door on the right"), DOORS, START, (11.0, 0.0, 0.0))
+    with pytest.raises(GroundingError):
+        ground(clause("take the third door on the right"), DOORS, START, goal.pose)
+
+
+def test_at_the_end_a_robot_takes_a_corner_for_the_intersection_it_was_told_of() -> None:
+    turn = clause("turn left at the intersection")
+    assert ground(turn, L_LEFT, START, (9.0, 0.0, 0.0)).kind is GoalKind.SEEK
+    assert ground(turn, L_LEFT, START, (12.6, 0.0, 0.0)).kind is GoalKind.REACH
+
+
+def test_a_door_is_taken_once_the_robot_has_come_as_near_as_it_can_to_what_may_hide_another() -> (
+    None
+):
+    """From 6 m on no side is seen to the left: a pane of glass, say."""
+    scene = corridor(left=(5.0,), end_door=True)
+    walls = tuple(w for w in scene.walls if not (w.start[1] == w.end[1] == 1.0 and w.end[0] > 6.0))
+    cut = Wall((5.45, 1.0), (6.0, 1.0))
+    gappy = Scene((*walls, cut), scene.doors)
+    said = clause("go through the second door")
+    goals = {
+        x: ground(said, gappy, START, pose=(x, 0.0, 0.0)).kind for x in (7.0, 12.0, 12.7, 13.2)
+    }
+    assert goals == {
+        7.0: GoalKind.SEEK,
+        12.0: GoalKind.SEEK,
+        12.7: GoalKind.PASS,
+        13.2: GoalKind.PASS,
+    }
