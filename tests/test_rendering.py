@@ -1,59 +1,23 @@
-"""Pictures: deterministic, without a display, and everything in a frame leaves its trace."""
+"""Pictures: deterministic, and everything in a frame leaves its trace."""
 
 from __future__ import annotations
 
 import math
-import os
-import subprocess
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from numpy.typing import NDArray
-from PIL import Image
-from shapely import box
 
-from semnav_env.features.scene import Corner, CornerKind, Corridor, Door, Scene, Wall
+from semnav_env.features.scene import Corner, CornerKind, Corridor, Scene, Wall
 from semnav_env.grounding.goal import Goal, GoalKind
-from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
-from semnav_env.rendering import Frame, Viewer, save_gif, save_mp4, save_png, save_video
-from semnav_env.rendering.camera import Viewport, looking_at
-from semnav_env.rendering.text import harmless, wrap
+from semnav_env.rendering import Frame, Viewer
 from semnav_env.robots import SPOT, WHEELCHAIR
+from tests.small_office import DOOR, PLAIN, PLAN, office
 
 pytest.importorskip("pygame", reason="pictures need the extra `render`")
 
-DOOR = Door((4.0, 0.0), (5.0, 0.0))
 MAP_WIDTH = 676
-
-
-def office(width: float = 10.0, height: float = 6.0) -> FloorPlan:
-    """A room with a door below, a pane of glass, a cabinet and a pillar."""
-    outline = ((4.0, 0.0), (0.0, 0.0), (0.0, height), (width, height), (width, 0.0), (5.0, 0.0))
-    cabinet = ((1.0, 5.0), (2.0, 5.0), (2.0, 5.5), (1.0, 5.5), (1.0, 5.0))
-    return FloorPlan(
-        name="small_office",
-        surfaces=(
-            Surface(outline),
-            Surface(((6.0, 4.0), (8.0, 4.0)), Material.GLASS),
-            Surface(((4.0, 0.0), (3.6, -0.8)), Material.LEAF),
-            Surface(cabinet, Material.FURNITURE),
-            Surface(((0.0, -2.0), (width, -2.0)), assumed=True),
-        ),
-        doors=(PlanDoor("south", DOOR.start, DOOR.end),),
-        rooms=(Region("hall", box(0, 0, width, height)),),
-        corridors=(Region("walk", box(0, -2, width, 0)),),
-        intersections=(),
-        boundary=box(0, -2, width, height),
-    )
-
-
-PLAN = office()
-PLAIN = Frame(PLAN, WHEELCHAIR, (3.0, 3.0, 0.3))
 
 
 @pytest.fixture(scope="module")
@@ -171,111 +135,10 @@ def test_things_far_outside_the_plan_draw(viewer: Viewer) -> None:
     assert viewer.draw(far).shape == (720, 960, 3)
 
 
-def test_a_large_plan_is_followed_at_sixteen_metres_across() -> None:
-    view = Viewport(0.0, 0.0, 640.0, 720.0)
-    bounds = (0.0, 0.0, 100.0, 80.0)
-    camera = looking_at(bounds, (50.0, 40.0), view, 0.5)
-    assert camera.scale == pytest.approx(40.0)
-    assert camera.pixel((50.0, 40.0)) == pytest.approx((320.0, 360.0), abs=0.5)
-    corner = looking_at(bounds, (0.0, 0.0), view, 0.5)
-    assert corner.pixel((0.0, 0.0)) == pytest.approx((16.0, 704.0), abs=0.5)
-
-
-def test_a_small_plan_is_shown_whole_wherever_the_robot_is() -> None:
-    view = Viewport(0.0, 0.0, 640.0, 720.0)
-    cameras = {looking_at((0.0, 0.0, 10.0, 8.0), (x, 1.0), view, 0.5) for x in (0.0, 5.0, 9.0)}
-    assert len(cameras) == 1
-    pixels = cameras.pop().pixels([(0.0, 0.0), (10.0, 8.0)])
-    assert (pixels > 0).all()
-    assert (pixels < (640.0, 720.0)).all()
-
-
-def test_the_view_follows_the_robot_through_a_large_plan() -> None:
-    plan = office(60.0, 40.0)
-    viewer = Viewer(plan)
-    frames = [Frame(plan, SPOT, (x, 20.0, 0.0)) for x in (20.0, 30.0)]
-    first, second = (viewer.draw(frame)[250:470, 230:450] for frame in frames)
-    np.testing.assert_allclose(first.mean(), second.mean(), atol=8.0)
-    assert first.std() > 10.0, "the body is not in the middle of the view"
-
-
 def test_a_frame_of_another_plan_draws_that_plan(viewer: Viewer) -> None:
     other = office(7.0, 4.0)
     frame = Frame(other, WHEELCHAIR, (3.0, 3.0, 0.3))
     np.testing.assert_array_equal(viewer.draw(frame), Viewer(other).draw(frame))
-
-
-DRAW_WITHOUT_DISPLAY = """
-import test_rendering, pygame
-picture = test_rendering.Viewer(test_rendering.PLAN).draw(test_rendering.PLAIN)
-assert picture.std() > 10
-assert not pygame.display.get_init() and pygame.display.get_surface() is None
-print(picture.sum())
-"""
-
-
-def test_drawing_needs_no_display_and_prints_nothing(viewer: Viewer) -> None:
-    names = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "PYGAME_HIDE_SUPPORT_PROMPT")
-    bare = {name: value for name, value in os.environ.items() if name not in names}
-    done = subprocess.run(
-        [sys.executable, "-c", DRAW_WITHOUT_DISPLAY],
-        env=bare | {"PYTHONPATH": str(Path(__file__).parent)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.strip() == str(viewer.draw(PLAIN).sum())
-
-
-SHOW_IN_A_WINDOW = """
-import os, test_rendering as t, pygame
-viewer = t.Viewer(t.PLAN, fps=1000)
-assert viewer.show(t.PLAIN) and pygame.display.get_surface().get_size() == (960, 720)
-shown = pygame.surfarray.array3d(pygame.display.get_surface()).swapaxes(0, 1)
-assert (shown == viewer.draw(t.PLAIN)).all()
-pygame.event.post(pygame.event.Event(pygame.QUIT))
-assert not viewer.show(t.PLAIN) and not pygame.display.get_init()
-assert not viewer.show(t.PLAIN)
-viewer.close(); viewer.close()
-assert viewer.show(t.PLAIN)
-viewer.close()
-"""
-
-
-def run_with_driver(code: str, driver: str) -> subprocess.CompletedProcess[str]:
-    environment = {
-        **os.environ,
-        "PYTHONPATH": str(Path(__file__).parent),
-        "SDL_VIDEODRIVER": driver,
-        "PYGAME_HIDE_SUPPORT_PROMPT": "1",
-    }
-    return subprocess.run(
-        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
-    )
-
-
-def test_the_window_shows_the_picture_until_it_is_closed() -> None:
-    done = run_with_driver(SHOW_IN_A_WINDOW, "dummy")
-    assert done.returncode == 0, done.stderr
-
-
-def test_a_window_without_a_display_is_refused_with_the_alternative() -> None:
-    code = "import test_rendering as t; t.Viewer(t.PLAN).show(t.PLAIN)"
-    done = run_with_driver(code, "no_such_driver")
-    assert done.returncode != 0
-    assert 'RuntimeError: render_mode="human" needs a display' in done.stderr
-    assert '"rgb_array" needs none' in done.stderr
-
-
-def test_a_missing_pygame_is_only_missed_when_drawing_and_named_with_its_extra() -> None:
-    code = (
-        "import sys; sys.modules['pygame'] = None\n"
-        "import semnav_env.rendering\n"
-        "from semnav_env.rendering.backend import load_pygame\nload_pygame()"
-    )
-    done = run_with_driver(code, "dummy")
-    assert 'pip install "semnav-env[render]"' in done.stderr
 
 
 @pytest.mark.parametrize("size", [(100, 100), (400, 800)])
@@ -297,102 +160,3 @@ def test_a_frame_refuses_points_of_the_wrong_shape() -> None:
 def test_a_frame_refuses_numbers_for_doors_that_are_not_remembered() -> None:
     with pytest.raises(ValueError, match="1 doors are remembered"):
         replace(PLAIN, remembered=Scene(doors=(DOOR,)), door_numbers={1: 1})
-
-
-@given(st.text(max_size=300), st.floats(1.0, 60.0))
-def test_wrapped_lines_fit_and_keep_every_character(text: str, width: float) -> None:
-    lines = wrap(text, width, len, most=10_000)
-    assert all(len(line) <= width for line in lines)
-    assert "".join(lines).replace(" ", "") == harmless(text).replace(" ", "")
-
-
-@given(st.text(alphabet="ab c", min_size=50, max_size=300))
-def test_wrapping_stops_at_the_most_lines_with_an_ellipsis(text: str) -> None:
-    full, cut = wrap(text, 9.0, len, most=10_000), wrap(text, 9.0, len, most=3)
-    assert len(cut) == min(3, len(full))
-    assert cut[-1].endswith("…") == (len(full) > 3)
-    assert all(len(line) <= 9 for line in cut)
-
-
-@given(st.text(max_size=600))
-@settings(max_examples=50)
-def test_harmless_text_prints_and_stays_harmless(text: str) -> None:
-    assert harmless(text).isprintable()
-    assert harmless(harmless(text)) == harmless(text)
-
-
-@pytest.fixture(scope="module")
-def film(viewer: Viewer) -> list[NDArray[np.uint8]]:
-    return [viewer.draw(replace(PLAIN, pose=(2.0 + 0.2 * k, 3.0, 0.1))) for k in range(7)]
-
-
-def test_a_gif_has_the_frames_and_the_duration_it_was_given(
-    tmp_path: Path, film: list[NDArray[np.uint8]]
-) -> None:
-    path = save_gif(tmp_path / "new" / "folder" / "run.gif", film, fps=15)
-    with Image.open(path) as gif:
-        assert gif.n_frames == len(film)
-        durations = []
-        for index, frame in enumerate(film):
-            gif.seek(index)
-            durations.append(gif.info["duration"])
-            error = np.abs(np.asarray(gif.convert("RGB"), dtype=float) - frame)
-            assert error.mean() < 0.5
-            assert error.max() < 40.0
-    assert sum(durations) == pytest.approx(1000 * len(film) / 15, abs=10)
-
-
-@pytest.mark.parametrize("shades", [1, 255, 100_000])
-def test_a_gif_of_any_number_of_colours_stays_close(tmp_path: Path, shades: int) -> None:
-    noise = np.random.default_rng(0).integers(0, shades, (100, 100))
-    frame = np.stack((noise % 251, noise // 251 % 251, noise % 7), axis=-1).astype(np.uint8)
-    with Image.open(save_gif(tmp_path / "noise.gif", [frame], fps=10)) as gif:
-        error = np.abs(np.asarray(gif.convert("RGB"), dtype=float) - frame)
-    assert error.mean() < (0.5 if shades < 256 else 20.0)
-
-
-def test_equal_frames_of_a_gif_last_as_long_as_they_should(
-    tmp_path: Path, film: list[NDArray[np.uint8]]
-) -> None:
-    path = save_gif(tmp_path / "still.gif", [film[0], film[0], film[1]], fps=10)
-    with Image.open(path) as gif:
-        assert gif.n_frames == 2
-        assert gif.info["duration"] == 200
-
-
-def test_a_film_can_be_saved_smaller(tmp_path: Path, film: list[NDArray[np.uint8]]) -> None:
-    with Image.open(save_video(tmp_path / "run.gif", film, fps=10, scale=0.5)) as gif:
-        assert gif.size == (480, 360)
-
-
-def test_an_mp4_has_the_frames_it_was_given(tmp_path: Path, film: list[NDArray[np.uint8]]) -> None:
-    imageio = pytest.importorskip("imageio.v3", reason="mp4 needs the extra `render`")
-    pytest.importorskip("av", reason="mp4 needs the extra `render`")
-    path = save_mp4(tmp_path / "run.mp4", [frame[:, :-1] for frame in film], fps=10)
-    frames = imageio.imread(path, plugin="pyav")
-    assert frames.shape == (len(film), 720, 958, 3)
-    assert np.abs(frames[3].astype(float) - film[3][:, :958]).mean() < 5.0
-
-
-def test_a_png_holds_the_last_frame_exactly(tmp_path: Path, film: list[NDArray[np.uint8]]) -> None:
-    with Image.open(save_video(tmp_path / "end.png", film, fps=10)) as image:
-        np.testing.assert_array_equal(np.asarray(image), film[-1])
-    assert save_png(tmp_path / "one.png", film[0]).exists()
-
-
-def test_an_unknown_suffix_is_refused_with_those_there_are(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match=r"\.gif, \.mp4 or \.png"):
-        save_video(tmp_path / "run.avi", [np.zeros((4, 4, 3), np.uint8)], fps=10)
-
-
-@pytest.mark.parametrize("name", ["run.gif", "run.mp4", "run.png"])
-def test_no_frames_are_refused_and_leave_no_file(tmp_path: Path, name: str) -> None:
-    with pytest.raises(ValueError, match="no frames"):
-        save_video(tmp_path / name, [], fps=10)
-    assert not (tmp_path / name).exists()
-
-
-@pytest.mark.parametrize(("fps", "scale"), [(0.0, 1.0), (math.nan, 1.0), (10.0, 0.0), (10.0, 2.0)])
-def test_bad_rates_and_scales_are_refused(tmp_path: Path, fps: float, scale: float) -> None:
-    with pytest.raises(ValueError, match="it must be"):
-        save_gif(tmp_path / "run.gif", [np.zeros((4, 4, 3), np.uint8)], fps, scale)
