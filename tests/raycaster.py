@@ -76,6 +76,10 @@ def scan_of(
     return Scan(ranges, -field_of_view / 2, increment, range_max=range_max)
 
 
+def full_circle(segments: FloatArray, pose: Pose, beams: int = 1080) -> Scan:
+    return scan_of(segments, pose, beams, 2.0 * math.pi * (beams - 1) / beams)
+
+
 def heidelberg() -> tuple[FloatArray, dict[str, FloatArray]]:
     """What the measured hallway's drawing shows, as segments, and its doors' jambs by name."""
     plan = load_floor_plan("heidelberg_hallway")

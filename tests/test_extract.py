@@ -1,3 +1,5 @@
+"""Walls, doors and corridors in scans of rooms and hallways."""
+
 from __future__ import annotations
 
 import math
@@ -5,14 +7,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.features import CornerKind, Door, ExtractorSettings, Scan, Scene, Wall, extract
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local
-from semnav_env.features.reference.corners import corner_kind
-from tests.raycaster import heidelberg, polygon, polyline, scan_of
-from tests.strategies import Opening, Room, awkward_scans, openings, rooms
+from semnav_env.features.frames import Point, to_local
+from tests.raycaster import full_circle, heidelberg, polygon, polyline, scan_of
+from tests.strategies import Opening, Room, openings, rooms
 
 quick = settings(max_examples=60, deadline=None)
 MILLIMETRE = 1e-3
@@ -20,10 +21,6 @@ MILLIMETRE = 1e-3
 
 def cross(a: Point, b: Point) -> float:
     return a[0] * b[1] - a[1] * b[0]
-
-
-def full_circle(segments: FloatArray, pose: Pose, beams: int = 1080) -> Scan:
-    return scan_of(segments, pose, beams, 2.0 * math.pi * (beams - 1) / beams)
 
 
 def is_on(wall: Wall, point: Point) -> bool:
@@ -151,66 +148,6 @@ def assert_alike(scene: Scene, expected: Scene) -> None:
     assert [c.kind for c in scene.corners] == [c.kind for c in expected.corners]
 
 
-@st.composite
-def wedges(draw: st.DrawFn) -> tuple[Point, Point, Point]:
-    """Far end, corner and far end of two walls of 1 m, both seen from the origin."""
-    corner = draw(st.floats(2.0, 5.0)), 0.0
-    right = math.radians(draw(st.floats(-160.0, -20.0)))
-    left = math.radians(draw(st.floats(20.0, 160.0)))
-    ends = [(corner[0] + math.cos(a), math.sin(a)) for a in (right, left)]
-    return ends[0], corner, ends[1]
-
-
-@quick
-@given(wedges())
-def test_a_corner_is_inner_if_it_points_at_the_scanner(
-    wedge: tuple[Point, Point, Point],
-) -> None:
-    before, corner, after = wedge
-    sides = [math.atan2(y - corner[1], x - corner[0]) for x, y in (before, after)]
-    assume(abs(sides[1] - sides[0] - math.pi) > math.radians(55.0))  # flatter is no corner
-    scene = extract(scan_of(polyline(*wedge), (0.0, 0.0, 0.0)))
-    full = [found for found in scene.corners if found.kind is not CornerKind.POTENTIAL]
-    assert len(full) == 1
-    assert full[0].point == pytest.approx(corner, abs=1e-6)
-    chord = before[0] + (after[0] - before[0]) * before[1] / (before[1] - after[1])
-    assert full[0].kind is (CornerKind.INNER if chord > corner[0] else CornerKind.OUTER)
-
-
-@given(wedges())
-def test_formula_3_1_agrees_with_geometry_unless_an_inner_corner_is_obtuse(
-    wedge: tuple[Point, Point, Point],
-) -> None:
-    before, corner, after = wedge
-    chord = before[0] + (after[0] - before[0]) * before[1] / (before[1] - after[1])
-    sides = [math.atan2(y - corner[1], x - corner[0]) for x, y in (before, after)]
-    opening = sides[1] - sides[0]
-    assume(abs(opening - math.pi) > 1e-3)
-    if chord < corner[0]:
-        assert corner_kind(*wedge) is CornerKind.OUTER
-    elif opening <= math.pi / 2:
-        assert corner_kind(*wedge) is CornerKind.INNER
-
-
-def test_walls_that_stop_short_of_their_corner_are_extended_to_it() -> None:
-    segments = np.concatenate(
-        (polyline((2.0, -1.5), (2.0, 0.8)), polyline((1.8, 1.0), (-1.0, 1.0)))
-    )
-    corners = extract(scan_of(segments, (0.0, 0.0, 0.0))).corners
-    outer = [corner for corner in corners if corner.kind is CornerKind.OUTER]
-    assert len(outer) == 1
-    assert outer[0].point == pytest.approx((2.0, 1.0), abs=1e-6)
-
-
-def test_both_loose_ends_of_a_wall_are_potential_corners() -> None:
-    scene = extract(scan_of(polyline((2.0, -1.0), (2.0, 1.0)), (0.0, 0.0, 0.0)))
-    wall = scene.walls[0]
-    assert wall.start_rupture
-    assert wall.end_rupture
-    assert [c.kind for c in scene.corners] == [CornerKind.POTENTIAL] * 2
-    assert [c.point for c in scene.corners] == [wall.start, wall.end]
-
-
 def test_a_jump_of_the_range_breaks_both_walls() -> None:
     segments = np.concatenate(
         (polyline((2.0, -2.0), (2.0, 0.0)), polyline((4.0, -0.5), (4.0, 3.0)))
@@ -246,73 +183,6 @@ def test_a_corridor_ends_at_the_nearest_wall_only() -> None:
     assert scene.corridors[0].end == pytest.approx((1.5, 1.0), abs=0.05)
 
 
-@settings(max_examples=200, deadline=None)
-@given(awkward_scans())
-def test_any_scan_gives_a_finite_scene(scan: Scan) -> None:
-    assert_finite(extract(scan))
-
-
-def assert_finite(scene: Scene) -> None:
-    points = [p for w in scene.walls for p in (w.start, w.end)]
-    points += [p for door in scene.doors for p in (door.start, door.end)]
-    points += [corner.point for corner in scene.corners]
-    points += [p for corridor in scene.corridors for p in (corridor.start, corridor.end)]
-    assert np.isfinite(np.array(points, dtype=float)).all()
-    assert all(math.isfinite(wall.residual) and wall.residual >= 0.0 for wall in scene.walls)
-
-
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 0.0, -3.0, 1e-3, 10.0, 11.0])
-@pytest.mark.parametrize("beams", [1, 2, 3, 811])
-def test_a_scan_without_returns_gives_an_empty_scene(value: float, beams: int) -> None:
-    assert extract(Scan(np.full(beams, value), -2.356, 0.0058)) == Scene()
-
-
-@pytest.mark.parametrize("beams", [1, 2])
-def test_one_or_two_returns_are_no_feature(beams: int) -> None:
-    assert extract(Scan(np.ones(beams), 0.0, 0.01)) == Scene()
-
-
-@pytest.mark.parametrize("beams", [180, 1080, 1081])
-def test_the_number_of_beams_does_not_matter(beams: int) -> None:
-    scan = scan_of(polyline((2.0, -3.0), (2.0, 3.0)), (0.0, 0.0, 0.0), beams)
-    walls = extract(scan).walls
-    assert len(walls) == 1
-    assert walls[0].length == pytest.approx(6.0, abs=0.4)
-
-
-def test_a_huge_scan_of_noise_gives_a_scene() -> None:
-    rng = np.random.default_rng(5)
-    assert_finite(extract(Scan(2.0 + 0.1 * rng.normal(size=200_000), -3.0, 3e-5)))
-
-
-@pytest.mark.parametrize("increment", [5e-324, 1e-12, 0.1745329, 0.3, 1.0, 4.0])
-def test_any_angle_increment_gives_a_scene(increment: float) -> None:
-    beams = int(min(50.0, 4.0 * math.pi / increment))
-    assert_finite(extract(Scan(np.linspace(1.0, 2.0, beams), 0.3, increment)))
-
-
-@pytest.mark.parametrize("ranges", [[1.0, 2.0], np.ones(811), None, "scan"])
-def test_bare_ranges_are_refused_with_the_way_to_a_scan(ranges: object) -> None:
-    with pytest.raises(TypeError, match=r"Scan\(ranges, angle_min"):
-        extract(ranges)  # type: ignore[arg-type]
-
-
-def test_enormous_ranges_are_no_returns() -> None:
-    farther, none = (
-        Scan([2.0] * 60 + [far] * 40, 0.0, 0.01, range_max=1000.0) for far in (1e300, math.inf)
-    )
-    settings = ExtractorSettings(rupture_range=1000.0)
-    assert extract(farther, settings) == extract(none, settings) != Scene()
-
-
-def test_beams_beyond_a_full_turn_are_left_out() -> None:
-    room = Room(4.0, 4.0, (2.0, 2.0, 0.3))
-    once = full_circle(room.segments, room.pose, 720)
-    ranges = np.concatenate((once.ranges, np.full(500, 1.0)))
-    again = Scan(ranges, once.angle_min, once.angle_increment)
-    assert extract(again) == extract(once)
-
-
 def test_everything_in_a_scene_is_plain_python() -> None:
     opening = Opening(corridor=2.0, width=1.0, pose=(-2.0, 0.0, 0.0))
     scene = extract(scan_of(opening.segments, opening.pose))
@@ -344,8 +214,3 @@ def test_the_doors_of_a_real_hallway_are_seen_from_it() -> None:
     assert sightings > 50
     assert found >= 0.95 * sightings
     assert false <= 0.05 * detections
-
-
-def test_settings_that_are_none_are_refused_with_what_they_must_be() -> None:
-    with pytest.raises(TypeError, match="ExtractorSettings, not dict"):
-        extract(Scan([1.0, 1.0], 0.0, 0.1), {"sigma": 0.02})  # type: ignore[arg-type]
