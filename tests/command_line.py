@@ -1,0 +1,17 @@
+"""Running the command `semnav`, and what it wrote."""
+
+import json
+
+from semnav_env.scripts import main as cli
+
+
+def run(capsys, *words):
+    """The exit code of `semnav` with these words, and what it printed and complained of."""
+    code = cli.main([str(word) for word in words])
+    captured = capsys.readouterr()
+    return code, captured.out, captured.err
+
+
+def scenes(path):
+    """The objects of a file of JSON lines."""
+    return [json.loads(line) for line in path.read_text().splitlines()]
