@@ -1,0 +1,21 @@
+"""Cases to evaluate the extractor on, and what it found in them."""
+
+import numpy as np
+
+from semnav_env.evaluation.cases import draw_cases
+from semnav_env.evaluation.comparison import compare
+from semnav_env.evaluation.records import Detection, Limits, Sighting, as_table
+from semnav_env.features import Wall
+from semnav_env.maps import load_floor_plan
+
+OFFICE = load_floor_plan("office_cross")
+WALL = Wall((0.0, -1.0), (4.0, -1.0), beams=100)
+
+
+def cases(plan=OFFICE, poses=6, sigmas=(0.0, 0.02), clutter=True, seed=1):
+    return list(draw_cases(plan, poses, sigmas, clutter, np.random.default_rng(seed)))
+
+
+def tables(scan, truth, found):
+    sightings, detections = compare(scan, truth, found, Limits())
+    return as_table(sightings, Sighting), as_table(detections, Detection)
