@@ -1,4 +1,4 @@
-"""Maps of lines: what is one wall, where it has gaps, and what proves false."""
+"""Maps of lines: what stays in them, what proves false, and odometry by scans."""
 
 from __future__ import annotations
 
@@ -12,20 +12,12 @@ from hypothesis import strategies as st
 from shapely import LineString, box
 
 from semnav_env.features import Scene, extract
-from semnav_env.features.elements import Wall
-from semnav_env.features.frames import compose, to_parent
+from semnav_env.features.frames import compose
 from semnav_env.features.mapping import KeyframeRule, LineMap, MapSettings, ScanOdometry
-from semnav_env.features.mapping.doubles import without_doubles
-from semnav_env.features.mapping.evidence import CELL
-from semnav_env.features.mapping.lines import Line, fuse, gap, line_of
-from semnav_env.features.mapping.map_wall import MapWall
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, Surface, load_floor_plan
 
-small = st.floats(-0.02, 0.02)
 metres = st.floats(-5.0, 5.0)
-variances = st.floats(1e-6, 1e-2)
-lines = st.builds(Line, small, small, small, variances, variances)
 poses = st.tuples(metres, metres, st.floats(-math.pi, math.pi))
 OFFICE = load_floor_plan("office_cross")
 
@@ -45,98 +37,6 @@ def mapped(plan, views, every=1, rounds=3, sigma=0.01, line_map=None):
             scan = lidar.scan(pose, key=(2, k, i))
             line_map.add(extract(scan), scan, pose)
     return line_map
-
-
-# Lines
-
-
-@given(lines, lines, metres)
-def test_fusing_is_symmetric(a, b, place):
-    there, back = fuse(a, b), fuse(b, a)
-    point = there.point(place)
-    # The two frames are turned by up to 0.04 rad, of which the formula keeps the first order.
-    assert abs(back.across(point)) < 0.05 * (1.0 + abs(place))
-    assert there.angle_variance == pytest.approx(back.angle_variance, rel=0.1)
-
-
-@given(lines)
-def test_a_line_fused_with_itself_stays_and_is_known_twice_as_well(line):
-    fused = fuse(line, line)
-    assert fused.heading == pytest.approx(line.heading)
-    assert abs(line.across((fused.x, fused.y))) < 1e-12
-    assert fused.offset_variance == pytest.approx(line.offset_variance / 2)
-    assert fused.angle_variance == pytest.approx(line.angle_variance / 2)
-
-
-@given(lines, lines)
-def test_fusing_makes_nothing_less_certain(a, b):
-    fused = fuse(a, b)
-    assert fused.offset_variance <= min(a.offset_variance, b.offset_variance)
-    assert fused.angle_variance <= min(a.angle_variance, b.angle_variance)
-
-
-def test_two_stretches_of_one_line_fix_its_direction_better_than_either():
-    rng = np.random.default_rng(0)
-    errors = []
-    for _ in range(300):
-        (c1, c2), (t1, t2) = rng.normal(0.0, 0.01, 2), rng.normal(0.0, 0.02, 2)
-        a, b = Line(0.0, c1, t1, 1e-4, 4e-4), Line(5.0, c2, t2, 1e-4, 4e-4)
-        fused = fuse(a, b)
-        errors.append((fused.heading, fused.angle_variance))
-    heading, variance = np.array(errors).T
-    assert np.std(heading) < 0.003
-    assert np.mean(heading**2 / variance) == pytest.approx(1.0, abs=0.25)
-
-
-@given(poses)
-def test_a_wall_keeps_its_ends_wherever_its_frame_is(frame):
-    wall = Wall((1.0, 2.0), (4.0, 2.5), beams=20, residual=0.01)
-    line = line_of(wall, frame)
-    for end in (wall.start, wall.end):
-        assert abs(line.across(to_parent(frame, end))) < 1e-9
-
-
-@given(poses, st.booleans())
-@pytest.mark.parametrize(
-    ("new", "joined"),
-    [
-        ((2.0, 3.0), (1.0, 4.0)),
-        ((0.0, 3.0), (0.0, 4.0)),
-        ((2.0, 5.0), (1.0, 5.0)),
-        ((0.0, 5.0), (0.0, 5.0)),
-    ],
-    ids=["inside", "extends the start", "extends the end", "extends both"],
-)
-def test_the_four_cases_of_weerakoons_figure_5(new, joined, frame, swapped):
-    def wall(first, last):
-        seen = Wall((first, 1.0), (last, 1.0), beams=50, residual=0.01)
-        ends = to_parent(frame, seen.start), to_parent(frame, seen.end)
-        return MapWall.of(line_of(seen, frame), *ends)
-
-    known, other = wall(1.0, 4.0), wall(*new)
-    if swapped:
-        known, other = other, known
-    known.absorb(other)
-    found = known.as_wall(known.extent)
-    for place, point in zip(joined, (found.start, found.end), strict=True):
-        assert point == pytest.approx(to_parent(frame, (place, 1.0)), abs=1e-6)
-    seen = known.cells.seen
-    both = min(new[1], 4.0) - max(new[0], 1.0)
-    assert np.count_nonzero(seen) == pytest.approx((joined[1] - joined[0]) / CELL, abs=3)
-    assert np.count_nonzero(seen == 2) == pytest.approx(both / CELL, abs=3)
-
-
-@given(metres, metres, st.floats(0.0, 5.0), st.floats(0.0, 5.0))
-def test_a_gap_is_the_same_from_either_side(a, b, length_a, length_b):
-    one, other = (a, a + length_a), (b, b + length_b)
-    assert gap(one, other) == gap(other, one)
-    assert (gap(one, other) < 0) == (min(one[1], other[1]) > max(one[0], other[0]))
-
-
-def test_a_short_line_along_a_long_one_is_a_double_and_its_back_is_not():
-    long, short = Wall((0.0, 0.0), (5.0, 0.0)), Wall((1.0, 0.03), (2.0, 0.05))
-    back, far = Wall((4.0, -0.05), (1.0, -0.05)), Wall((1.0, 0.3), (2.0, 0.3))
-    assert without_doubles((short, long, back, far)) == (long, back, far)
 
 
 # Maps
