@@ -1,4 +1,4 @@
-"""A hallway's axis, sides, end and junctions, on scenes made by hand and on the bundled plans."""
+"""A hallway's axis, sides and end, on scenes made by hand and on the bundled plans."""
 
 from __future__ import annotations
 
@@ -10,22 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.features.frames import Pose, compose, wrap_angle
-from semnav_env.features.hallway import Hallway, doorway_at, hallway
+from semnav_env.features.hallway import doorway_at, hallway
 from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.maps import load_floor_plan
-from tests.hand_made import (
-    L_LEFT,
-    L_RIGHT,
-    ROOM,
-    SIDE_ARMS,
-    T_JUNCTION,
-    X_JUNCTION,
-    box,
-    corridor,
-    polyline,
-)
-
-START: Pose = (0.0, 0.0, 0.0)
+from tests.hallways import START, ways_on, with_walls
+from tests.hand_made import L_LEFT, ROOM, SIDE_ARMS, T_JUNCTION, X_JUNCTION, corridor
 
 # No probe shall meet the very end of a wall: the walls end at full tenths of a metre.
 xs = st.floats(-1.0, 1.0).filter(lambda x: abs(10.0 * x - round(10.0 * x)) > 1e-6)
@@ -34,15 +23,6 @@ frames = st.tuples(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0), st.floats(-ma
 scenes = st.sampled_from(
     [corridor(left=(3, 6), right=(4,)), T_JUNCTION, L_LEFT, X_JUNCTION, SIDE_ARMS, ROOM]
 )
-
-
-def ways_on(seen: Hallway) -> list[tuple[bool, bool, bool]]:
-    """For each junction: does it open left, right, and go on ahead?"""
-    return [(j.left is not None, j.right is not None, j.ahead) for j in seen.junctions]
-
-
-def with_walls(scene: Scene, *walls: Wall) -> Scene:
-    return Scene(scene.walls + walls, scene.doors)
 
 
 def mirrored(scene: Scene) -> Scene:
@@ -93,107 +73,6 @@ def test_the_axis_lies_in_the_middle_whatever_the_start(scene: Scene, start: Pos
     seen = hallway(scene, start)
     assert seen.frame[1] == pytest.approx(0.0, abs=0.05)
     assert seen.frame[2] == pytest.approx(0.0, abs=0.02)
-
-
-@pytest.mark.parametrize(
-    ("scene", "expected"),
-    [
-        (corridor(), []),
-        (corridor(left=(3, 6), right=(3, 6)), []),
-        (X_JUNCTION, [(True, True, True)]),
-        (T_JUNCTION, [(True, True, False)]),
-        (L_LEFT, [(True, False, False)]),
-        (L_RIGHT, [(False, True, False)]),
-        (SIDE_ARMS, [(True, False, True), (False, True, True)]),
-        (ROOM, []),
-    ],
-    ids=["straight", "doors", "X", "T", "L left", "L right", "side arms", "room"],
-)
-def test_junctions_and_where_they_lead(
-    scene: Scene, expected: list[tuple[bool, bool, bool]]
-) -> None:
-    assert ways_on(hallway(scene, START)) == expected
-
-
-def test_only_a_bend_is_a_corner() -> None:
-    corners = [hallway(s, START).junctions[0].is_corner for s in (L_LEFT, L_RIGHT, T_JUNCTION)]
-    assert corners == [True, True, False]
-    assert not hallway(X_JUNCTION, START).junctions[0].is_corner
-
-
-def test_an_opening_is_found_to_within_one_probe() -> None:
-    left, right = (junction.openings[0] for junction in hallway(SIDE_ARMS, START).junctions)
-    assert (left.left, right.left) == (True, False)
-    assert (left.near, left.far) == pytest.approx((3.0, 5.0), abs=0.06)
-    assert (right.near, right.far) == pytest.approx((8.0, 10.0), abs=0.06)
-    assert left.offset == pytest.approx(1.0, abs=0.01)
-
-
-@pytest.mark.parametrize(
-    "extra",
-    [
-        box(4.0, 0.7, 4.4, 1.0),
-        box(4.0, 0.5, 5.2, 1.0),
-        box(4.0, -0.15, 4.3, 0.15),
-        [Wall((5.0, 1.0), (5.6, 0.3))],
-        [Wall((5.0, -1.0), (5.0, -0.2))],
-    ],
-    ids=["pillar", "cabinet", "pillar in the middle", "half-open leaf", "open leaf"],
-)
-def test_what_stands_in_a_hallway_neither_ends_nor_opens_it(extra: list[Wall]) -> None:
-    seen = hallway(corridor(left=(8,), right=(9,), extra=extra, half=1.1), START)
-    assert seen.junctions == ()
-    assert seen.end == pytest.approx(14.0)
-    assert seen.frame[1] == pytest.approx(0.0, abs=0.05)
-
-
-def test_a_recess_belongs_to_the_side() -> None:
-    scene = corridor(left_arms=[(4.0, 6.0)])
-    recess = with_walls(scene, Wall((4.0, 2.0), (6.0, 2.0)))
-    assert ways_on(hallway(scene, START)) == [(True, False, True)]
-    seen = hallway(recess, START)
-    assert seen.junctions == ()
-    assert seen.side_at(True, 5.0) == pytest.approx(2.0)
-
-
-def test_a_gap_that_no_wall_leads_out_of_is_unseen_and_no_opening() -> None:
-    walls = tuple(w for w in X_JUNCTION.walls if not (6.0 <= w.start[0] == w.end[0] <= 8.0))
-    seen = hallway(Scene(walls), START)
-    assert seen.junctions == ()
-    assert seen.unseen(True, 0.0, 10.0) == pytest.approx(6.0, abs=0.1)
-    assert math.isinf(seen.unseen(True, 8.1, 12.0))
-
-
-@pytest.mark.parametrize("tilt", [-0.03, 0.0, 0.03])
-def test_a_long_wall_across_the_end_leads_out_though_it_is_a_little_askew(tilt: float) -> None:
-    """Odometry drifts; and with doors close to both near corners only that wall tells of arms."""
-    sides = polyline((-3.0, 1.0), (8.0, 1.0), (8.0, 1.3)) + polyline((-3.0, -1.0), (8.0, -1.0))
-    across = Wall((10.0 - 20.0 * tilt, -20.0), (10.0 + 20.0 * tilt, 20.0))
-    seen = hallway(Scene((*sides, across), ()), START)
-    assert ways_on(seen) == [(True, True, False)]
-
-
-@pytest.mark.parametrize(("offset", "leads"), [(0.3, True), (3.0, False)])
-def test_a_door_close_to_the_corner_leads_out_as_the_wall_does(offset: float, leads: bool) -> None:
-    sides = polyline((-3.0, 1.0), (6.0, 1.0), (6.0, 1.3))
-    sides += polyline((8.0, 1.0), (14.0, 1.0), (14.0, -1.0), (-3.0, -1.0))
-    door = Door((6.0, 1.0 + offset), (6.0, 2.0 + offset))
-    seen = hallway(Scene(tuple(sides), (door,)), START)
-    assert ways_on(seen) == ([(True, False, True)] if leads else [])
-
-
-@pytest.mark.parametrize("edges", ["near", "far", "both"])
-@pytest.mark.parametrize(("width", "narrow"), [(1.3, True), (1.55, False)])
-def test_a_narrow_opening_needs_walls_that_lead_out_of_both_edges(
-    width: float, narrow: bool, edges: str
-) -> None:
-    far = 6.05 + width
-    sides = polyline((-3.0, 1.0), (6.05, 1.0))
-    sides += polyline((far, 1.0), (14.0, 1.0), (14.0, -1.0), (-3.0, -1.0))
-    out = {"near": (6.05,), "far": (far,), "both": (6.05, far)}[edges]
-    walls = tuple(Wall((x, 1.0), (x, 5.0)) for x in out)
-    seen = hallway(Scene((*sides, *walls)), START)
-    assert ways_on(seen) == ([] if narrow and edges != "both" else [(True, False, True)])
 
 
 @pytest.mark.parametrize("seed", [2000006, 1000022])
@@ -287,26 +166,3 @@ def test_the_corridors_of_the_cross(
     seen = hallway(load_floor_plan("office_cross").scene, pose)
     assert ways_on(seen) == expected
     assert seen.end == pytest.approx(end, abs=0.05)
-
-
-@pytest.mark.parametrize("x", [-0.9, 0.0, 0.9])
-def test_a_robot_in_a_junction_looks_along_the_hallway_that_leads_on(x: float) -> None:
-    walls = polyline((1.0, -6.0), (1.0, -0.5), (9.0, -0.5), (9.0, 0.5), (-1.0, 0.5), (-1.0, -6.0))
-    seen = hallway(Scene((*walls, Wall((-1.0, -6.0), (1.0, -6.0)))), (x, 0.1, 0.0))
-    assert seen.frame[1] == pytest.approx(0.0, abs=0.1)
-    assert seen.place(seen.end)[0] == pytest.approx(9.0)
-
-
-@pytest.mark.parametrize("slant", [-0.1, 0.0, 0.1])
-def test_an_arm_that_leads_off_at_an_angle_is_an_opening(slant: float) -> None:
-    half, deep = 1.0, 3.2
-    walls = [
-        Wall((-3.0, half), (5.0, half)),
-        Wall((5.0, half), (5.0 + slant * (deep - half), deep)),
-        Wall((7.0, half), (7.0 + slant * (deep - half), deep)),
-        *polyline((7.0, half), (12.0, half), (12.0, -half), (-3.0, -half)),
-    ]
-    (junction,) = hallway(Scene(tuple(walls)), START).junctions
-    assert junction.left is not None
-    assert junction.left.offset == pytest.approx(half)
-    assert (junction.left.near, junction.left.far) == pytest.approx((5.0, 7.0), abs=0.26)
