@@ -16,24 +16,20 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Wedge
+from rule_marks import draw_axis, draw_doors, draw_goal, draw_mark, draw_robot, draw_scene, label
 
 from semnav_env.commands import parse
-from semnav_env.commands.references import Side
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Point, Pose, compose
-from semnav_env.features.hallway import Hallway, hallway
+from semnav_env.features.hallway import hallway
 from semnav_env.features.scene import Door, Scene, Wall
-from semnav_env.grounding import Goal, GoalKind, ground
-from semnav_env.grounding.doors import doors_along
+from semnav_env.grounding import ground
 from semnav_env.lidar import Lidar
 from semnav_env.maps import load_floor_plan
 from semnav_env.perception import Perception
 from semnav_env.robots import WHEELCHAIR
 
 IMAGES = Path(__file__).parent / "images"
-COLOURS = {Side.LEFT: "tab:blue", Side.RIGHT: "tab:orange", Side.AHEAD: "tab:purple"}
-LETTERS = {Side.LEFT: "L", Side.RIGHT: "R", Side.AHEAD: "A"}
 NORTH = math.pi / 2
 OFFICE_PLAN = load_floor_plan("office_cross")
 HEIDELBERG_PLAN = load_floor_plan("heidelberg_hallway")
@@ -150,12 +146,12 @@ def _doors(scene: Scene, begin: Pose) -> Draw:
     """The doors as they are counted from a pose."""
 
     def draw(ax: Axes) -> None:
-        _draw_scene(ax, scene)
-        _draw_doors(ax, scene, hallway(scene, begin))
-        _draw_robot(ax, begin)
+        draw_scene(ax, scene)
+        draw_doors(ax, scene, hallway(scene, begin))
+        draw_robot(ax, begin)
         for door in OFFICE_PLAN.doors if scene is OFFICE else ():
             if not door.open:
-                _label(ax, (door.midpoint[0], door.midpoint[1] - 0.5), "closed", "tab:red")
+                label(ax, (door.midpoint[0], door.midpoint[1] - 0.5), "closed", "tab:red")
 
     return draw
 
@@ -165,14 +161,14 @@ def _junctions(scene: Scene, begin: Pose) -> Draw:
 
     def draw(ax: Axes) -> None:
         seen = hallway(scene, begin)
-        _draw_scene(ax, scene)
-        _draw_axis(ax, seen)
-        _draw_robot(ax, begin)
+        draw_scene(ax, scene)
+        draw_axis(ax, seen)
+        draw_robot(ax, begin)
         for junction in seen.junctions:
             ways = {"left": junction.left, "right": junction.right, "ahead": junction.ahead}
             name = "corner" if junction.is_corner else "intersection"
             text = f"{name}\n{', '.join(way for way, there in ways.items() if there)}"
-            _label(ax, seen.place(junction.centre)[:2], text, "tab:red")
+            label(ax, seen.place(junction.centre)[:2], text, "tab:red")
 
     return draw
 
@@ -183,11 +179,11 @@ def _goal(scene: Scene, begin: Pose, text: str) -> Draw:
     def draw(ax: Axes) -> None:
         (clause,) = parse(text).clauses
         goal = ground(clause, scene, begin, complete=True)
-        _draw_scene(ax, scene)
-        _draw_robot(ax, begin)
-        _draw_goal(ax, goal)
+        draw_scene(ax, scene)
+        draw_robot(ax, begin)
+        draw_goal(ax, goal)
         if goal.hallway is not None:
-            _draw_axis(ax, goal.hallway)
+            draw_axis(ax, goal.hallway)
 
     return draw
 
@@ -206,88 +202,13 @@ def _perceived(metres: float) -> Draw:
             perception.sense(compose(start, odometry), odometry, (0.75, 0.0, 0.0), (0, 0, step))
         page = (0.0, 0.0, start[2])
         scene, goal = perception.scene().placed(page), perception.follower.goal
-        _draw_scene(ax, HEIDELBERG_PLAN.scene.seen_from(start).placed(page), "0.8", doors=False)
-        _draw_scene(ax, scene, "tab:red")
-        _draw_doors(ax, scene, hallway(scene, page))
-        _draw_robot(ax, compose(page, odometry))
-        _draw_mark(ax, compose(page, goal.pose), goal.kind)
+        draw_scene(ax, HEIDELBERG_PLAN.scene.seen_from(start).placed(page), "0.8", doors=False)
+        draw_scene(ax, scene, "tab:red")
+        draw_doors(ax, scene, hallway(scene, page))
+        draw_robot(ax, compose(page, odometry))
+        draw_mark(ax, compose(page, goal.pose), goal.kind)
 
     return draw
-
-
-def _draw_scene(ax: Axes, scene: Scene, colour: str = "black", doors: bool = True) -> None:
-    for wall in scene.walls:
-        ax.plot(*zip(wall.start, wall.end, strict=True), color=colour, lw=1.4)
-    for door in scene.doors if doors else ():
-        ax.plot(*zip(door.start, door.end, strict=True), color="tab:green", lw=3.0)
-
-
-def _draw_doors(ax: Axes, scene: Scene, seen: Hallway) -> None:
-    _draw_axis(ax, seen)
-    for side in Side:
-        for number, counted in enumerate(doors_along(scene, seen, side), 1):
-            _badge(ax, counted.pose(0.5)[:2], side, number)
-
-
-def _badge(ax: Axes, place: Point, side: Side, number: int) -> None:
-    _label(ax, place, f"{LETTERS[side]}{number}", COLOURS[side])
-
-
-def _label(ax: Axes, place: Point, text: str, colour: str) -> None:
-    box = {"boxstyle": "round,pad=0.2", "fc": "white", "ec": colour, "alpha": 0.9}
-    ax.text(
-        *place,
-        text,
-        ha="center",
-        va="center",
-        color=colour,
-        fontsize=8,
-        bbox=box,
-        zorder=5,
-        clip_on=True,
-    )
-
-
-def _draw_axis(ax: Axes, seen: Hallway) -> None:
-    ends = seen.place(0.0)[:2], seen.place(min(seen.end, 30.0))[:2]
-    ax.plot(*zip(*ends, strict=True), color="0.5", lw=1.0, ls=":")
-
-
-def _draw_robot(ax: Axes, pose: Pose) -> None:
-    tip = compose(pose, (0.8, 0.0, 0.0))
-    style = {"arrowstyle": "-|>", "color": "tab:red", "lw": 2.0}
-    ax.annotate("", tip[:2], pose[:2], arrowprops=style)
-    ax.plot(*pose[:2], "o", color="tab:red", ms=6)
-
-
-def _draw_goal(ax: Axes, goal: Goal) -> None:
-    """The goal with its tolerances: the verifier's, and within it the robot's own."""
-    if math.isfinite(goal.distance_tolerance):
-        for share in (1.0, 0.5):
-            _draw_tolerance(ax, goal, share)
-    if goal.kind is GoalKind.PASS and goal.door is not None:
-        ax.plot(*zip(goal.door.start, goal.door.end, strict=True), color="tab:purple", lw=6.0)
-    _draw_mark(ax, goal.pose, goal.kind)
-
-
-def _draw_tolerance(ax: Axes, goal: Goal, share: float) -> None:
-    style = {"color": "tab:purple", "alpha": 0.12}
-    ax.add_patch(Circle(goal.pose[:2], share * goal.distance_tolerance, **style))
-    if goal.heading_tolerance < math.pi:
-        spread = math.degrees(share * goal.heading_tolerance)
-        middle = math.degrees(goal.pose[2])
-        ax.add_patch(Wedge(goal.pose[:2], 0.9, middle - spread, middle + spread, **style))
-
-
-def _draw_mark(ax: Axes, pose: Pose, kind: GoalKind) -> None:
-    tip = compose(pose, (0.8, 0.0, 0.0))
-    style = {"arrowstyle": "->", "color": "tab:purple", "lw": 1.6}
-    ax.annotate("", tip[:2], pose[:2], arrowprops=style)
-    ax.plot(*pose[:2], "*", color="tab:purple", ms=11)
-    beside = abs(math.sin(pose[2])) > 0.5
-    x, y = (pose[0] + 0.35, pose[1]) if beside else (pose[0], pose[1] - 0.55)
-    style = {"ha": "left" if beside else "center", "va": "center", "fontsize": 8}
-    ax.text(x, y, kind.name, color="tab:purple", clip_on=True, **style)
 
 
 def _save(name: str, size: tuple[float, float], *panels: Panel) -> None:
