@@ -9,13 +9,16 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
+from semnav_env.scripts.outputs import counted
+
 
 class JsonLines:
     """A file of one JSON object a line, in place only once it is whole.
 
     Lines go to a neighbour named `.part`, each in a single write, and the neighbour takes the
     file's place at the end, be it by an error or an interruption: finished lines stay, half
-    lines never come to be. Without any line an older file is left as it is.
+    lines never come to be. Without any line an older file is left as it is. An error or an
+    interruption is given a note that says where the lines are.
 
     Args:
         path: the file; missing folders are made. What is not a regular file (a pipe, a
@@ -63,5 +66,7 @@ class JsonLines:
         if self._part != self.path:
             if self._lines or error is None:
                 os.replace(self._part, self.path)
+                if error is not None:
+                    error.add_note(f"'{self.path}' holds the {counted(self._lines, 'line')} so far")
             else:
                 self._part.unlink()

@@ -54,8 +54,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = [word for word in words if word != "--debug"]
     try:
         return _run(words)
-    except KeyboardInterrupt:
-        print("semnav: interrupted", file=sys.stderr)
+    except KeyboardInterrupt as stop:
+        print(_with_notes("semnav: interrupted", stop), file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -63,7 +63,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (ValueError, OSError, ImportError) as error:
         if debug:
             raise
-        print(f"semnav: {in_one_line(error)}", file=sys.stderr)
+        print(_with_notes(f"semnav: {in_one_line(error)}", error), file=sys.stderr)
         return BAD_INPUT
 
 
@@ -78,6 +78,11 @@ def in_one_line(error: Exception) -> str:
         return f"{error.name} is not installed; `semnav doctor` says what to install"
     lines = str(error).strip().splitlines()
     return lines[0] if lines else type(error).__name__
+
+
+def _with_notes(said: str, error: BaseException) -> str:
+    """With what an error was told on its way up, such as where the work so far is."""
+    return "; ".join([said, *getattr(error, "__notes__", ())])
 
 
 def _run(words: list[str]) -> int:

@@ -132,8 +132,24 @@ def test_an_interruption_keeps_the_finished_lines(tmp_path, monkeypatch, capsys,
         return {"line": record.line}
 
     monkeypatch.setattr("semnav_env.scripts.extract.document", interrupted)
-    assert run(capsys, "extract", log, "--out", out)[0] == 130
+    code, _, said = run(capsys, "extract", log, "--out", out)
+    assert code == 130
+    assert said.endswith(f"semnav: interrupted; '{out}' holds the 4 lines so far\n")
     assert [scene["line"] for scene in scenes(out)] == [2, 3, 4, 5]
+
+
+def test_an_error_says_where_the_lines_before_it_are(tmp_path, monkeypatch, capsys, log):
+    out = tmp_path / "scenes.jsonl"
+
+    def full(record, scene):
+        if record.line > 2:
+            raise OSError(28, "No space left on device")
+        return {"line": record.line}
+
+    monkeypatch.setattr("semnav_env.scripts.extract.document", full)
+    code, _, said = run(capsys, "extract", log, "--out", out)
+    assert code == 2
+    assert said.endswith(f"No space left on device; '{out}' holds the 1 line so far\n")
 
 
 @given(st.integers(1, 20), st.integers(0, 500))

@@ -28,6 +28,12 @@ def test_a_killed_run_leaves_whole_lines_and_the_older_file(tmp_path):
     assert [line["i"] for line in scenes(tmp_path / "lines.jsonl.part")] == list(range(100))
 
 
+def test_an_interruption_before_the_first_line_speaks_of_no_file(tmp_path):
+    with pytest.raises(KeyboardInterrupt) as caught, JsonLines(tmp_path / "a.jsonl"):
+        raise KeyboardInterrupt
+    assert not hasattr(caught.value, "__notes__")
+
+
 def test_a_pipe_is_written_directly(tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
