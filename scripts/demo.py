@@ -123,6 +123,7 @@ class Arguments:
             "verdicts": [str(verdict) for verdict in info["verdicts"]],
             "crossed_doors": list(info["crossed_doors"]),
             "collisions": info["collisions"],
+            "impossible": info["impossible"],
             "seconds": round(seconds, 2),
             "path_length": round(info["path_length"], 3),
             "route_length": round(info["route_length"], 3),
@@ -139,6 +140,8 @@ class Arguments:
             f'"{start["command"]}": {verdict} after {seconds:.1f} s and '
             f"{info['path_length']:.1f} m, {info['collisions']} collisions"
         )
+        if outcome["impossible"]:
+            print(f"the robot took it for impossible: {outcome['impossible']}")
         for path in outcome["files"]:
             print(f"wrote {path}")
 

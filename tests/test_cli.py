@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -29,6 +30,17 @@ def test_a_demo_refuses_a_file_it_cannot_write_before_it_drives(
     code, out, err = run(capsys, "demo", "go through the next door on the right", option, path)
     assert (code, out) == (2, "")
     assert message in err
+
+
+def test_a_demo_says_why_the_robot_gave_up(capsys, monkeypatch):
+    why = "no second door on the right: the hallway ended after 1"
+    end = {"is_success": False, "verdicts": (), "crossed_doors": (), "collisions": 0}
+    end |= {"impossible": why, "path_length": 0.0, "route_length": 1.0}
+    monkeypatch.setattr("semnav_env.scripts.demo.steps", lambda *_: [SimpleNamespace(info=end)])
+    words = ("demo", "go through the second door on the right")
+    code, said, _ = run(capsys, *words)
+    assert (code, said.splitlines()[-1]) == (1, f"the robot took it for impossible: {why}")
+    assert json.loads(run(capsys, *words, "--json")[1])["impossible"] == why
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,7 @@ from semnav_env.observations import MODES
 from semnav_env.robots import ROBOTS
 from tests.episodes import START, actions, fresh
 
+CROSS = {"floor_plan": "office_cross"}
 IDS = [name for name in gym.registry if name.startswith("SemNav")]
 
 
@@ -129,6 +130,12 @@ def test_actions_out_of_range_are_clipped() -> None:
         (START | {"pose": (np.nan, 0.0, 0.0)}, ValueError, "start pose"),
         (START | {"pose": (1.0, 2.0)}, ValueError, "x, y, heading"),
         (START | {"pose": (-2.5, -0.3, 90.0)}, ValueError, "radians"),
+        ({"command": "go to room east south 2"} | CROSS, ValueError, "out: .*no open door leads"),
+        (
+            {"command": "take the twentieth door"} | CROSS,
+            ValueError,
+            "out: no twentieth door: .* after",
+        ),
         ({"floor_plan": "heidelberg_halway"}, ValueError, "heidelberg_hallway"),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -100,30 +101,39 @@ class CommandTask:
     ) -> tuple[Pose, Command]:
         if pose is not None and command is not None:
             return pose, command
+        objections: Counter[str] = Counter()
         for _ in range(START_TRIES):
             start = pose or sample_start(self.floor_plan, self.robot, rng)
             drawn = command or sample_feasible(self.floor_plan, start, rng)
-            if drawn is not None and (command is None or self._is_feasible(command, start)):
+            if drawn is None:
+                continue
+            objection = self._objection(drawn, start) if command is not None else ""
+            if not objection:
                 return start, drawn
+            objections[objection] += 1
         name = self.floor_plan.name
         if command is not None:
-            raise ValueError(f'no start found in {name} from which "{command}" can be carried out')
+            [(why, _)] = objections.most_common(1)
+            raise ValueError(
+                f'no start found in {name} from which "{command}" can be carried out: {why}'
+            )
         raise ValueError(f"no command found that can be carried out in {name} from {pose or 'it'}")
 
     def _with_implicit_steps(self, command: Command, start: Pose) -> Command:
         here = shapely.Point(start[:2])
         in_room = any(room.polygon.contains(here) for room in self.floor_plan.rooms)
         return with_implicit_steps(
-            command, lambda each: self._is_feasible(each, start), in_room=in_room
+            command, lambda each: not self._objection(each, start), in_room=in_room
         )
 
-    def _is_feasible(self, command: Command, start: Pose) -> bool:
+    def _objection(self, command: Command, start: Pose) -> str:
+        """Why a command cannot be carried out from there; empty if it can."""
         try:
             guide = Directory(self.floor_plan, command, self.geodesic)
             plan_goals(self.floor_plan, command, start, guide)
-        except GroundingError:
-            return False
-        return True
+        except GroundingError as error:
+            return str(error)
+        return ""
 
 
 def _command(options: dict[str, Any], rooms: tuple[str, ...]) -> Command | None:
