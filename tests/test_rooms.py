@@ -14,6 +14,7 @@ from shapely import Point
 from semnav_env.agents.registry import make_agent
 from semnav_env.commands import (
     Command,
+    CommandError,
     DoorReference,
     GoToDoor,
     GoToRoom,
@@ -63,6 +64,22 @@ def test_every_plain_name_is_one_that_a_command_can_hold(name: str) -> None:
     plain = plain_name(name)
     assert plain_name(plain) == plain
     assert not plain or GoToRoom(plain).name == plain
+
+
+def test_a_room_that_is_not_there_is_answered_with_some_of_those_that_are() -> None:
+    with pytest.raises(CommandError, match="the rooms here are: kitchen, lab 2; expected"):
+        parse("go to the ballroom", rooms=("kitchen", "lab 2"))
+    with pytest.raises(CommandError, match=r"are: 1\.00, .*, 1\.11, \.\.\.; expected"):
+        parse("go to the ballroom", rooms=[f"1.{k:02}" for k in range(99)])
+    with pytest.raises(CommandError) as nowhere:
+        parse("go to the ballroom")
+    assert "rooms here" not in str(nowhere.value)
+
+
+def test_a_misspelt_room_is_answered_with_the_nearest_one() -> None:
+    with pytest.raises(CommandError, match='did you mean "library"') as caught:
+        parse("go to the libary", rooms=("library", "kitchen"))
+    assert caught.value.hint is None
 
 
 def test_numbers_of_rooms_are_said_in_full_or_in_short_where_that_is_clear() -> None:

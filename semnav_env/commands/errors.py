@@ -55,8 +55,7 @@ class CommandError(ValueError):
             parts.append(self.hint)
         if self.expected:
             one_of = "expected: " if len(self.expected) == 1 else "expected one of: "
-            more = ", ..." if len(self.expected) > MOST_SHOWN else ""
-            parts.append(one_of + ", ".join(self.expected[:MOST_SHOWN]) + more)
+            parts.append(one_of + some_of(self.expected))
         if self.suggestion:
             parts.append(f'did you mean "{self.suggestion}"?')
         return "; ".join(parts)
@@ -81,6 +80,11 @@ class AmbiguousCommandError(CommandError):
         self.args = (text, readings, differences)
         self.readings = readings
         self.differences = differences
+
+
+def some_of(words: tuple[str, ...]) -> str:
+    """The first `MOST_SHOWN` words, and whether there are more."""
+    return ", ".join(words[:MOST_SHOWN]) + (", ..." if len(words) > MOST_SHOWN else "")
 
 
 def pointed(text: str, position: int, length: int) -> str:

@@ -12,13 +12,11 @@ from lark.exceptions import UnexpectedToken, VisitError
 from lark.lexer import Lexer
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
-from semnav_env.commands.language import Language
+from semnav_env.commands.language import NAME, PUNCTUATION, QUESTION, Language
 from semnav_env.commands.meanings import meanings_of
 from semnav_env.commands.parts import Found
 from semnav_env.commands.rooms import spoken_names
 from semnav_env.commands.words import FILLER, Lexicon, pieces
-
-PUNCTUATION, QUESTION, NAME = "_PUNCTUATION", "_QUESTION", "NAME"
 
 
 class MeaninglessError(ValueError):

@@ -10,7 +10,7 @@ from typing import Any
 
 from semnav_env.commands.words import fold, pieces
 
-SIGNS = ("_PUNCTUATION", "_QUESTION", "NAME")
+SIGNS = PUNCTUATION, QUESTION, NAME = "_PUNCTUATION", "_QUESTION", "NAME"
 """Terminals that no list of words holds."""
 
 NUMBER = "0-9"

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from semnav_env.commands.clauses import GoToRoom
 from semnav_env.commands.command import MAX_CLAUSES, Command
-from semnav_env.commands.errors import AmbiguousCommandError, CommandError
-from semnav_env.commands.language import Language, language_of, languages
+from semnav_env.commands.errors import AmbiguousCommandError, CommandError, some_of
+from semnav_env.commands.language import NAME, Language, language_of, languages
 from semnav_env.commands.normalise import NormalisedText, normalise
-from semnav_env.commands.rooms import plain_name
+from semnav_env.commands.rooms import plain_name, spoken_names
 from semnav_env.commands.suggest import nearest
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def _readings(text: str, language: Language, rooms: Sequence[str]) -> tuple[Comm
         _check_length(found, normalised)
         commands = commands_of(found)
     except UnexpectedToken as unexpected:
-        raise _explained(unexpected, normalised, language) from None
+        raise _explained(unexpected, normalised, language, rooms) from None
     except MeaninglessError as error:
         raise _pointed(str(error), normalised, error.start, error.stop) from None
     except OutOfPlaceError as error:
@@ -159,7 +159,10 @@ def _beginning(text: str) -> str:
 
 
 def _explained(
-    unexpected: UnexpectedToken, normalised: NormalisedText, language: Language
+    unexpected: UnexpectedToken,
+    normalised: NormalisedText,
+    language: Language,
+    rooms: Sequence[str],
 ) -> CommandError:
     expected = _expected(unexpected, language)
     names = tuple(language.call(terminal) for terminal in expected)
@@ -169,8 +172,10 @@ def _explained(
         return CommandError("the command ends too early", normalised.original, *place, names)
     word = normalised.text[start:stop]
     problem = f'"{word}" is not understood here'
-    hint = language.hint(word)
-    suggestion = None if hint else _suggestion(word, expected, language)
+    hint, named = language.hint(word), spoken_names(rooms) if NAME in expected else {}
+    suggestion = None if hint else _suggestion(word, expected, language, named)
+    if named and not (hint or suggestion):
+        hint = f"the rooms here are: {some_of(tuple(rooms))}"
     return CommandError(problem, normalised.original, *place, names, suggestion, hint)
 
 
@@ -183,8 +188,10 @@ def _expected(unexpected: UnexpectedToken, language: Language) -> list[str]:
     return sorted(accepted, key=order.index)
 
 
-def _suggestion(word: str, expected: list[str], language: Language) -> str | None:
-    """The nearest word that could have stood here, or else the nearest known word."""
+def _suggestion(
+    word: str, expected: list[str], language: Language, rooms: Iterable[str]
+) -> str | None:
+    """The nearest word or room that could have stood here, or else the nearest known word."""
     written = {
         language.folded(each.casefold()): each
         for terminal in language.terminals
@@ -193,6 +200,6 @@ def _suggestion(word: str, expected: list[str], language: Language) -> str | Non
     if word in written or not word.isalpha():
         return None
     words = (each for terminal in expected for each in language.vocabulary(terminal))
-    fitting = [language.folded(each.casefold()) for each in words]
+    fitting = [*(language.folded(each.casefold()) for each in words), *rooms]
     found = nearest(word, fitting) or nearest(word, sorted(written))
-    return None if found is None else written[found]
+    return None if found is None else written.get(found, found)
