@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from numbers import Real
 from typing import Any
 
 import gymnasium as gym
@@ -23,6 +24,7 @@ from semnav_env.odometry import Odometry, OdometrySettings
 from semnav_env.perception import Perception, TruePerception
 from semnav_env.rendering.scribe import Scribe
 from semnav_env.robots import RobotSpec, robot_spec
+from semnav_env.settings import check_kind
 from semnav_env.tasks import CommandTask, RewardWeights
 from semnav_env.verifier import Motion
 from semnav_env.world import World
@@ -120,8 +122,12 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ValueError(f"no render mode {render_mode!r}; there are: rgb_array, human")
-        if not 0 < max_seconds < float("inf"):
-            raise ValueError(f"max_seconds is {max_seconds}; it must be positive and finite")
+        check_kind("max_seconds", max_seconds, Real)
+        if not 0 < max_seconds < math.inf:
+            raise ValueError(f"max_seconds is {max_seconds!r}; it must be positive and finite")
+        check_kind("odometry", odometry, OdometrySettings)
+        check_kind("extractor", extractor, ExtractorSettings)
+        check_kind("rewards", rewards, RewardWeights)
         self.robot = robot_spec(robot)
         self.lidar_spec = lidar_spec(lidar)
         self.extractor = extractor

@@ -110,8 +110,8 @@ class Observer:
     """
 
     def __init__(self, mode: str, beams: int, range_max: float) -> None:
-        if mode not in MODES:
-            raise ValueError(f"no observation {mode!r}; there are: {', '.join(MODES)}")
+        if mode not in tuple(MODES):
+            raise ValueError(f"no observation {mode!r:.80}; there are: {', '.join(MODES)}")
         self.mode = mode
         self.beams = beams
         self.range_max = range_max

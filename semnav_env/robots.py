@@ -93,6 +93,6 @@ def robot_spec(name_or_spec: str | RobotSpec) -> RobotSpec:
     """
     if isinstance(name_or_spec, RobotSpec):
         return name_or_spec
-    if name_or_spec not in ROBOTS:
-        raise ValueError(f"no robot named {name_or_spec!r}; there are: {', '.join(ROBOTS)}")
+    if name_or_spec not in tuple(ROBOTS):
+        raise ValueError(f"no robot named {name_or_spec!r:.80}; there are: {', '.join(ROBOTS)}")
     return ROBOTS[name_or_spec]

@@ -136,6 +136,7 @@ def test_actions_out_of_range_are_clipped() -> None:
             ValueError,
             "out: no twentieth door: .* after",
         ),
+        ({"episode": {}}, ValueError, "no episode {}"),
         ({"floor_plan": "heidelberg_halway"}, ValueError, "heidelberg_hallway"),
     ],
 )
@@ -154,11 +155,35 @@ def test_bad_options_get_one_clear_error(options: dict, error: type, words: str)
         ({"render_mode": "ascii"}, "rgb_array"),
         ({"max_seconds": -1.0}, "positive"),
         ({"max_seconds": float("nan")}, "positive"),
+        ({"max_seconds": "60"}, "max_seconds is '60'; it must be a numbers.Real"),
     ],
 )
 def test_bad_arguments_list_what_would_have_worked(arguments: dict, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         SemNavEnv(**arguments)
+
+
+@pytest.mark.parametrize("value", [{}, 3, [3], "x"])
+@pytest.mark.parametrize(
+    ("name", "right"),
+    [
+        ("robot", "there are: wheelchair"),
+        ("floor_plan", "name"),
+        ("observation", "there are: semantic"),
+        ("lidar", "there are: tim561"),
+        ("odometry", "it must be a semnav_env.odometry.OdometrySettings"),
+        ("extractor", "it must be a semnav_env.features.settings.ExtractorSettings"),
+        ("rewards", "it must be a semnav_env.tasks.rewards.RewardWeights"),
+        ("dynamics", "it must be a semnav_env.dynamics.settings.Dynamics"),
+        ("render_mode", "there are: rgb_array"),
+        ("episodes", "name of a split|no split|Episode"),
+    ],
+)
+def test_an_argument_of_another_kind_names_the_right_one(
+    name: str, right: str, value: object
+) -> None:
+    with pytest.raises(ValueError, match=right):
+        SemNavEnv(**{name: value})  # type: ignore[arg-type]
 
 
 def test_stepping_before_a_reset_is_an_error() -> None:

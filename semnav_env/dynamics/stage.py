@@ -14,6 +14,7 @@ from semnav_env.dynamics.settings import Dynamics
 from semnav_env.features.frames import Point
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.robots import RobotSpec
+from semnav_env.settings import check_kind
 
 
 class Stage:
@@ -31,8 +32,7 @@ class Stage:
     def __init__(
         self, default: str | Path | FloorPlan, dynamics: Dynamics, robot: RobotSpec
     ) -> None:
-        if not isinstance(dynamics, Dynamics):
-            raise ValueError(f"dynamics is {dynamics!r}; it must be a semnav_env.dynamics.Dynamics")
+        check_kind("dynamics", dynamics, Dynamics)
         self.dynamics, self._default, self._robot = dynamics, default, robot
         self._hung: tuple[FloorPlan, FloorPlan] | None = None
 

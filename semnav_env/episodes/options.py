@@ -11,6 +11,7 @@ import numpy as np
 from semnav_env.commands import parse
 from semnav_env.episodes.episode import Episode, Expected
 from semnav_env.episodes.splits import load_episodes
+from semnav_env.settings import check_kind
 
 Episodes: TypeAlias = str | Path | Sequence[Episode]
 """The name of a split, the path of a file, or episodes."""
@@ -32,13 +33,7 @@ class EpisodeOptions:
     """
 
     def __init__(self, episodes: Episodes | None) -> None:
-        if episodes is None:
-            episodes = ()
-        elif isinstance(episodes, str | Path):
-            episodes = load_episodes(episodes)
-        elif not episodes:
-            raise ValueError("there are no episodes to draw from")
-        self._episodes = {episode.id: episode for episode in map(_drivable, episodes)}
+        self._episodes = {episode.id: episode for episode in map(_drivable, _read(episodes))}
         self._ids = tuple(self._episodes)
         self.info: dict[str, str] = {}
 
@@ -78,13 +73,27 @@ class EpisodeOptions:
     def _episode(self, wanted: object) -> Episode:
         if isinstance(wanted, Episode):
             return _drivable(wanted)
-        if wanted in self._episodes:
+        if wanted in self._ids:
             return self._episodes[str(wanted)]
         there = f"{self._ids[0]} to {self._ids[-1]}" if self._ids else "none: give episodes="
         raise ValueError(f"no episode {wanted!r:.80}; there are: {there}")
 
 
+def _read(episodes: object) -> Sequence[Episode]:
+    if episodes is None:
+        return ()
+    if isinstance(episodes, str | Path):
+        return load_episodes(episodes)
+    if not isinstance(episodes, Sequence):
+        right = "the name of a split, the path of a file, or a list of Episodes"
+        raise ValueError(f"episodes is {episodes!r:.80}; it must be {right}")
+    if not episodes:
+        raise ValueError("there are no episodes to draw from")
+    return episodes
+
+
 def _drivable(episode: Episode) -> Episode:
+    check_kind("an episode", episode, Episode)
     if episode.expected is Expected.AMBIGUOUS:
         raise ValueError(
             f'{episode.id}: "{episode.command}" can mean {len(episode.readings)} things, so nobody '

@@ -123,6 +123,6 @@ def lidar_spec(name_or_spec: str | LidarSpec) -> LidarSpec:
     """
     if isinstance(name_or_spec, LidarSpec):
         return name_or_spec
-    if name_or_spec not in LIDARS:
-        raise ValueError(f"no lidar named {name_or_spec!r}; there are: {', '.join(LIDARS)}")
+    if name_or_spec not in tuple(LIDARS):
+        raise ValueError(f"no lidar named {name_or_spec!r:.80}; there are: {', '.join(LIDARS)}")
     return LIDARS[name_or_spec]

@@ -1,0 +1,19 @@
+"""Settings of the environment, looked at before anything is made of them."""
+
+from __future__ import annotations
+
+
+def check_kind(name: str, value: object, kind: type) -> None:
+    """Refuse a setting that is of another kind.
+
+    Args:
+        name: of the argument.
+        value: that was given for it.
+        kind: what it must be an instance of.
+
+    Raises:
+        ValueError: it is something else; says what would be right.
+    """
+    if not isinstance(value, kind):
+        right = f"{kind.__module__}.{kind.__qualname__}"
+        raise ValueError(f"{name} is {value!r:.80}; it must be a {right}")
