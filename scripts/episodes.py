@@ -11,6 +11,7 @@ from typing import Annotated
 
 from tyro.conf import Positional, subcommand
 
+from semnav_env.commands.suggest import did_you_mean
 from semnav_env.episodes import SPLITS, Episode, Split, load_episodes, write_episodes
 from semnav_env.episodes.check import faults
 from semnav_env.episodes.generate import generate_split
@@ -138,7 +139,8 @@ def _piece(job: tuple[Split, int, int]) -> list[Episode]:
 def _chosen(names: tuple[str, ...]) -> list[Split]:
     for name in names:
         if name not in SPLITS:
-            raise ValueError(f"no split {name!r}; there are: {', '.join(SPLITS)}")
+            hint = did_you_mean(name, SPLITS)
+            raise ValueError(f"no split {name!r:.80}; there are: {', '.join(SPLITS)}{hint}")
     return [SPLITS[name] for name in names or SPLITS]
 
 

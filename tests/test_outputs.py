@@ -83,6 +83,25 @@ def test_a_refusal_names_what_is_wrong(capsys, words, message):
     assert message in refusal(capsys, *words)
 
 
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        (("evaluate", "val_unsen"), "val_unseen"),
+        (("evaluate", "heidleberg"), "heidelberg"),
+        (("demonstrate", "trian", "--out", "x"), "train"),
+        (("episodes", "check", "test_lng"), "test_long"),
+        (("episodes", "generate", "val_sen"), "val_seen"),
+        (("describe", "--from=-2.5,-0.3,0.24", "--to", "suoth_1"), "south_1"),
+    ],
+)
+def test_an_unknown_split_suite_or_place_names_the_nearest_one(capsys, words, meant):
+    assert refusal(capsys, *words).endswith(f"; did you mean {meant!r}?")
+
+
+def test_what_is_like_nothing_has_no_nearest_one(capsys):
+    assert "did you mean" not in refusal(capsys, "evaluate", "moon")
+
+
 def test_a_place_that_is_not_there_lists_each_name_once(capsys):
     plan = "office:medium:17"
     said = refusal(capsys, "describe", "--from=-9,7.7,0", "--to", "nowhere", "--map", plan)

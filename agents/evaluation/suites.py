@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from semnav_env.commands.suggest import did_you_mean
 from semnav_env.episodes import SPLITS
 from semnav_env.features.frames import Pose
 
@@ -103,5 +104,6 @@ def suite(name: str) -> tuple[Trial, ...]:
         return tuple(trial for trials in SUITES.values() for trial in trials)
     if name not in SUITES:
         there = f"{', '.join(SUITES)}, all, and the splits {', '.join(SPLITS)}"
-        raise ValueError(f"no suite {name!r}; there are: {there}")
+        hint = did_you_mean(name, (*SUITES, "all", *SPLITS))
+        raise ValueError(f"no suite {name!r:.80}; there are: {there}{hint}")
     return SUITES[name]

@@ -9,6 +9,9 @@ from rapidfuzz import fuzz
 ENOUGH_ALIKE = 85.0
 """Smallest likeness (Indel ratio, 0 to 100) at which a word is suggested."""
 
+LONGEST = 80
+"""No known word is longer, characters."""
+
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known word most like `word`, or None where none is like it or it is itself known.
@@ -21,6 +24,12 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
         return None
     best = max(likeness, key=likeness.__getitem__)
     return best if likeness[best] >= ENOUGH_ALIKE else None
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The end of an error that lists the known words: "; did you mean 'left'?", or nothing."""
+    found = nearest(word[:LONGEST], known)
+    return f"; did you mean {found!r}?" if found else ""
 
 
 def _likeness(word: str, candidate: str) -> float:

@@ -8,6 +8,7 @@ from functools import lru_cache
 from importlib.resources import as_file, files
 from pathlib import Path
 
+from semnav_env.commands.suggest import did_you_mean
 from semnav_env.episodes.episode import Episode, Expected
 from semnav_env.episodes.files import read_episodes
 from semnav_env.maps.generator.distributions import DISTRIBUTIONS
@@ -106,7 +107,7 @@ def load_episodes(name: str | Path) -> tuple[Episode, ...]:
         return read_episodes(name)
     raise ValueError(
         f"no split {name!r:.80}; there are: {', '.join(SPLITS)}, or the path of a .jsonl or "
-        ".jsonl.gz file"
+        f".jsonl.gz file{did_you_mean(str(name), SPLITS)}"
     )
 
 

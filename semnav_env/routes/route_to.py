@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from semnav_env.commands import Approach
+from semnav_env.commands.suggest import did_you_mean
 from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.grounding.doors import STAND_OFF
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
@@ -138,7 +139,8 @@ def _region(floor_plan: FloorPlan, name: str) -> Region:
         doors = [door.name for door in floor_plan.doors]
         names = dict.fromkeys([*doors, *(region.name for region in floor_plan.regions)])
         raise RouteError(
-            f"{floor_plan.name} has no door, room or place {name!r}; there are: {', '.join(names)}"
+            f"{floor_plan.name} has no door, room or place {name!r:.80}; there are: "
+            f"{', '.join(names)}{did_you_mean(name, names)}"
         ) from None
 
 
