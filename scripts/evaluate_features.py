@@ -13,7 +13,7 @@ from semnav_env.evaluation.map_doors import map_sheets, mapped
 from semnav_env.evaluation.openings import read_openings
 from semnav_env.evaluation.real_doors import FREIBURG, FREIBURG_LABELS, door_sheet, look_through
 from semnav_env.evaluation.real_logs import find_logs, log_row, log_sheet
-from semnav_env.evaluation.report import sheets
+from semnav_env.evaluation.report import in_short, sheets
 from semnav_env.evaluation.sheets import Cell, Sheet
 from semnav_env.evaluation.study import DEFAULT, Study, all_strategies
 from semnav_env.features import ExtractorSettings
@@ -35,7 +35,8 @@ class Arguments:
         every: take each Nth scan of a real log.
         seed: of poses, clutter and noise.
         out: folder for the tables (Markdown and JSON) and the figures.
-        json: print the tables as JSON.
+        full: print all tables, not the most important ones only.
+        json: print all tables as JSON.
     """
 
     plans: tuple[str, ...] = ()
@@ -47,19 +48,24 @@ class Arguments:
     every: int = 8
     seed: int = 0
     out: Path | None = None
+    full: bool = False
     json: bool = False
 
     def run(self) -> int:
         """Measure, write and print."""
         study = Study(self._check())
         self._simulate(study)
-        tables = [*(sheets(study, self._told) if self.poses else ()), *self._real()]
+        simulated, real = sheets(study, self._told) if self.poses else [], list(self._real())
+        tables = simulated + real
         if self.out is not None:
             self._write(self.out, study, tables)
         if self.json:
             print(json.dumps(self._document(study, tables)))
+        elif self.full or not simulated:
+            print(_markdown(tables))
         else:
-            print("\n\n".join(table.markdown() for table in tables))
+            print(_markdown(in_short(study, self._told) + real))
+            print("\nall tables: --full, or --out for a page with figures")
         return 0
 
     @property
@@ -121,9 +127,13 @@ class Arguments:
 
     def _write(self, folder: Path, study: Study, tables: list[Sheet]) -> None:
         folder.mkdir(parents=True, exist_ok=True)
-        page = "# Feature extraction, measured\n\n" + "\n\n".join(t.markdown() for t in tables)
+        page = "# Feature extraction, measured\n\n" + _markdown(tables)
         (folder / "features.md").write_text(page + "\n", encoding="utf-8")
         text = json.dumps(self._document(study, tables), indent=1)
         (folder / "features.json").write_text(text + "\n", encoding="utf-8")
         if self.poses:
             save_figures(study, self._told, folder)
+
+
+def _markdown(tables: list[Sheet]) -> str:
+    return "\n\n".join(table.markdown() for table in tables)

@@ -81,6 +81,15 @@ def test_the_command_writes_tables_and_figures(capsys, tmp_path):
             assert min(image.size) > 200
 
 
+def test_the_command_prints_the_most_important_unless_all_is_wanted(capsys):
+    words = ("evaluate", "features", "--plans", "villa_hall", "--poses", 2, "--sigma", 0.02)
+    short, full = (run(capsys, *words, *more)[1] for more in ((), ("--full",)))
+    assert len(short.splitlines()) < 15
+    assert short.startswith("## Over all poses, sigma 20 mm\n")
+    assert short.endswith("--full, or --out for a page with figures\n")
+    assert full.count("\n## ") == 6
+
+
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [

@@ -41,6 +41,14 @@ def sheets(study: Study, sigma: float) -> list[Sheet]:
     ]
 
 
+def in_short(study: Study, sigma: float) -> list[Sheet]:
+    """Recall and precision over all poses for one noise; the strategies if there are several."""
+    outcome = study.pooled(sigma=sigma)
+    rows = [(kind.label, *_counts(outcome, kind)) for kind in Kind]
+    short = Sheet(f"Over all poses, sigma {1e3 * sigma:g} mm", ("feature", *COUNTS), rows)
+    return [short, strategies(study)] if len(study.strategies) > 1 else [short]
+
+
 def found_and_missed(study: Study) -> Sheet:
     """Recall and precision of every kind with the default settings."""
     rows = [
