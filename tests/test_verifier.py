@@ -61,6 +61,10 @@ def test_walks_are_judged_by_what_was_crossed_and_reached(
     assert list(walk(verifier(command), *points).verdicts) == verdicts
 
 
+def test_verdicts_are_printed_as_plain_words() -> None:
+    assert str((Verdict.DONE, Verdict.WRONG_DOOR)) == "('done', 'wrong door')"
+
+
 def test_the_door_next_to_the_named_one_is_a_failure_however_near() -> None:
     judge = walk(verifier("go through the second door on the right"), (3.4, 9.0), (3.4, 7.0))
     assert judge.over

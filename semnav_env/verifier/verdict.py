@@ -7,7 +7,9 @@ from functools import lru_cache
 
 
 class Verdict(StrEnum):
-    """What became of a clause or of a command."""
+    """What became of a clause or of a command; printed as a plain word, also within a tuple."""
+
+    __repr__ = str.__repr__
 
     PENDING = "pending"
     ACTIVE = "active"
