@@ -12,6 +12,7 @@ import shapely
 import shapely.affinity
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matplotlib.figure import Figure
 from shapely import LineString, Point, Polygon, box
 
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface, save_floor_plan
@@ -173,6 +174,16 @@ def test_a_picture_marks_the_faults(tmp_path: Path) -> None:
     clean, marked = ((tmp_path / f"{name}.png").read_bytes() for name in ("clean", "marked"))
     assert marked.startswith(b"\x89PNG")
     assert marked != clean
+
+
+def test_the_faults_stand_below_the_axis_whose_label_stays_black(monkeypatch, tmp_path) -> None:
+    drawn: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: drawn.append(figure))
+    plan = room_at_a_corridor(0.62)
+    save_picture(plan, tmp_path / "marked.png", findings=check(plan))
+    (label,) = [axes.xaxis.label for axes in drawn[0].axes]
+    assert (label.get_text(), label.get_color()) == ("x, m", "black")
+    assert "this open door leaves 0.62 m" in drawn[0].get_supxlabel()
 
 
 def test_the_command_says_what_is_wrong_and_exits_with_1(tmp_path: Path, capsys) -> None:

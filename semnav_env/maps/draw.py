@@ -87,6 +87,10 @@ def save_picture(
     draw_floor_plan(plan, ax)
     ax.set_title(plan.name)
     _mark(findings, ax)
+    if findings:
+        figure.supxlabel(
+            _listed(findings), x=0.02, ha="left", size="medium", color="red", wrap=True
+        )
     figure.savefig(path, dpi=dpi)
 
 
@@ -103,11 +107,12 @@ def _mark(findings: Sequence[Finding], ax: Axes) -> None:
                 weight="bold",
                 zorder=9,
             )
-    if findings:
-        lines = [f"{number}  {finding}" for number, finding in enumerate(findings, 1)]
-        more = [f"and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else []
-        below = "\n".join([*lines[:MOST_LINES], *more])
-        ax.set_xlabel(f"x, m\n\n{below}", loc="left", color="red", wrap=True)
+
+
+def _listed(findings: Sequence[Finding]) -> str:
+    lines = [f"{number}  {finding}" for number, finding in enumerate(findings, 1)]
+    more = [f"and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else []
+    return "\n".join([*lines[:MOST_LINES], *more])
 
 
 def _name_region(region: Region, plan: FloorPlan, ax: Axes) -> None:
