@@ -9,12 +9,13 @@ from typing import Any
 
 import pytest
 import shapely
+from matplotlib.figure import Figure
 from shapely import LineString, Point, box
 
 from semnav_env.maps import Material, Surface, bundled_names, load_floor_plan
 from semnav_env.maps.check import check
 from semnav_env.maps.doorways import DoorState, door_state
-from semnav_env.maps.draw import save_picture
+from semnav_env.maps.draw import draw_floor_plan, leave_out_overlapping, save_picture
 from semnav_env.robots import ROBOTS, WHEELCHAIR
 from tests.plan_geometry import inward, lane, reachable, solid
 
@@ -122,3 +123,17 @@ def test_a_plan_that_breaks_a_rule_gets_one_finding() -> None:
     assert [str(f) for f in found] == [
         "villa_hall: 2 doors are named 'parents'; door names are unique"
     ]
+
+
+def test_no_name_lies_on_another_in_a_picture_of_a_large_office() -> None:
+    figure = Figure(figsize=(9.0, 12.0))
+    ax = figure.add_subplot()
+    plan = load_floor_plan("office:large:3")
+    draw_floor_plan(plan, ax)
+    leave_out_overlapping(ax)
+    shown = [text for text in ax.texts if text.get_visible()]
+    boxes = [text.get_window_extent() for text in shown]
+    assert all(box.count_overlaps(boxes) == 1 for box in boxes)  # with itself
+    named = {text.get_text() for text in shown}
+    assert {room.name for room in plan.rooms} <= named
+    assert len(ax.texts) - len(shown) < len(ax.texts) / 4

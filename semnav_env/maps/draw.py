@@ -10,6 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
+from matplotlib.transforms import Bbox
 from shapely import Polygon, union_all
 
 from semnav_env.features.plot import check_suffix
@@ -62,6 +63,24 @@ def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
     ax.set_ylabel("y, m")
 
 
+def leave_out_overlapping(ax: Axes) -> None:
+    """Hide names that lie on others, so that the rest can be read; doors come before regions.
+
+    Args:
+        ax: with a plan; its figure has got its size.
+    """
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    figure.draw_without_rendering()
+    kept: list[Bbox] = []
+    for text in ax.texts:
+        box = text.get_window_extent()
+        if box.count_overlaps(kept):
+            text.set_visible(False)
+        else:
+            kept.append(box)
+
+
 def save_picture(
     plan: FloorPlan, path: str | Path, dpi: int = 100, findings: Sequence[Finding] = ()
 ) -> None:
@@ -86,6 +105,7 @@ def save_picture(
     ax = figure.add_subplot()
     draw_floor_plan(plan, ax)
     ax.set_title(plan.name)
+    leave_out_overlapping(ax)
     _mark(findings, ax)
     if findings:
         figure.supxlabel(

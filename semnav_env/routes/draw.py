@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from semnav_env.features.frames import Pose
 from semnav_env.features.plot import check_suffix
-from semnav_env.maps.draw import draw_floor_plan
+from semnav_env.maps.draw import draw_floor_plan, leave_out_overlapping
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.routes.route import Route
 
@@ -55,8 +55,10 @@ def save_routes(
     size = (east - west) * inch + 1.0, (north - south) * inch + 1.0 + 0.3 * len(routes)
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
-    draw_routes(floor_plan, routes, figure.add_subplot(), names)
+    ax = figure.add_subplot()
+    draw_routes(floor_plan, routes, ax, names)
     figure.legend(loc="outside lower center", frameon=False)
+    leave_out_overlapping(ax)
     figure.savefig(path, dpi=100)
 
 
