@@ -16,6 +16,8 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from semnav_env.maps import FloorPlan, PlanDoor, Region, Surface, bundled_names, load_floor_plan
+from semnav_env.maps.check import check
+from semnav_env.maps.doorways import DoorState, door_state
 from semnav_env.maps.importers import Tracing, import_map
 from semnav_env.maps.importers.imported import Imported
 from semnav_env.maps.occupancy_export import draw_pixels, export_map
@@ -146,3 +148,15 @@ def test_the_command_exports_what_import_reads(
     assert cli.main(["map", "import", str(out), "--out", str(back)]) == 0
     assert len(load_floor_plan(str(back)).doors) == 22
     assert cli.main([*words[:3], "--out", str(tmp_path / "map.pgm")]) == 2
+
+
+def test_the_export_says_what_becomes_a_wall(tmp_path: Path) -> None:
+    """A leaf that was half open is then a wall in its doorway, and found as such."""
+    plan = load_floor_plan("office_cross")
+    said = export_map(plan, tmp_path / "map.yaml").left_out
+    assert said[0] == "1 panes of glass; they are walls in the map"
+    assert "leaves of doors" in said[1]
+    assert "pieces of furniture" in said[2]
+    findings = check(import_map(tmp_path / "map.yaml")[0])
+    assert [finding.part for finding in findings] == ["west_north_2"]
+    assert door_state(plan.door("west_north_2"), plan) is DoorState.HALF_OPEN

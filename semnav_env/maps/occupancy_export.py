@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -202,5 +203,15 @@ def _place_rows(plan: FloorPlan, pixels: PixelPlan) -> dict[str, Any]:
 
 
 def _left_out(plan: FloorPlan) -> tuple[str, ...]:
-    glass = sum(surface.material is Material.GLASS for surface in plan.surfaces)
-    return (f"{glass} panes of glass; they are walls in the map",) if glass else ()
+    """Solid things of which a map says no more than that they are solid."""
+    counts = Counter(surface.material for surface in plan.surfaces)
+    named = {
+        Material.GLASS: "panes of glass",
+        Material.LEAF: "leaves of doors",
+        Material.FURNITURE: "pieces of furniture",
+    }
+    return tuple(
+        f"{counts[material]} {name}; they are walls in the map"
+        for material, name in named.items()
+        if counts[material]
+    )
