@@ -11,6 +11,7 @@ from tyro.conf import Positional, subcommand
 
 from semnav_env.features.plot import check_suffix
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
+from semnav_env.maps.doorways import door_state
 from semnav_env.scripts.map_build import Build
 from semnav_env.scripts.map_check import Check
 from semnav_env.scripts.map_export import Export
@@ -86,6 +87,7 @@ def summary(plan: FloorPlan) -> dict[str, Any]:
             {
                 "name": door.name,
                 "open": door.open,
+                "state": door_state(door, plan).value,
                 "width": round(door.width, 3),
                 "start": door.start,
                 "end": door.end,
@@ -119,7 +121,7 @@ def _paragraph(plan: dict[str, Any]) -> str:
         for kind in ("rooms", "corridors", "intersections")
     ]
     rows += [
-        f"  door {door['name']}: {'open' if door['open'] else 'closed'}, {door['width']:.2f} m wide"
+        f"  door {door['name']}: {door['state']}, {door['width']:.2f} m wide"
         for door in plan["doors"]
     ]
     return "\n".join(rows)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.maps import bundled_names
+from semnav_env.maps import bundled_names, load_floor_plan, save_floor_plan
 from semnav_env.scripts import main as cli
 from semnav_env.scripts import progress
 from semnav_env.scripts.arguments import parse
@@ -127,11 +127,16 @@ def test_map_list_and_show_agree(capsys, tmp_path):
         assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-def test_map_show_says_which_doors_are_open(capsys):
-    _, out, _ = run(capsys, "map", "show", "office_cross")
-    doors = [line for line in out.splitlines() if line.startswith("  door ")]
-    assert sum("closed" in door for door in doors) == 1
-    assert len(doors) >= 16
+def test_map_show_says_which_doors_are_open(capsys, tmp_path):
+    save_floor_plan(load_floor_plan("office_cross"), tmp_path / "saved.geojson")
+    for plan in ("office_cross", tmp_path / "saved.geojson"):
+        _, out, _ = run(capsys, "map", "show", plan)
+        doors = [line for line in out.splitlines() if line.startswith("  door ")]
+        assert sum("closed" in door for door in doors) == 1
+        assert [door for door in doors if "half-open" in door] == [
+            "  door west_north_2: half-open, 1.10 m wide"
+        ]
+        assert len(doors) >= 16
 
 
 def test_doctor_finds_this_installation_sound(capsys):
