@@ -1,4 +1,4 @@
-"""`semnav episodes`: list, check and generate the frozen episodes, and make others."""
+"""`semnav episodes`: list, check and generate the frozen episodes, import others."""
 
 from __future__ import annotations
 

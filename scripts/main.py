@@ -14,12 +14,12 @@ from importlib import import_module, metadata
 
 COMMANDS = {
     "extract": ("extract", "turn a log of lidar scans into walls, doors, corners and corridors"),
-    "map": ("map", "list, show, check, generate, build and import floor plans"),
+    "map": ("map", "list, show, check, generate, build, import and export floor plans"),
     "demo": ("demo", "let a robot carry out a command"),
     "ground": ("ground", "say what a command refers to in a floor plan"),
     "describe": ("describe", "say the command that leads to a door or a room"),
     "demonstrate": ("demonstrate", "write what an agent sees and does as a dataset"),
-    "episodes": ("episodes", "list, check and generate the frozen episodes"),
+    "episodes": ("episodes", "list, check and generate the frozen episodes, import others"),
     "evaluate": ("evaluate", "measure an agent on a suite of commands"),
     "evaluate features": ("evaluate_features", "measure the feature extractor against truth"),
     "evaluate lines": ("evaluate_lines", "measure lines on real scans, walls on simulated ones"),

@@ -127,6 +127,15 @@ def test_map_list_and_show_agree(capsys, tmp_path):
         assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize("name", ["map", "episodes"])
+def test_the_help_names_every_sub_command(capsys, name):
+    text = run(capsys, name, "--help")[1]
+    words = text[text.index("{") + 1 : text.index("}")].split(",")
+    assert len(words) > 3
+    line = next(line for line in run(capsys, "--help")[1].splitlines() if f"  {name} " in line)
+    assert set(words) <= set(line.replace(",", "").split())
+
+
 def test_map_show_says_which_doors_are_open(capsys, tmp_path):
     save_floor_plan(load_floor_plan("office_cross"), tmp_path / "saved.geojson")
     for plan in ("office_cross", tmp_path / "saved.geojson"):
