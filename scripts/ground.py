@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from typing import Any
 
 from tyro.conf import Positional
 
@@ -21,10 +22,16 @@ from semnav_env.robots import robot_spec
 from semnav_env.scripts.demo import parse_pose
 from semnav_env.verifier import plan_goals
 
+HEADINGS = f"{'goal':<6}{'x, m':>9}{'y, m':>9}{'heading, rad':>14}  clause"
+
 
 @dataclass(frozen=True)
 class Arguments:
     """Say what a command refers to in a floor plan, clause by clause.
+
+    Each clause gives a goal: "reach" a place, "pass" the door that is named, or "stop". Then
+    follow where the robot's centre should come to be, in the frame of the floor plan, what was
+    understood, and the door. A place behind a door to pass heads away from it.
 
     Attributes:
         command: a command, or just a place: "the second door on the right".
@@ -62,10 +69,14 @@ class Arguments:
         if self.json:
             print(json.dumps(rows))
         else:
-            for row in rows:
-                door = f"  (door {row['door']})" if row["door"] else ""
-                print(f"{row['kind']:<6}{row['pose']}  {row['understood']}{door}")
+            print("\n".join([HEADINGS, *map(_line, rows)]))
         return 0
+
+
+def _line(row: dict[str, Any]) -> str:
+    x, y, heading = row["pose"]
+    door = f"  (door {row['door']})" if row["door"] else ""
+    return f"{row['kind']:<6}{x:>9.3f}{y:>9.3f}{heading:>14.3f}  {row['understood']}{door}"
 
 
 def understood(text: str, language: str = "en", rooms: tuple[str, ...] = ()) -> Command:

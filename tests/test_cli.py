@@ -136,6 +136,16 @@ def test_the_help_names_every_sub_command(capsys, name):
     assert set(words) <= set(line.replace(",", "").split())
 
 
+def test_what_is_grounded_stands_under_headings_with_units(capsys):
+    pose = "--pose=-2.5,-0.3,0.24"
+    _, text, _ = run(capsys, "ground", "the second door on the right", pose)
+    headings, row = text.splitlines()
+    assert headings.split() == ["goal", "x,", "m", "y,", "m", "heading,", "rad", "clause"]
+    assert row.endswith("  the second door on the right  (door south_2)")
+    assert headings.index("clause") == row.index("the second")
+    assert headings.index("x, m") + len("x, m") == row.index(row.split()[1]) + len(row.split()[1])
+
+
 def test_map_show_says_which_doors_are_open(capsys, tmp_path):
     save_floor_plan(load_floor_plan("office_cross"), tmp_path / "saved.geojson")
     for plan in ("office_cross", tmp_path / "saved.geojson"):
