@@ -46,7 +46,8 @@ class Demonstration:
 
 def demonstrate(env: SemNavEnv, agent: Agent, episode: Episode) -> Demonstration:
     """Let an agent drive a frozen episode, with its number as the seed, and note everything."""
-    first, info = env.reset(seed=episode.number, options={"episode": episode})
+    with episode.named_in_errors():
+        first, info = env.reset(seed=episode.number, options={"episode": episode})
     driven = list(steps(env, agent, first, info))
     seen = [first, *(step.observation for step in driven)]
     return Demonstration(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from semnav_env.agents.evaluation import SUITES, Result, asked, runner, suite, s
 from semnav_env.agents.evaluation.suites import Trial
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Expected, load_episodes, write_episodes
+from semnav_env.episodes import Expected, StaleEpisodeError, load_episodes, write_episodes
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.metrics import COLUMNS, Metrics
@@ -23,6 +24,7 @@ from semnav_env.robots import ROBOTS
 from semnav_env.scripts.main import main
 from semnav_env.verifier import plan_goals
 
+TWENTIETH = {"command": "take the twentieth door", "language": "en"}
 NOTHING = Metrics(**dict.fromkeys(COLUMNS, 0))
 
 
@@ -165,6 +167,32 @@ def test_standing_still_is_no_answer_unless_the_robot_says_why(
     result = runner.run_frozen(env, Statue(), episode)
     assert not result.success
     assert "did not say that it is impossible" in result.cause
+
+
+@pytest.mark.parametrize(
+    ("changed", "why", "workers"),
+    [
+        (TWENTIETH, "no twentieth door: .* after [0-9]+", 1),
+        (TWENTIETH, "no twentieth door: .* after [0-9]+", 2),
+        ({"readings": ("sing a song",)}, '"sing" is not understood .*', 1),
+    ],
+)
+def test_an_episode_that_cannot_be_begun_is_named(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, changed: Any, why: str, workers: int
+) -> None:
+    file = tmp_path / "wrong.jsonl"
+    write_episodes([replace(load_episodes("test_real")[7], **changed)], file)
+    words = ["evaluate", str(file), "--agent", "oracle", "--workers", str(workers)]
+    assert main(words) == 2
+    last = capsys.readouterr().err.splitlines()[-1]
+    assert re.fullmatch(f"semnav: {why}; episode test_real-00007", last)
+
+
+def test_an_episode_that_names_itself_is_named_once() -> None:
+    stale = replace(load_episodes("test_real")[7], plan_hash="0" * 16)
+    with pytest.raises(StaleEpisodeError, match="test_real-00007") as caught:
+        runner.run_frozen(SemNavEnv(), Statue(), stale)
+    assert not hasattr(caught.value, "__notes__")
 
 
 def test_an_ambiguous_command_counts_if_all_its_readings_are_found(

@@ -127,7 +127,8 @@ def run_frozen(env: SemNavEnv, agent: Any, episode: Episode, extras: Extras = NO
     """An episode that was written down, with its number as the seed and time for long ways."""
     usual, env.max_steps = env.max_steps, round(LONGEST * CONTROL_HZ)
     try:
-        driven = drive(env, agent, episode.number, {"episode": episode})
+        with episode.named_in_errors():
+            driven = drive(env, agent, episode.number, {"episode": episode})
     finally:
         env.max_steps = usual
     if episode.expected is Expected.INFEASIBLE:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -83,4 +85,15 @@ class Episode:
 
     def meanings(self) -> tuple[Command, ...]:
         """The readings as commands."""
-        return tuple(parse(reading, self.language) for reading in self.readings)
+        with self.named_in_errors():
+            return tuple(parse(reading, self.language) for reading in self.readings)
+
+    @contextmanager
+    def named_in_errors(self) -> Iterator[None]:
+        """Give a `ValueError` that does not name the episode a note that does."""
+        try:
+            yield
+        except ValueError as error:
+            if self.id not in "".join([str(error), *getattr(error, "__notes__", ())]):
+                error.add_note(f"episode {self.id}")
+            raise
