@@ -171,7 +171,8 @@ class Arguments:
                 print(f"{result.command}: seed {result.seed}: {said}")
         if self.pictures is not None:
             drawn = sum(not result.success for result in results)
-            print(f"drew {counted(drawn, 'failure')} into {self.pictures}")
+            into = f"drew {counted(drawn, 'failure')} into {self.pictures}"
+            print(into if drawn else "nothing failed, so there are no pictures")
 
 
 def _commands_table(summaries: list[Summary]) -> Table:

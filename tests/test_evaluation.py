@@ -111,6 +111,17 @@ def test_an_unknown_suite_is_an_error_that_lists_the_known_ones() -> None:
         suite("moon")
 
 
+def test_where_nothing_failed_no_picture_is_spoken_of(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trial = Trial("plan", "stop", (0.0, 0.0, 0.0))
+    done = replace(result(True), group=trial.group)
+    monkeypatch.setattr("semnav_env.scripts.evaluate.suite", lambda _: [trial])
+    monkeypatch.setattr("semnav_env.scripts.evaluate.run_suite", lambda *_: iter([done]))
+    assert main(["evaluate", "--pictures", str(tmp_path / "pictures")]) == 0
+    assert capsys.readouterr().out.endswith("nothing failed, so there are no pictures\n")
+
+
 def test_more_episodes_than_there_are_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["evaluate", "test_real", "--episodes", "201"]) == 2
     assert "--episodes is 201; test_real has 200" in capsys.readouterr().err
