@@ -43,10 +43,25 @@ def test_a_pilaster_makes_no_door_whatever_the_frame(a, b, c, d, turn, away):
     assert is_narrow_place(placed[-1][[2, 3, 0, 1]], placed)
 
 
+ASIDE = st.floats(0.0, 0.6)
+
+
+@given(ASIDE, ASIDE, ASIDE, ASIDE)
+def test_a_hallway_both_of_whose_sides_go_on_behind_an_opening_goes_on(a, b, c, d):
+    assert is_narrow_place(OPENING, passage(a, b, c, d, length=3.0))
+
+
+@given(st.floats(0.3, 0.6), st.integers(0, 3))
+def test_where_one_side_is_not_seen_to_go_on_a_hallway_ends_at_the_door(aside, missing):
+    sides = passage(aside, aside, aside, aside, length=3.0)
+    sides[missing, [0, 2]] = np.clip(sides[missing, [0, 2]], -2.4, 2.4)
+    assert not is_narrow_place(OPENING, sides)
+
+
 @pytest.mark.parametrize(
     "steps",
-    [(0.3, 0.3, 0.3, 0.3), (0.25, 0.25, 1.0, 0.25), (0.5, 0.5, 0.1, 0.1), (0.0, 0.0, 2.0, 2.0)],
-    ids=["a door in the hallway", "a room flush with it", "a narrow arm", "a room at its end"],
+    [(0.3, 0.3, 1.0, 1.0), (0.25, 0.25, 1.0, 0.25), (0.7, 0.7, 0.1, 0.1), (0.0, 0.0, 2.0, 2.0)],
+    ids=["a door into a room", "a room flush with it", "a narrow arm", "a room at its end"],
 )
 def test_where_the_hallway_is_wider_than_the_opening_it_is_a_door(steps):
     assert not is_narrow_place(OPENING, passage(*steps))
@@ -68,7 +83,7 @@ def test_sides_that_are_not_seen_to_run_on_leave_a_door_a_door():
 
 
 @pytest.mark.parametrize(
-    ("steps", "end"), [((0.0, 0.1, 0.3, 0.1), 8.0), ((0.4, 0.4, 0.4, 0.4), 4.0)]
+    ("steps", "end"), [((0.0, 0.1, 0.3, 0.1), 8.0), ((0.4, 0.4, 1.0, 1.0), 4.0)]
 )
 def test_a_hallway_ends_at_a_door_across_it_and_not_where_it_narrows(steps, end):
     walls = np.vstack((passage(*steps), (4.0, 2.0, 4.0, -2.0)))

@@ -25,6 +25,13 @@ THROUGH = 1.25
 WIDER = 0.45
 """A hallway with a door across it is wider than the door by more than this, metres."""
 
+FAR, ASIDE = 8.0, 1.25
+"""The sides of a hallway that goes on behind an opening are looked for so far before and behind it
+and so far beside its middle, metres."""
+
+ON = 2.5
+"""It goes on if so much of either side is there, before and behind the opening, metres."""
+
 STEPS = 10
 """In so many steps a side is looked for outward from a jamb, up to `WIDER`."""
 
@@ -41,38 +48,69 @@ def is_narrow_place(door: FloatArray, solid: FloatArray) -> bool:
 
     Then it is no doorway but a hallway that narrows, between a pilaster and a wall for instance: a
     hallway with a door in it, or a room behind one, is wider than the door. Where the hallway ends
-    in a room or a lobby one of its sides runs through.
+    in a room or a lobby one of its sides runs through. Nor is it the end of a hallway both of whose
+    sides go on behind it, however much narrower it is, as between the corners of two alcoves.
 
     Args:
         door: the opening's jambs, shape (4,), metres.
         solid: walls and doors, shape (n, 4), metres; the opening may be among them.
     """
-    x, y = 0.5 * (door[0] + door[2]), 0.5 * (door[1] + door[3])
-    dx, dy = door[2] - door[0], door[3] - door[1]
-    width = math.hypot(dx, dy)
-    if width <= 0.0:
+    if door[0] == door[2] and door[1] == door[3]:
         return False
-    c, s = dx / width, dy / width
-    there = np.zeros((2, 2, STEPS, round((FARTHEST - NEAREST) / BIN)), dtype=np.bool_)
-    for i in range(len(solid)):
-        across1 = c * (solid[i, 0] - x) + s * (solid[i, 1] - y)
-        across2 = c * (solid[i, 2] - x) + s * (solid[i, 3] - y)
-        along1 = c * (solid[i, 1] - y) - s * (solid[i, 0] - x)
-        along2 = c * (solid[i, 3] - y) - s * (solid[i, 2] - x)
-        if abs(across2 - across1) < SLANT * abs(along2 - along1):
-            side, aside = _beside(0.5 * (across1 + across2), 0.5 * width)
-            if -WITHIN <= aside < WIDER:
-                step = int(max(0.0, aside) / WIDER * STEPS)
-                _mark(along1, along2, there[0, side, step])
-                _mark(-along1, -along2, there[1, side, step])
-    for step in range(1, STEPS):
-        there[:, :, step] |= there[:, :, step - 1]
-    for here, beyond in ((there[0], there[1]), (there[1], there[0])):
+    close, far = _sides(door, solid)
+    if _goes_on(far):
+        return True
+    for here, beyond in ((close[0], close[1]), (close[1], close[0])):
         if _runs(here, LONG) and _runs(beyond, SHORT):
             return True
         if _runs(here, THROUGH) and _runs_through(here, beyond):
             return True
     return False
+
+
+@njit(cache=True, error_model="numpy")
+def _sides(door: FloatArray, solid: FloatArray) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Where sides run along the passage: before or behind the opening, right or left of it.
+
+    Returns:
+        By how far outside the jamb they are at most, in steps up to `WIDER`, then by distance from
+        the opening up to `FARTHEST`, in pieces of `BIN`; and those within `ASIDE` of its middle, by
+        distance up to `FAR`. Shapes (2, 2, STEPS, n) and (2, 2, m).
+    """
+    close = np.zeros((2, 2, STEPS, round((FARTHEST - NEAREST) / BIN)), dtype=np.bool_)
+    far = np.zeros((2, 2, round((FAR - NEAREST) / BIN)), dtype=np.bool_)
+    x, y = 0.5 * (door[0] + door[2]), 0.5 * (door[1] + door[3])
+    dx, dy = door[2] - door[0], door[3] - door[1]
+    width = math.hypot(dx, dy)
+    c, s = dx / width, dy / width
+    for i in range(len(solid)):
+        across1 = c * (solid[i, 0] - x) + s * (solid[i, 1] - y)
+        across2 = c * (solid[i, 2] - x) + s * (solid[i, 3] - y)
+        along1 = c * (solid[i, 1] - y) - s * (solid[i, 0] - x)
+        along2 = c * (solid[i, 3] - y) - s * (solid[i, 2] - x)
+        if abs(across2 - across1) >= SLANT * abs(along2 - along1):
+            continue
+        side, aside = _beside(0.5 * (across1 + across2), 0.5 * width)
+        if -WITHIN <= aside < ASIDE - 0.5 * width:
+            _mark(along1, along2, far[0, side])
+            _mark(-along1, -along2, far[1, side])
+        if -WITHIN <= aside < WIDER:
+            step = int(max(0.0, aside) / WIDER * STEPS)
+            _mark(along1, along2, close[0, side, step])
+            _mark(-along1, -along2, close[1, side, step])
+    for step in range(1, STEPS):
+        close[:, :, step] |= close[:, :, step - 1]
+    return close, far
+
+
+@njit(cache=True, error_model="numpy")
+def _goes_on(far: NDArray[np.bool_]) -> bool:
+    """Whether both sides of a hallway are there before and behind the opening."""
+    for end in range(2):
+        for side in range(2):
+            if _length(far[end, side]) < ON:
+                return False
+    return True
 
 
 @njit(cache=True, error_model="numpy")
