@@ -24,7 +24,7 @@ from semnav_env.commands import (
     readings,
 )
 from semnav_env.directory import Directory
-from semnav_env.episodes import SPLITS
+from semnav_env.episodes import SPLITS, Episode, load_episodes
 from semnav_env.episodes.doubts import Doubts
 from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.generate import BODY, SPACE, Site, exits, generate_episode
@@ -32,7 +32,7 @@ from semnav_env.episodes.random_clauses import Verb
 from semnav_env.episodes.wording import worded
 from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.hallway import hallway
-from semnav_env.grounding import GoalKind
+from semnav_env.grounding import Goal, GoalKind
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import is_clear, placement_error
 from semnav_env.recheck import recheck
@@ -48,6 +48,12 @@ WEST: Pose = (1.3, 9.1, 0.0)
 def drafter(seed: int, site: Site = SITE) -> Drafter:
     rng = np.random.default_rng(seed)
     return Drafter(site.plan, site.geodesic, sample_start(site.plan, BODY, rng), rng)
+
+
+def goals_of(episode: Episode, site: Site) -> tuple[Goal, ...]:
+    command = parse(episode.readings[0], episode.language, site.plan.room_names)
+    guide = Directory(site.plan, command, site.geodesic)
+    return plan_goals(site.plan, command, episode.start, guide)
 
 
 @pytest.mark.parametrize("name", ["heidelberg_hallway", "office_cross", "villa_hall", OFFICE])
@@ -75,13 +81,18 @@ def test_every_body_can_face_the_door_that_it_is_told_to_go_to() -> None:
     plan = load_floor_plan("heidelberg_hallway")
     site = Site(plan, "heidelberg_hallway")
     for number in range(0, 40, 2):
-        episode = generate_episode(site, SPLITS["test_real"], number)
-        command = parse(episode.readings[0], episode.language, plan.room_names)
-        for goal in plan_goals(
-            plan, command, episode.start, Directory(plan, command, site.geodesic)
-        ):
+        for goal in goals_of(generate_episode(site, SPLITS["test_real"], number), site):
             if goal.kind is GoalKind.REACH and goal.distance_tolerance < 1.0:
                 assert placement_error(plan, BODY, goal.pose) is None
+
+
+def test_every_body_can_stand_where_a_turn_or_a_way_down_a_hallway_ends() -> None:
+    """A hallway that is first seen from a doorway beside it can have its axis along a wall."""
+    for episode in load_episodes("test_real"):
+        site = Site(episode.plan(), episode.floor_plan)
+        for goal in goals_of(episode, site):
+            if goal.kind is GoalKind.REACH and goal.hallway is not None:
+                assert placement_error(site.plan, BODY, goal.pose) is None, episode.id
 
 
 def test_in_the_middle_of_a_crossing_one_is_in_a_junction() -> None:

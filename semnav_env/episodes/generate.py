@@ -50,9 +50,6 @@ SHORTEST, LONGEST = 1.5, 120.0
 NEAR = 0.3
 """A body must get so near to every goal, metres."""
 
-EXACT = 1.0
-"""A goal with a smaller tolerance says exactly where to be, metres."""
-
 SIMPLE = 0.05
 """True routes are simplified by at most so much, metres."""
 
@@ -252,12 +249,13 @@ def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | Non
 
 
 def _has_room(plan: FloorPlan, goal: Goal) -> bool:
-    """Whether every body can stand at a goal that says exactly where, and which way to look."""
-    exact = goal.kind is GoalKind.REACH and goal.distance_tolerance < EXACT
-    return (
-        not (exact and goal.heading_tolerance < math.pi)
-        or placement_error(plan, BODY, goal.pose) is None
-    )
+    """Whether every body can stand at a goal that says which way to look or how far down a hallway.
+
+    It may lie so near to a wall, or in a corner, that nobody could turn or stop right there.
+    """
+    posed = goal.heading_tolerance < math.pi or goal.hallway is not None
+    stands = goal.kind is GoalKind.REACH and posed
+    return not stands or placement_error(plan, BODY, goal.pose) is None
 
 
 def _simple(route: FloatArray) -> tuple[Point, ...]:
