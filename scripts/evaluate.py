@@ -118,6 +118,8 @@ class Arguments:
 
     def _trials(self) -> Sequence[Trial | Episode]:
         if not is_episodes(self.suite):
+            if self.episodes is not None:
+                raise ValueError("--episodes is for splits and files; give a suite --seeds")
             return suite(self.suite)
         found = load_episodes(self.suite)
         if self.episodes is not None and self.episodes > len(found):

@@ -60,6 +60,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
+    except SystemError as error:
+        if debug or not isinstance(error.__cause__, KeyboardInterrupt):
+            raise
+        # Ctrl-C while a compiled kernel ran
+        print(_with_notes("semnav: interrupted", error), file=sys.stderr)
+        return INTERRUPTED
     except (ValueError, OSError, ImportError) as error:
         if debug:
             raise

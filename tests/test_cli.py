@@ -175,6 +175,14 @@ def test_doctor_fails_only_for_what_is_needed(capsys, monkeypatch, needed, code)
     assert "pip install thing" in capsys.readouterr().out
 
 
+def test_an_interruption_inside_a_compiled_kernel_is_one_too(monkeypatch, capsys):
+    def interrupted(words):
+        raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
+
+    monkeypatch.setattr(cli, "_run", interrupted)
+    assert run(capsys, "doctor")[::2] == (130, "semnav: interrupted\n")
+
+
 def test_the_bar_appears_only_for_what_takes_long(capsys, monkeypatch):
     def seen(patience):
         monkeypatch.setattr(progress, "PATIENCE", patience)

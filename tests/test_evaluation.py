@@ -127,6 +127,11 @@ def test_more_episodes_than_there_are_are_refused(capsys: pytest.CaptureFixture[
     assert "--episodes is 201; test_real has 200" in capsys.readouterr().err
 
 
+def test_a_suite_has_seeds_and_no_episodes(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["evaluate", "heidelberg", "--episodes", "3"]) == 2
+    assert "give a suite --seeds" in capsys.readouterr().err
+
+
 def test_a_split_is_evaluated_by_its_clauses_and_failures_are_told_by_their_episodes(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
