@@ -125,15 +125,30 @@ def test_a_plan_that_breaks_a_rule_gets_one_finding() -> None:
     ]
 
 
-def test_no_name_lies_on_another_in_a_picture_of_a_large_office() -> None:
-    figure = Figure(figsize=(9.0, 12.0))
-    ax = figure.add_subplot()
-    plan = load_floor_plan("office:large:3")
-    draw_floor_plan(plan, ax)
-    leave_out_overlapping(ax)
+@pytest.mark.parametrize("name", [*bundled_names(), "office:large:3"])
+def test_a_picture_names_every_room_and_door_and_no_name_lies_on_another(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: drawn.append(figure))
+    plan = load_floor_plan(name)
+    save_picture(plan, tmp_path / "plan.png")
+    (ax,) = drawn[0].axes
     shown = [text for text in ax.texts if text.get_visible()]
     boxes = [text.get_window_extent() for text in shown]
     assert all(box.count_overlaps(boxes) == 1 for box in boxes)  # with itself
-    named = {text.get_text() for text in shown}
-    assert {room.name for room in plan.rooms} <= named
-    assert len(ax.texts) - len(shown) < len(ax.texts) / 4
+    names = {text.get_text() for text in shown}
+    assert {part.name for part in (*plan.rooms, *plan.doors)} <= names
+
+
+def test_of_too_many_names_those_of_rooms_are_kept() -> None:
+    figure = Figure(figsize=(4.0, 4.0))
+    ax = figure.add_subplot()
+    plan = load_floor_plan("office_cross")
+    draw_floor_plan(plan, ax)
+    leave_out_overlapping(ax)
+    shown = [text.get_text() for text in ax.texts if text.get_visible()]
+    hidden = [text.get_text() for text in ax.texts if not text.get_visible()]
+    rooms = {room.name for room in plan.rooms}
+    assert len(rooms & set(shown)) > 10
+    assert {door.name for door in plan.doors} & set(hidden)

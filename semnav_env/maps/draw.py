@@ -10,7 +10,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
-from matplotlib.transforms import Bbox
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox, ScaledTranslation
 from shapely import Polygon, union_all
 
 from semnav_env.features.plot import check_suffix
@@ -54,9 +55,9 @@ def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
     for surface in plan.surfaces:
         _draw_surface(surface, ax)
     for door in plan.doors:
-        _draw_door(door, ax, names)
-    for region in plan.regions if names else ():
-        _name_region(region, plan, ax)
+        _draw_door(door, ax)
+    if names:
+        _write_names(plan, ax)
     ax.set_aspect("equal")
     ax.autoscale_view()
     ax.set_xlabel("x, m")
@@ -64,7 +65,9 @@ def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
 
 
 def leave_out_overlapping(ax: Axes) -> None:
-    """Hide names that lie on others, so that the rest can be read; doors come before regions.
+    """Move names that lie on others by a line or hide them, so that the rest can be read.
+
+    Rooms come before doors, doors before other regions.
 
     Args:
         ax: with a plan; its figure has got its size.
@@ -74,11 +77,23 @@ def leave_out_overlapping(ax: Axes) -> None:
     figure.draw_without_rendering()
     kept: list[Bbox] = []
     for text in ax.texts:
-        box = text.get_window_extent()
-        if box.count_overlaps(kept):
+        box = _free_place(text, kept, figure)
+        if box is None:
             text.set_visible(False)
         else:
             kept.append(box)
+
+
+def _free_place(text: Text, kept: Sequence[Bbox], figure: Figure) -> Bbox | None:
+    """Where a name lies on no other: at its own place, or moved there by a line."""
+    box = text.get_window_extent()
+    for up in (0.0, box.height, -box.height):
+        place = box.translated(0.0, up)
+        if not place.count_overlaps(kept):
+            inches = ScaledTranslation(0.0, up / figure.dpi, figure.dpi_scale_trans)
+            text.set_transform(text.get_transform() + inches)
+            return place
+    return None
 
 
 def save_picture(
@@ -135,6 +150,17 @@ def _listed(findings: Sequence[Finding]) -> str:
     return "\n".join([*lines[:MOST_LINES], *more])
 
 
+def _write_names(plan: FloorPlan, ax: Axes) -> None:
+    """What matters most first."""
+    for room in plan.rooms:
+        _name_region(room, plan, ax)
+    for door in plan.doors:
+        _name_door(door, ax)
+    for region in plan.regions:
+        if region not in plan.rooms:
+            _name_region(region, plan, ax)
+
+
 def _name_region(region: Region, plan: FloorPlan, ax: Axes) -> None:
     """Written where no other region lies, if there is such a place."""
     others = union_all([r.polygon for r in plan.regions if r is not region])
@@ -152,16 +178,22 @@ def _draw_surface(surface: Surface, ax: Axes) -> None:
     ax.plot(x, y, dashes, color=COLOURS[surface.material], linewidth=1.5)
 
 
-def _draw_door(door: PlanDoor, ax: Axes, names: bool) -> None:
-    """The name stands behind the door, seen from its corridor."""
-    colour = "green" if door.open else "red"
+def _draw_door(door: PlanDoor, ax: Axes) -> None:
+    x, y = zip(door.start, door.end, strict=True)
+    ax.plot(x, y, color=_colour(door), linewidth=3, alpha=0.6, solid_capstyle="butt")
+
+
+def _name_door(door: PlanDoor, ax: Axes) -> None:
+    """Behind the door, seen from its corridor."""
     (x1, y1), (x2, y2) = door.start, door.end
-    ax.plot((x1, x2), (y1, y2), color=colour, linewidth=3, alpha=0.6, solid_capstyle="butt")
-    if names:
-        right = (y2 - y1) / door.width, (x1 - x2) / door.width
-        x, y = (m + NAME_BEHIND * r for m, r in zip(door.midpoint, right, strict=True))
-        side = "center" if abs(right[0]) < 0.7 else "left" if right[0] > 0 else "right"
-        ax.text(x, y, door.name, size=7, weight="bold", color=colour, ha=side, va="center")
+    right = (y2 - y1) / door.width, (x1 - x2) / door.width
+    x, y = (m + NAME_BEHIND * r for m, r in zip(door.midpoint, right, strict=True))
+    side = "center" if abs(right[0]) < 0.7 else "left" if right[0] > 0 else "right"
+    ax.text(x, y, door.name, size=7, weight="bold", color=_colour(door), ha=side, va="center")
+
+
+def _colour(door: PlanDoor) -> str:
+    return "green" if door.open else "red"
 
 
 def _outline(polygon: Polygon) -> Outline:
