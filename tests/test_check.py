@@ -18,6 +18,7 @@ from shapely import LineString, Point, Polygon, box
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface, save_floor_plan
 from semnav_env.maps.check import check
 from semnav_env.maps.draw import save_picture
+from semnav_env.maps.finding import Finding
 from semnav_env.maps.placement import footprint
 from semnav_env.maps.reach import reach
 from semnav_env.robots import SPOT, WHEELCHAIR
@@ -176,14 +177,48 @@ def test_a_picture_marks_the_faults(tmp_path: Path) -> None:
     assert marked != clean
 
 
-def test_the_faults_stand_below_the_axis_whose_label_stays_black(monkeypatch, tmp_path) -> None:
-    drawn: list[Figure] = []
-    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: drawn.append(figure))
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
+    """The figures that are saved."""
+    saved: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: saved.append(figure))
+    return saved
+
+
+def test_the_faults_stand_below_the_axis_whose_label_stays_black(
+    drawn: list[Figure], tmp_path: Path
+) -> None:
     plan = room_at_a_corridor(0.62)
     save_picture(plan, tmp_path / "marked.png", findings=check(plan))
     (label,) = [axes.xaxis.label for axes in drawn[0].axes]
     assert (label.get_text(), label.get_color()) == ("x, m", "black")
-    assert "this open door leaves 0.62 m" in drawn[0].get_supxlabel()
+    (listed,) = drawn[0].subfigs[1].texts
+    assert "this open door leaves 0.62 m" in listed.get_text()
+    assert listed.get_window_extent().y1 < label.get_window_extent().y0
+
+
+@pytest.mark.parametrize("count", [1, 40])
+def test_faults_however_many_take_nothing_from_the_plan_and_lie_on_nothing(
+    count: int, drawn: list[Figure], tmp_path: Path
+) -> None:
+    plan = room_at_a_corridor(0.62)
+    west, south, east, north = plan.boundary.bounds
+    corners = ((west, south), (east, north), (west + 0.1, north), (east, south))
+    faults = [Finding("kitchen", f"is wrong {'and ' * k}", corners[k % 4]) for k in range(count)]
+    for findings in ((), faults):
+        save_picture(plan, tmp_path / "plan.png", findings=findings)
+    clean, marked = (figure.axes[0].get_window_extent() for figure in drawn)
+    assert marked.width > 0.9 * clean.width
+    (ax,) = drawn[1].axes
+    listed = [text.get_window_extent() for text in drawn[1].subfigs[1].texts]
+    numbers = [
+        t.get_window_extent() for t in ax.texts if t.get_visible() and t.get_color() == "red"
+    ]
+    boxes = [*listed, *numbers, ax.title.get_window_extent()]
+    assert all(box.count_overlaps(boxes) == 1 for box in boxes)  # with itself
+    assert all(box.x0 > 0 and box.x1 < drawn[1].bbox.width and box.y0 > 0 for box in boxes)
+    text = "\n".join(text.get_text() for text in drawn[1].subfigs[1].texts)
+    assert all(f"{number}  kitchen" in text for number in range(1, count + 1))
 
 
 def test_the_command_says_what_is_wrong_and_exits_with_1(tmp_path: Path, capsys) -> None:

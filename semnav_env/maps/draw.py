@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from textwrap import wrap
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, FigureBase
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from matplotlib.text import Text
-from matplotlib.transforms import Bbox, ScaledTranslation
+from matplotlib.transforms import Bbox, ScaledTranslation, offset_copy
 from shapely import Polygon, union_all
 
 from semnav_env.features.plot import check_suffix
@@ -34,7 +35,13 @@ TINTS = {
 LONGEST_SIDE = 12.0
 """Of a picture, inches."""
 MOST_LINES = 12
-"""Of findings below a picture."""
+"""Of findings below a picture before they are set in columns."""
+COLUMN_WIDTH, LINE_HEIGHT, LETTER_WIDTH = 5.5, 0.155, 0.078
+"""Of the list of findings, inches; that of letters is a little more than their mean."""
+MARK_ROOM = 0.35
+"""Around a picture with marks, inches."""
+PLATE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
+"""Behind the numbers of marks."""
 NAME_BEHIND = 0.3
 """From a door to its name, metres."""
 
@@ -76,7 +83,7 @@ def leave_out_overlapping(ax: Axes) -> None:
     assert figure is not None
     figure.draw_without_rendering()
     kept: list[Bbox] = []
-    for text in ax.texts:
+    for text in (text for text in ax.texts if text.get_text()):
         box = _free_place(text, kept, figure)
         if box is None:
             text.set_visible(False)
@@ -113,41 +120,73 @@ def save_picture(
     check_suffix(path)
     west, south, east, north = plan.boundary.bounds
     inch = LONGEST_SIDE / max(east - west, north - south)
-    figure = Figure(
-        figsize=((east - west) * inch + 1.0, (north - south) * inch + 1.0), layout="constrained"
-    )
+    width, height = (east - west) * inch + 1.0, (north - south) * inch + 1.0
+    columns = _columns(findings, width)
+    below = LINE_HEIGHT * (1 + max(map(len, columns), default=-1))
+    figure = Figure(figsize=(width, height + below), layout="constrained")
     FigureCanvasAgg(figure)
-    ax = figure.add_subplot()
+    above: FigureBase = figure
+    if findings:
+        parts = figure.subfigures(2, 1, squeeze=False, height_ratios=(height, below))
+        above, under = parts.flat
+        _write_columns(columns, under)
+    ax = above.add_subplot()
+    _mark(findings, ax)
     draw_floor_plan(plan, ax)
     ax.set_title(plan.name)
-    leave_out_overlapping(ax)
-    _mark(findings, ax)
     if findings:
-        figure.supxlabel(
-            _listed(findings), x=0.02, ha="left", size="medium", color="red", wrap=True
-        )
+        _leave_room(ax, MARK_ROOM / inch)
+    leave_out_overlapping(ax)
     figure.savefig(path, dpi=dpi)
 
 
 def _mark(findings: Sequence[Finding], ax: Axes) -> None:
+    beside = offset_copy(ax.transData, ax.get_figure(root=True), 6.0, 6.0, units="points")
     for number, finding in enumerate(findings, 1):
         if finding.where is not None:
-            ax.plot(*finding.where, "o", mec="red", mfc="none", markersize=22, mew=2.0, zorder=9)
-            ax.annotate(
+            x, y = finding.where
+            ax.plot(x, y, "o", mec="red", mfc="none", markersize=14, mew=1.8, zorder=8)
+            ax.text(
+                x,
+                y,
                 str(number),
-                finding.where,
-                (12, 12),
-                textcoords="offset points",
+                transform=beside,
                 color="red",
                 weight="bold",
                 zorder=9,
+                bbox=PLATE,
             )
 
 
-def _listed(findings: Sequence[Finding]) -> str:
-    lines = [f"{number}  {finding}" for number, finding in enumerate(findings, 1)]
-    more = [f"and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else []
-    return "\n".join([*lines[:MOST_LINES], *more])
+def _leave_room(ax: Axes, metres: float) -> None:
+    """Around all that is drawn, so that no mark at the edge is cut off."""
+    drawn = ax.dataLim
+    ax.set_xlim(drawn.x0 - metres, drawn.x1 + metres)
+    ax.set_ylim(drawn.y0 - metres, drawn.y1 + metres)
+
+
+def _columns(findings: Sequence[Finding], width: float) -> list[list[str]]:
+    """The list of findings, numbered, in lines that are short enough; many in columns."""
+    if not findings:
+        return []
+    beside = max(1, int(width / COLUMN_WIDTH)) if len(findings) > MOST_LINES else 1
+    letters = int(width / beside / LETTER_WIDTH)
+    rows = -(-len(findings) // beside)
+    written = [f"{number}  {finding}" for number, finding in enumerate(findings, 1)]
+    return [
+        [
+            line
+            for text in written[k : k + rows]
+            for line in wrap(text, letters, subsequent_indent="     ")
+        ]
+        for k in range(0, len(written), rows)
+    ]
+
+
+def _write_columns(columns: Sequence[Sequence[str]], figure: FigureBase) -> None:
+    for k, lines in enumerate(columns):
+        x = 0.02 + 0.98 * k / len(columns)
+        figure.text(x, 1.0, "\n".join(lines), va="top", size=9, color="red", linespacing=1.2)
 
 
 def _write_names(plan: FloorPlan, ax: Axes) -> None:
