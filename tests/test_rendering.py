@@ -11,13 +11,17 @@ from numpy.typing import NDArray
 
 from semnav_env.features.scene import Corner, CornerKind, Corridor, Scene, Wall
 from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.maps.floor_plan import Material, Surface
 from semnav_env.rendering import Frame, Viewer
+from semnav_env.rendering.legend import LEGEND_HEIGHT, ROW, legend_entries
 from semnav_env.robots import SPOT, WHEELCHAIR
 from tests.small_office import DOOR, PLAIN, PLAN, office
 
 pytest.importorskip("pygame", reason="pictures need the extra `render`")
 
 MAP_WIDTH = 676
+BARE = replace(PLAN, surfaces=())
+HATCHED = [Surface(((x / 5, -9.0), (x / 5, -2.0))) for x in range(15)]
 
 
 @pytest.fixture(scope="module")
@@ -116,6 +120,42 @@ def test_odd_commands_stay_in_the_panel(viewer: Viewer, command: tuple[str, ...]
     assert difference.any()
     assert not difference[:, : MAP_WIDTH - 1].any()
     assert not difference[-180:].any(), "the legend is covered"
+
+
+def test_the_legend_lists_what_the_plan_and_the_episode_hold() -> None:
+    always = {name for name, _ in legend_entries(replace(PLAIN, floor_plan=BARE))}
+    assert not always & {"glass", "furniture", "door leaf", "assumed wall", "person"}
+    held = {
+        Material.GLASS: "glass",
+        Material.FURNITURE: "furniture",
+        Material.LEAF: "door leaf",
+        Material.WALL: None,
+    }
+    for material, name in held.items():
+        plan = replace(BARE, surfaces=(Surface(((0.0, 0.0), (1.0, 0.0)), material),))
+        listed = {name for name, _ in legend_entries(replace(PLAIN, floor_plan=plan))}
+        assert listed - always == {name} - {None}
+    moving = {"people": np.array([(6.0, 1.0, 0.3)]), "leaves": np.array([(4.0, 0.0, 5.0, 0.0)])}
+    for (field, value), name in zip(moving.items(), ("person", "door leaf"), strict=True):
+        frame = replace(PLAIN, floor_plan=BARE, **{field: value})
+        assert {name for name, _ in legend_entries(frame)} - always == {name}
+    everything = replace(PLAIN, **moving)
+    assert "assumed wall" in {name for name, _ in legend_entries(everything)}
+
+
+def test_the_longest_legend_fits_on_the_page(viewer: Viewer) -> None:
+    everything = replace(PLAIN, people=np.array([(6.0, 1.0, 0.3)]))
+    rows = -(-len(legend_entries(everything)) // 2)
+    assert 22.0 + ROW * (rows - 0.5) <= LEGEND_HEIGHT
+    difference = changed(viewer.draw(PLAIN), viewer.draw(everything))
+    assert difference[-int(LEGEND_HEIGHT) :, MAP_WIDTH:].any()
+
+
+def test_the_scale_bar_is_read_over_walls_as_well() -> None:
+    crossed = replace(PLAN, surfaces=(*PLAN.surfaces, *HATCHED))
+    plain, over = (Viewer(p).draw(replace(PLAIN, floor_plan=p)) for p in (PLAN, crossed))
+    assert changed(plain, over)[-36:-14, 155:].any()
+    np.testing.assert_array_equal(plain[-36:-14, 16:130], over[-36:-14, 16:130])
 
 
 def test_points_that_are_not_finite_are_left_out(viewer: Viewer) -> None:

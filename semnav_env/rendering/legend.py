@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TypeAlias
 
 from semnav_env.features.frames import Point
 from semnav_env.features.scene import CornerKind
+from semnav_env.maps.floor_plan import Material
 from semnav_env.rendering import marks, palette
 from semnav_env.rendering.camera import Viewport
 from semnav_env.rendering.canvas import Canvas
+from semnav_env.rendering.frame import Frame
+
+Entry: TypeAlias = tuple[str, Callable[[Canvas, Point], None]]
+"""A name, and what draws its symbol."""
 
 ROW = 20.0
 COLUMN = 130.0
@@ -16,16 +22,32 @@ ICON = 13.0
 """Half the width of a symbol's place."""
 
 LEGEND_HEIGHT = 196.0
-"""With its heading, up to the end of the page."""
+"""With its heading and nine rows, up to the end of the page."""
 
 
-def draw_legend(canvas: Canvas, left: float, top: float) -> None:
+def draw_legend(canvas: Canvas, left: float, top: float, frame: Frame) -> None:
     """Two columns of symbols and their names; `top` is the middle of the first row."""
-    rows = -(-len(_ENTRIES) // 2)
-    for index, (name, draw) in enumerate(_ENTRIES):
+    entries = legend_entries(frame)
+    rows = -(-len(entries) // 2)
+    for index, (name, draw) in enumerate(entries):
         x, y = left + COLUMN * (index // rows), top + ROW * (index % rows)
         draw(canvas, (x + ICON, y))
         canvas.text((x + 2 * ICON + 7.0, y), name, palette.INK, 11.0)
+
+
+def legend_entries(frame: Frame) -> tuple[Entry, ...]:
+    """What any episode shows, and what this one does: the same at all of its moments."""
+    plan = frame.floor_plan
+    made_of = {surface.material for surface in plan.surfaces}
+    closed = not all(door.open for door in plan.doors)
+    shown = (
+        any(s.assumed and s.material is Material.WALL for s in plan.surfaces),
+        Material.GLASS in made_of,
+        Material.LEAF in made_of or closed or len(frame.leaves) > 0,
+        Material.FURNITURE in made_of,
+        len(frame.people) > 0,
+    )
+    return _ENTRIES + tuple(entry for entry, is_shown in zip(_SOME, shown, strict=True) if is_shown)
 
 
 def _bar(at: Point) -> list[Point]:
@@ -68,7 +90,12 @@ def _flag(canvas: Canvas, at: Point) -> None:
     marks.flag(canvas, (at[0] - 4.0, at[1] + 6.0), height=15.0)
 
 
-_ENTRIES: tuple[tuple[str, Callable[[Canvas, Point], None]], ...] = (
+def _furniture(canvas: Canvas, at: Point) -> None:
+    (x1, y), (x2, _) = _bar(at)
+    marks.furniture(canvas, [(x1, y - 5), (x2, y - 5), (x2, y + 5), (x1, y + 5), (x1, y - 5)])
+
+
+_ENTRIES: tuple[Entry, ...] = (
     ("wall", _wall_seen),
     ("door", lambda canvas, at: marks.door_seen(canvas, _bar(at))),
     ("outer corner", _corner(CornerKind.OUTER)),
@@ -82,5 +109,11 @@ _ENTRIES: tuple[tuple[str, Callable[[Canvas, Point], None]], ...] = (
     ("goal", _flag),
     ("path so far", lambda canvas, at: marks.trail(canvas, _bar(at))),
     ("true route", lambda canvas, at: marks.route(canvas, _bar(at))),
+)
+_SOME: tuple[Entry, ...] = (
+    ("assumed wall", lambda canvas, at: marks.wall_assumed(canvas, _bar(at))),
     ("glass", _glass),
+    ("door leaf", lambda canvas, at: marks.leaf(canvas, _bar(at), 0.0)),
+    ("furniture", _furniture),
+    ("person", lambda canvas, at: marks.person(canvas, at, 7.0)),
 )

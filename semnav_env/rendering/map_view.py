@@ -45,9 +45,10 @@ def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
 
 
 def draw_scale_bar(canvas: Canvas, camera: Camera, view: Viewport) -> None:
-    """Two metres, at the lower left."""
+    """Two metres, at the lower left, on a plate that covers what lies there."""
     x, y = view.left + 18, view.top + view.height - 18
     end = x + 2.0 * camera.scale
+    canvas.box(Viewport(x - 9, y - 20, end - x + 18, 29), palette.PANEL, 5.0)
     canvas.stroke([(x, y), (end, y)], palette.MUTED, 2.0)
     for tick in (x, end):
         canvas.stroke([(tick, y - 4), (tick, y + 4)], palette.MUTED, 2.0)

@@ -26,6 +26,19 @@ def wall_seen(sheet: Sheet, line: ArrayLike) -> None:
     sheet.stroke(line, palette.WALL_SEEN, 9.0)
 
 
+def wall_assumed(sheet: Sheet, line: ArrayLike) -> None:
+    """A wall that the plan's drawing does not show."""
+    sheet.dashes(line, palette.ASSUMED, 1.6)
+
+
+def furniture(sheet: Sheet, line: ArrayLike) -> None:
+    """Filled where it is closed."""
+    points = np.asarray(line)
+    if np.array_equal(points[0], points[-1]):
+        sheet.polygon(points, palette.FURNITURE)
+    sheet.stroke(points, palette.ASSUMED, 1.5)
+
+
 def wall_remembered(sheet: Sheet, line: ArrayLike) -> None:
     """A wall of the memory."""
     sheet.dashes(line, palette.WALL_REMEMBERED, 1.6, dash=4.0, gap=3.0)

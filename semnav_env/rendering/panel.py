@@ -66,7 +66,7 @@ def draw_panel(canvas: Canvas, panel: Viewport, frame: Frame) -> None:
         _draw_title(column, frame)
         legend_top = panel.height - LEGEND_HEIGHT
         column.heading(legend_top, "LEGEND")
-        draw_legend(canvas, column.left, legend_top + 22.0)
+        draw_legend(canvas, column.left, legend_top + 22.0, frame)
         status_top = _draw_status(column, legend_top - 12.0, frame)
         _draw_command(column, 84.0, status_top - 12.0, frame)
 

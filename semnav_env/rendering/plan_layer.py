@@ -6,7 +6,6 @@ import functools
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
 from shapely import Polygon
 
 from semnav_env.maps.floor_plan import FloorPlan, Material, Region, Surface
@@ -112,7 +111,7 @@ def _draw_surface(sheet: Sheet, camera: Camera, surface: Surface) -> None:
     thick = max(2.2, WALL_WIDTH * camera.scale)
     match surface.material:
         case Material.WALL if surface.assumed:
-            sheet.dashes(line, palette.ASSUMED, 1.6)
+            marks.wall_assumed(sheet, line)
         case Material.WALL:
             if _is_solid(surface):
                 sheet.polygon(line, palette.ASSUMED)
@@ -122,13 +121,7 @@ def _draw_surface(sheet: Sheet, camera: Camera, surface: Surface) -> None:
         case Material.LEAF:
             sheet.stroke(line, palette.LEAF, thick)
         case Material.FURNITURE:
-            _draw_furniture(sheet, line, surface)
-
-
-def _draw_furniture(sheet: Sheet, line: ArrayLike, surface: Surface) -> None:
-    if surface.points[0] == surface.points[-1]:
-        sheet.polygon(line, palette.FURNITURE)
-    sheet.stroke(line, palette.ASSUMED, 1.5)
+            marks.furniture(sheet, line)
 
 
 def _is_solid(surface: Surface) -> bool:
