@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from shlex import quote
 
 from tyro.conf import Positional
 
@@ -57,4 +58,5 @@ class Import:
             print(json.dumps({**asdict(report), "out": str(self.out)}))
         else:
             print(f"{report}\nwrote {self.out}")
+            print(f"`semnav map check {quote(str(self.out))}` says what is still wrong with it")
         return 0

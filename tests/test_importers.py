@@ -196,6 +196,7 @@ def test_the_command_imports_a_map_and_reports(tmp_path, capsys):
     said = capsys.readouterr().out
     assert f"wrote {out}" in said
     assert "left out: door 'nowhere'" in said
+    assert said.endswith(f"\n`semnav map check {out}` says what is still wrong with it\n")
     assert len(load_floor_plan(out).doors) == 2
     assert picture.stat().st_size > 0
     assert cli.main([*words, "--json", "--tracing.mend", "0"]) == 0
