@@ -13,12 +13,14 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 from PIL import Image
 
 from semnav_env.maps import FloorPlan, PlanDoor, Region, Surface, bundled_names, load_floor_plan
 from semnav_env.maps.check import check
 from semnav_env.maps.doorways import DoorState, door_state
 from semnav_env.maps.importers import Tracing, import_map
+from semnav_env.maps.importers.building_doors import without_leaves
 from semnav_env.maps.importers.imported import Imported
 from semnav_env.maps.occupancy_export import draw_pixels, export_map
 from semnav_env.maps.rules import FloorPlanError
@@ -45,7 +47,7 @@ def farthest(a: FloorPlan, b: FloorPlan, step: float) -> float:
 
 
 @st.composite
-def storeys(draw: st.DrawFn) -> FloorPlan:
+def storeys(draw: st.DrawFn, *, slanted: bool = True) -> FloorPlan:
     """Rooms beside each other, with a doorway or none in each partition, and a slanted wall."""
     cm = st.integers(0, 99).map(lambda value: value / 100)
     corners = [draw(st.integers(-20, 20)) + draw(cm)]
@@ -54,10 +56,10 @@ def storeys(draw: st.DrawFn) -> FloorPlan:
     west, east = corners[0], corners[-1]
     south, depth = draw(st.integers(-20, 20)) + draw(cm), 3.0 + 2 * draw(cm)
     north = south + depth
-    surfaces = [
-        closed((west, south), (east, south), (east, north), (west, north)),
-        Surface(((west + 0.3, north - 1.0), (west + 1.0, north - draw(cm) - 0.3))),
-    ]
+    surfaces = [closed((west, south), (east, south), (east, north), (west, north))]
+    if slanted:
+        wall = (west + 0.3, north - 1.0), (west + 1.0, north - draw(cm) - 0.3)
+        surfaces.append(Surface(wall))
     doors = []
     for k, x in enumerate(corners[1:-1]):
         width, near = 0.7 + 0.5 * draw(cm), south + 0.5 + draw(cm)
@@ -92,6 +94,38 @@ def test_walls_come_back_within_a_pixel_and_doors_and_rooms_with_their_names(
     for room in plan.rooms:
         ours = back.region(room.name).polygon
         assert ours.hausdorff_distance(room.polygon) < 0.01 * resolution
+
+
+def off_axis(ends: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How far segments, rows of x1, y1, x2, y2, lead off the nearer axis, metres."""
+    return np.asarray(np.abs(ends[:, 2:] - ends[:, :2]).min(axis=1))
+
+
+@given(storeys(slanted=False), st.sampled_from((0.02, 0.05, 0.1)))
+@settings(max_examples=40, deadline=None)
+def test_an_orthogonal_plan_comes_back_with_orthogonal_walls_and_doors_along_them(
+    plan: FloorPlan, resolution: float
+) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        export_map(plan, Path(folder) / "map.yaml", resolution)
+        back = import_map(Path(folder) / "map.yaml").plan
+    assert off_axis(without_leaves(back).segments).max() < 1e-9
+    assert farthest(plan, back, resolution) <= 2.0 * resolution
+    doors = np.array([(*door.start, *door.end) for door in back.doors]).reshape(-1, 4)
+    opened = np.array([door.open for door in back.doors], dtype=bool)
+    assert (off_axis(doors) <= np.where(opened, 1e-5, 0.5 * resolution)).all()
+
+
+def test_no_wall_or_door_of_the_bundled_office_leans_when_it_comes_back(tmp_path: Path) -> None:
+    """A leaf that stood half open before a jamb is a wall there: that jamb is the leaf's."""
+    plan = load_floor_plan("office_cross")
+    export_map(plan, tmp_path / "map.yaml", 0.05)
+    back = import_map(tmp_path / "map.yaml").plan
+    long = np.linalg.norm(back.segments[:, 2:] - back.segments[:, :2], axis=1) > 0.6
+    assert off_axis(back.segments[long]).max() < 1e-9
+    doors = np.array([(*door.start, *door.end) for door in back.doors])
+    leaning = [back.doors[k].name for k in np.flatnonzero(off_axis(doors) > 1e-5)]
+    assert leaning == ["west_north_2"]
 
 
 @pytest.mark.parametrize("name", bundled_names())

@@ -163,6 +163,15 @@ def test_the_walls_on_both_sides_of_a_door_get_one_line(seed: int) -> None:
     assert all(min(abs(y - 100.0), abs(y - 106.0)) < 1.0 for face in faces for y in face)
 
 
+@pytest.mark.parametrize("thick", [1, 2, 3])
+@pytest.mark.parametrize("length", [6, 20, 100])
+def test_the_ends_of_thin_walls_are_square(thick: int, length: int) -> None:
+    wall = raster(box(100, 100, 100 + length, 100 + thick))
+    (ring,) = straighten(outlines(wall, 0.5), BOUND).rings
+    assert len(ring) == 5
+    assert square_share([ring], 0.0) == 1.0
+
+
 @given(st.integers(0, 1000), st.integers(1, 1000))
 @settings(deadline=None)
 def test_of_two_runs_as_long_that_meet_that_of_the_first_outline_is_given_up(

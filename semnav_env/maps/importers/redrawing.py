@@ -33,23 +33,39 @@ class Drawn:
 def redrawn(points: FloatArray, runs: Collection[Run]) -> Drawn:
     """An outline with runs on their lines; of each only the ends are left as vertices.
 
+    Where two runs meet at the tip of a thin wall, it gets an end as thick as they are apart.
+
     Args:
         points: its vertices, each once, shape (n, 2), in pixels.
         runs: of this outline.
     """
-    new = points.copy()
-    kept = np.ones(len(points), dtype=bool)
-    makers: list[frozenset[Run]] = [frozenset()] * len(points)
+    count = len(points)
+    tips = _tips(runs, count)
+    new = np.stack((points, points), axis=1)  # where the outline arrives, and where it leaves
+    kept = np.ones((count, 2), dtype=bool)
+    kept[:, 1] = [k in tips for k in range(count)]
+    makers: list[frozenset[Run]] = [frozenset()] * (2 * count)
     for run in runs:
-        there = run.vertices(len(points))
-        new[there, 1 - run.span.axis] = run.level
+        there = run.vertices(count)
         kept[there[1:-1]] = False
-        for end in (there[0], there[-1]):
-            makers[end] |= {run}
+        new[there[1:], 0, 1 - run.span.axis] = new[there[:-1], 1, 1 - run.span.axis] = run.level
+        for end, side in ((there[0], 1), (there[-1], 0)):
+            sides = (side,) if end in tips else (0, 1)
+            for each in sides:
+                new[end, each, 1 - run.span.axis] = run.level
+                makers[2 * end + each] |= {run}
     left = np.flatnonzero(kept)
+    drawn = new.reshape(-1, 2)[left]
     moved = {run: _moved(points, new, run) for run in runs}
-    turned = bool(runs) and _area(points) * _area(new[left]) <= 0.0
-    return Drawn(new[left], [makers[k] for k in left], moved, turned)
+    turned = bool(runs) and _area(points) * _area(drawn) <= 0.0
+    return Drawn(drawn, [makers[k] for k in left], moved, turned)
+
+
+def _tips(runs: Collection[Run], count: int) -> set[int]:
+    """The vertices, of so many, at which a run ends and another begins along the same axis."""
+    begun = {(run.span.axis, run.span.first % count) for run in runs}
+    ended = {(run.span.axis, run.span.last % count) for run in runs}
+    return {vertex for _, vertex in begun & ended}
 
 
 def clashing(drawn: Sequence[Drawn]) -> set[Run]:
@@ -85,9 +101,9 @@ def _rank(run: Run) -> tuple[float, int, int]:
 def _moved(old: FloatArray, new: FloatArray, run: Run) -> float:
     """How far the vertices of a run lay from its line at most, and its ends from where they are."""
     there = run.vertices(len(old))
-    ends = there[[0, -1]]
-    away = shapely.distance(shapely.points(old[there]), shapely.LineString(new[ends]))
-    return float(max(away.max(), np.linalg.norm(new[ends] - old[ends], axis=1).max()))
+    ends = np.stack((new[there[0], 1], new[there[-1], 0]))
+    away = shapely.distance(shapely.points(old[there]), shapely.LineString(ends))
+    return float(max(away.max(), np.linalg.norm(ends - old[there[[0, -1]]], axis=1).max()))
 
 
 def _area(points: FloatArray) -> float:

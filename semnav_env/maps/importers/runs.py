@@ -92,16 +92,18 @@ def runs_of(ring: int, points: FloatArray, limit: float) -> list[Run]:
         return []
     wide = list(_spans(points, 2.0 * limit))
     spans = [span for span in _spans(points, limit) if not _is_oblique(points, span, wide, limit)]
-    taken: list[int | None] = [None] * len(points)
+    taken: list[Run | None] = [None] * len(points)
     runs = []
     for span in sorted(spans, key=lambda span: -span.length):
         free = _free_part(span, taken, points)
-        ends = {taken[(free.first - 1) % len(points)], taken[free.last % len(points)]}
-        if free.length < (CAP if ends == {1 - free.axis} else SHORTEST):
+        beside = taken[(free.first - 1) % len(points)], taken[free.last % len(points)]
+        between_two = all(run is not None and run.span.axis != free.axis for run in beside)
+        if free.length < (CAP if between_two else SHORTEST):
             continue
+        run = _run(ring, points, free, limit)
         for k in range(free.first, free.last):
-            taken[k % len(points)] = free.axis
-        runs.append(_run(ring, points, free, limit))
+            taken[k % len(points)] = run
+        runs.append(run)
     return runs
 
 
@@ -187,22 +189,28 @@ def _stretch(points: FloatArray, span: Span) -> FloatArray:
     return points[np.arange(span.first, span.last + 1) % len(points)]
 
 
-def _free_part(span: Span, taken: list[int | None], points: FloatArray) -> Span:
-    """The longest part of a stretch that no run has and that meets none along the same axis."""
+def _free_part(span: Span, taken: Sequence[Run | None], points: FloatArray) -> Span:
+    """The longest part of a stretch that no run has and that continues none the same way.
+
+    It may meet a run that comes back along the same axis, at the tip of a thin wall.
+    """
     count = len(points)
+    first, last = points[[span.first % count, span.last % count], span.axis]
+    same = span.axis, bool(last > first)
     best = part = Span(span.first, span.first, span.axis, 0.0)
-    first = span.first
+    begin = span.first
     for k in range(span.first, span.last + 1):
         if k < span.last and taken[k % count] is None:
             continue
-        ends = [first, k]
-        for i, edge in ((0, first - 1), (1, k)):
-            if taken[edge % count] == span.axis:
+        ends = [begin, k]
+        for i, edge in ((0, begin - 1), (1, k)):
+            run = taken[edge % count]
+            if run is not None and (run.span.axis, run.forward) == same:
                 ends[i] += 1 - 2 * i
         if ends[0] < ends[1]:
             a, b = (points[end % count, span.axis] for end in ends)
             part = Span(ends[0], ends[1], span.axis, abs(float(b - a)))
-        best, first = max(best, part, key=lambda each: each.length), k + 1
+        best, begin = max(best, part, key=lambda each: each.length), k + 1
     return best
 
 
