@@ -54,17 +54,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = [word for word in words if word != "--debug"]
     try:
         return _run(words)
-    except KeyboardInterrupt as stop:
-        print(_with_notes("semnav: interrupted", stop), file=sys.stderr)
-        return INTERRUPTED
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
-    except SystemError as error:
-        if debug or not isinstance(error.__cause__, KeyboardInterrupt):
-            raise
-        # Ctrl-C while a compiled kernel ran
-        print(_with_notes("semnav: interrupted", error), file=sys.stderr)
+    except (KeyboardInterrupt, SystemError) as stop:
+        if isinstance(stop, SystemError) and not isinstance(stop.__cause__, KeyboardInterrupt):
+            raise  # otherwise Ctrl-C came while a compiled kernel ran
+        print(_with_notes("semnav: interrupted", stop), file=sys.stderr)
         return INTERRUPTED
     except (ValueError, OSError, ImportError) as error:
         if debug:

@@ -44,12 +44,13 @@ SLANT = math.tan(math.radians(20.0))
 
 @njit(cache=True, error_model="numpy")
 def is_narrow_place(door: FloatArray, solid: FloatArray) -> bool:
-    """Whether a passage about as wide as an opening leads up to it and away from it.
+    """Whether an opening across the way is no doorway, but the hallway goes on through it.
 
-    Then it is no doorway but a hallway that narrows, between a pilaster and a wall for instance: a
-    hallway with a door in it, or a room behind one, is wider than the door. Where the hallway ends
-    in a room or a lobby one of its sides runs through. Nor is it the end of a hallway both of whose
-    sides go on behind it, however much narrower it is, as between the corners of two alcoves.
+    So it is where a passage about as wide leads up to the opening and away from it: a hallway that
+    narrows, between a pilaster and a wall for instance. A hallway with a door in it, or a room
+    behind one, is wider than the door. Where the hallway ends in a room or a lobby one of its sides
+    runs through. Nor is it the end of a hallway both of whose sides go on behind it, however much
+    narrower it is, as between the corners of two alcoves.
 
     Args:
         door: the opening's jambs, shape (4,), metres.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from textwrap import wrap
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -12,11 +11,19 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from matplotlib.text import Text
-from matplotlib.transforms import Bbox, ScaledTranslation, offset_copy
+from matplotlib.transforms import Bbox, ScaledTranslation
 from shapely import Polygon, union_all
 
 from semnav_env.features.plot import check_suffix
 from semnav_env.maps.doorways import TOUCH
+from semnav_env.maps.draw_findings import (
+    LINE_HEIGHT,
+    MARK_ROOM,
+    columns_of,
+    leave_room,
+    mark,
+    write_columns,
+)
 from semnav_env.maps.finding import Finding
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
 
@@ -34,14 +41,6 @@ TINTS = {
 }
 LONGEST_SIDE = 12.0
 """Of a picture, inches."""
-MOST_LINES = 12
-"""Of findings below a picture before they are set in columns."""
-COLUMN_WIDTH, LINE_HEIGHT, LETTER_WIDTH = 5.5, 0.155, 0.078
-"""Of the list of findings, inches; that of letters is a little more than their mean."""
-MARK_ROOM = 0.35
-"""Around a picture with marks, inches."""
-PLATE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
-"""Behind the numbers of marks."""
 NAME_BEHIND = 0.3
 """From a door to its name, metres."""
 
@@ -121,7 +120,7 @@ def save_picture(
     west, south, east, north = plan.boundary.bounds
     inch = LONGEST_SIDE / max(east - west, north - south)
     width, height = (east - west) * inch + 1.0, (north - south) * inch + 1.0
-    columns = _columns(findings, width)
+    columns = columns_of(findings, width)
     below = LINE_HEIGHT * (1 + max(map(len, columns), default=-1))
     figure = Figure(figsize=(width, height + below), layout="constrained")
     FigureCanvasAgg(figure)
@@ -129,64 +128,15 @@ def save_picture(
     if findings:
         parts = figure.subfigures(2, 1, squeeze=False, height_ratios=(height, below))
         above, under = parts.flat
-        _write_columns(columns, under)
+        write_columns(columns, under)
     ax = above.add_subplot()
-    _mark(findings, ax)
+    mark(findings, ax)
     draw_floor_plan(plan, ax)
     ax.set_title(plan.name)
     if findings:
-        _leave_room(ax, MARK_ROOM / inch)
+        leave_room(ax, MARK_ROOM / inch)
     leave_out_overlapping(ax)
     figure.savefig(path, dpi=dpi)
-
-
-def _mark(findings: Sequence[Finding], ax: Axes) -> None:
-    beside = offset_copy(ax.transData, ax.get_figure(root=True), 6.0, 6.0, units="points")
-    for number, finding in enumerate(findings, 1):
-        if finding.where is not None:
-            x, y = finding.where
-            ax.plot(x, y, "o", mec="red", mfc="none", markersize=14, mew=1.8, zorder=8)
-            ax.text(
-                x,
-                y,
-                str(number),
-                transform=beside,
-                color="red",
-                weight="bold",
-                zorder=9,
-                bbox=PLATE,
-            )
-
-
-def _leave_room(ax: Axes, metres: float) -> None:
-    """Around all that is drawn, so that no mark at the edge is cut off."""
-    drawn = ax.dataLim
-    ax.set_xlim(drawn.x0 - metres, drawn.x1 + metres)
-    ax.set_ylim(drawn.y0 - metres, drawn.y1 + metres)
-
-
-def _columns(findings: Sequence[Finding], width: float) -> list[list[str]]:
-    """The list of findings, numbered, in lines that are short enough; many in columns."""
-    if not findings:
-        return []
-    beside = max(1, int(width / COLUMN_WIDTH)) if len(findings) > MOST_LINES else 1
-    letters = int(width / beside / LETTER_WIDTH)
-    rows = -(-len(findings) // beside)
-    written = [f"{number}  {finding}" for number, finding in enumerate(findings, 1)]
-    return [
-        [
-            line
-            for text in written[k : k + rows]
-            for line in wrap(text, letters, subsequent_indent="     ")
-        ]
-        for k in range(0, len(written), rows)
-    ]
-
-
-def _write_columns(columns: Sequence[Sequence[str]], figure: FigureBase) -> None:
-    for k, lines in enumerate(columns):
-        x = 0.02 + 0.98 * k / len(columns)
-        figure.text(x, 1.0, "\n".join(lines), va="top", size=9, color="red", linespacing=1.2)
 
 
 def _write_names(plan: FloorPlan, ax: Axes) -> None:
