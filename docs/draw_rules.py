@@ -1,6 +1,6 @@
 """Draws the pictures of commands.md with the code that they explain: `python docs/draw_rules.py`.
 
-Doors are numbered as `doors_along` counts them, junctions are those of `hallway`, and goals are
+Doors are numbered as `doors_along` counts them, junctions are those of `corridor_at`, and goals are
 what `ground` returns, so the pictures cannot say anything else than the program does.
 """
 
@@ -20,8 +20,8 @@ from rule_marks import draw_axis, draw_doors, draw_goal, draw_mark, draw_robot, 
 
 from semnav_env.commands import parse
 from semnav_env.features import ExtractorSettings
+from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Point, Pose, compose
-from semnav_env.features.hallway import hallway
 from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import ground
 from semnav_env.lidar import Lidar
@@ -147,7 +147,7 @@ def _doors(scene: Scene, begin: Pose) -> Draw:
 
     def draw(ax: Axes) -> None:
         draw_scene(ax, scene)
-        draw_doors(ax, scene, hallway(scene, begin))
+        draw_doors(ax, scene, corridor_at(scene, begin))
         draw_robot(ax, begin)
         for door in OFFICE_PLAN.doors if scene is OFFICE else ():
             if not door.open:
@@ -160,7 +160,7 @@ def _junctions(scene: Scene, begin: Pose) -> Draw:
     """What kind of junction lies ahead of a pose, and where it leads."""
 
     def draw(ax: Axes) -> None:
-        seen = hallway(scene, begin)
+        seen = corridor_at(scene, begin)
         draw_scene(ax, scene)
         draw_axis(ax, seen)
         draw_robot(ax, begin)
@@ -182,8 +182,8 @@ def _goal(scene: Scene, begin: Pose, text: str) -> Draw:
         draw_scene(ax, scene)
         draw_robot(ax, begin)
         draw_goal(ax, goal)
-        if goal.hallway is not None:
-            draw_axis(ax, goal.hallway)
+        if goal.corridor is not None:
+            draw_axis(ax, goal.corridor)
 
     return draw
 
@@ -204,7 +204,7 @@ def _perceived(metres: float) -> Draw:
         scene, goal = perception.scene().placed(page), perception.follower.goal
         draw_scene(ax, HEIDELBERG_PLAN.scene.seen_from(start).placed(page), "0.8", doors=False)
         draw_scene(ax, scene, "tab:red")
-        draw_doors(ax, scene, hallway(scene, page))
+        draw_doors(ax, scene, corridor_at(scene, page))
         draw_robot(ax, compose(page, odometry))
         draw_mark(ax, compose(page, goal.pose), goal.kind)
 

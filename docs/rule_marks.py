@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Wedge
 
 from semnav_env.commands.references import Side
+from semnav_env.features.corridor import Corridor
 from semnav_env.features.frames import Point, Pose, compose
-from semnav_env.features.hallway import Hallway
 from semnav_env.features.scene import Scene
 from semnav_env.grounding import Goal, GoalKind
 from semnav_env.grounding.doors import doors_along
@@ -25,7 +25,7 @@ def draw_scene(ax: Axes, scene: Scene, colour: str = "black", doors: bool = True
         ax.plot(*zip(door.start, door.end, strict=True), color="tab:green", lw=3.0)
 
 
-def draw_doors(ax: Axes, scene: Scene, seen: Hallway) -> None:
+def draw_doors(ax: Axes, scene: Scene, seen: Corridor) -> None:
     draw_axis(ax, seen)
     for side in Side:
         for number, counted in enumerate(doors_along(scene, seen, side), 1):
@@ -51,7 +51,7 @@ def label(ax: Axes, place: Point, text: str, colour: str) -> None:
     )
 
 
-def draw_axis(ax: Axes, seen: Hallway) -> None:
+def draw_axis(ax: Axes, seen: Corridor) -> None:
     ends = seen.place(0.0)[:2], seen.place(min(seen.end, 30.0))[:2]
     ax.plot(*zip(*ends, strict=True), color="0.5", lw=1.0, ls=":")
 

@@ -93,7 +93,7 @@ class Wall:
 
 
 @dataclass(frozen=True, slots=True)
-class Leaf:
+class SceneLeaf:
     """The open leaf of a door.
 
     Attributes:
@@ -125,7 +125,7 @@ class Door:
     name: str | None = None
     sightings: int = 1
     confidence: float = 1.0
-    leaf: Leaf | None = None
+    leaf: SceneLeaf | None = None
     visible: float = 1.0
 
     @property
@@ -153,7 +153,7 @@ class Corner:
 
 
 @dataclass(frozen=True, slots=True)
-class Corridor:
+class CorridorProbe:
     """An entrance to or a cross-section of a corridor: the probe from a corner to a wall.
 
     Attributes:

@@ -26,7 +26,16 @@ from semnav_env.features.kernels.layout import (
 )
 from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
 from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Arc, Corner, CornerKind, Corridor, Door, Leaf, Scene, Wall
+from semnav_env.features.scene import (
+    Arc,
+    Corner,
+    CornerKind,
+    CorridorProbe,
+    Door,
+    Scene,
+    SceneLeaf,
+    Wall,
+)
 from semnav_env.features.settings import ExtractorSettings
 
 DEFAULT_SETTINGS = ExtractorSettings()
@@ -104,7 +113,7 @@ def to_scene(features: Features) -> Scene:
         tuple([_wall(*row) for row in walls]),
         tuple([_door(*row) for row in doors]),
         tuple([Corner((x, y), KINDS[kind]) for x, y, kind in corners]),
-        tuple([Corridor((ax, ay), (bx, by)) for ax, ay, bx, by in corridors]),
+        tuple([CorridorProbe((ax, ay), (bx, by)) for ax, ay, bx, by in corridors]),
         tuple([_arc(*row) for row in arcs]),
     )
 
@@ -118,7 +127,7 @@ def _door(
     leaf_angle: float,
     hinge: int,
 ) -> Door:
-    leaf = None if hinge == NO_LEAF else Leaf(hinge == AT_START, leaf_angle)
+    leaf = None if hinge == NO_LEAF else SceneLeaf(hinge == AT_START, leaf_angle)
     return Door((start_x, start_y), (end_x, end_y), confidence=confidence, leaf=leaf)
 
 

@@ -16,10 +16,10 @@ from semnav_env.features.elements import (
     Arc,
     Corner,
     CornerKind,
-    Corridor,
+    CorridorProbe,
     Door,
-    Leaf,
     Rejection,
+    SceneLeaf,
     Wall,
 )
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent
@@ -28,17 +28,17 @@ __all__ = [
     "Arc",
     "Corner",
     "CornerKind",
-    "Corridor",
+    "CorridorProbe",
     "Door",
-    "Leaf",
     "PlainWalls",
     "Rejection",
     "Scene",
+    "SceneLeaf",
     "Wall",
     "ends_of",
 ]
 
-_Item = TypeVar("_Item", Wall, Door, Corner, Corridor, Arc, Rejection)
+_Item = TypeVar("_Item", Wall, Door, Corner, CorridorProbe, Arc, Rejection)
 
 
 class PlainWalls(Sequence[Wall]):
@@ -86,7 +86,7 @@ class Scene:
     walls: Sequence[Wall] = ()
     doors: tuple[Door, ...] = ()
     corners: tuple[Corner, ...] = ()
-    corridors: tuple[Corridor, ...] = ()
+    corridors: tuple[CorridorProbe, ...] = ()
     arcs: tuple[Arc, ...] = ()
     rejections: tuple[Rejection, ...] = ()
 

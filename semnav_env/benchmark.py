@@ -12,8 +12,8 @@ import gymnasium as gym
 import numpy as np
 
 from semnav_env.env import SemNavEnv
+from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import compose
-from semnav_env.features.hallway import hallway
 from semnav_env.lidar.raster import cast
 from semnav_env.perception import Perception
 from semnav_env.senses import extract_features
@@ -130,5 +130,5 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], fl
             repeat(lambda i: perception.sense(pose, pose, velocity, (0, 0, i))),
         ),
         ("world step", repeat(lambda i: env.world.step(TO_AND_FRO[i // 15 % 2]))),
-        ("hallway (a few times a second)", repeat(lambda i: hallway(scene, pose))),
+        ("hallway (a few times a second)", repeat(lambda i: corridor_at(scene, pose))),
     ]

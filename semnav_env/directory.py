@@ -28,7 +28,7 @@ WIDE = 1.5
 """A way leads down the middle of what is less than twice as wide, metres."""
 
 
-class Directory:
+class RoomGuide:
     """Knows the floor plan and tells the ways to its rooms.
 
     Args:

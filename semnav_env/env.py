@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from semnav_env.actions import Actions
-from semnav_env.dynamics import OFF, Dynamics, Stage
+from semnav_env.dynamics import OFF, Dynamics, PlanSource
 from semnav_env.episodes.options import EpisodeOptions, Episodes
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Pose
@@ -22,7 +22,7 @@ from semnav_env.maps import FloorPlan
 from semnav_env.observations import Observer
 from semnav_env.odometry import Odometry, OdometrySettings
 from semnav_env.perception import Perception, TruePerception
-from semnav_env.rendering.scribe import Scribe
+from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.settings import check_kind
 from semnav_env.tasks import CommandTask, RewardWeights
@@ -136,8 +136,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self.render_mode = render_mode
         self.odometry = Odometry(odometry)
         self._observer = Observer(observation, self.lidar_spec.beams, self.lidar_spec.range_max)
-        self.stage = Stage(floor_plan, dynamics, self.robot)
-        self._enter(self.stage.plan())
+        self.plan_source = PlanSource(floor_plan, dynamics, self.robot)
+        self._enter(self.plan_source.plan())
         self._actions = Actions(self.robot)
         self.action_space = self._actions.space
         self.observation_space = self._observer.space
@@ -155,7 +155,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         super().reset(seed=seed)
         self._started = False
         options = self._asked.complete(options, self.np_random)
-        floor_plan = self.stage.plan(options, self.np_random)
+        floor_plan = self.plan_source.plan(options, self.np_random)
         if floor_plan is not self.floor_plan:
             self._enter(floor_plan)
         start = self.task.begin(options, self.np_random)
@@ -165,7 +165,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self._noise_seed = int(self.np_random.integers(2**62))
         self._steps, self._started = 0, True
         self._sense(self.world.pose, self.world.velocity)
-        self._scribe.begin(start)
+        self._renderer.begin(start)
         return self._observation(), self._reset_info(start)
 
     def step(
@@ -184,7 +184,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         pose, velocity = world.pose, world.velocity
         self.odometry.update(pose)
         self._steps += 1
-        self._scribe.note(pose)
+        self._renderer.note(pose)
         self._sense(pose, velocity)
         speed = math.hypot(velocity[0], velocity[1])
         terms = self.task.step(Motion(pose, speed, velocity[2], world.in_contact, 1.0 / CONTROL_HZ))
@@ -203,11 +203,11 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         if self.render_mode is None:
             gym.logger.warn("render() does nothing: give render_mode to gymnasium.make")
             return None
-        return self._scribe.draw(self, self.render_mode)
+        return self._renderer.draw(self, self.render_mode)
 
     def close(self) -> None:
         """Close the window, if any."""
-        self._scribe.close()
+        self._renderer.close()
 
     @property
     def believed_pose(self) -> Pose:
@@ -222,9 +222,9 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     def _enter(self, floor_plan: FloorPlan) -> None:
         """Set everything up that belongs to one floor plan."""
         self.floor_plan = floor_plan
-        self.world = World(floor_plan, self.robot, CONTROL_HZ, dynamics=self.stage.dynamics)
+        self.world = World(floor_plan, self.robot, CONTROL_HZ, dynamics=self.plan_source.dynamics)
         self.task = CommandTask(floor_plan, self.robot, self.rewards)
-        self._scribe = Scribe(self.world.still)
+        self._renderer = Renderer(self.world.still)
         self._truth = self._observer.mode == "truth"
         exact = replace(self.lidar_spec, sigma=0.0, dropout=0.0, systematic=0.0)
         spec = exact if self._truth else self.lidar_spec

@@ -16,7 +16,7 @@ from semnav_env.features.kernels.scratch import allocate_features, allocate_scra
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.ways import Told, Way
+from semnav_env.grounding.ways import KnownWays, Way
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.observation_row import door_ends, write_felt, write_state
 from semnav_env.observations import ROW_SIZE
@@ -106,7 +106,7 @@ class Perception:
         self.memory.clear()
         self.felt.clear()
         write_felt(self.row, self.felt.ends, ORIGIN)
-        guide = Told({clause: way.seen_from(start) for clause, way in ways.items()})
+        guide = KnownWays({clause: way.seen_from(start) for clause, way in ways.items()})
         self.follower = Follower(command, care=0.5, jamb_margin=0.3, guide=guide)
         self._started, self.pose, self._odometry = False, ORIGIN, ORIGIN
         self._looked_from: Pose = (0.0, 0.0, 0.0)

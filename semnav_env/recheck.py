@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from shapely import LineString, Point, Polygon
 from shapely.affinity import affine_transform
 
+from semnav_env.features.corridor import Junction, SideOpening
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.frames import Point as Position
-from semnav_env.features.hallway import Junction, Opening
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.metrics.recording import Recording
@@ -53,7 +53,7 @@ Jambs: TypeAlias = tuple[Position, Position]
 
 
 @dataclass(frozen=True)
-class Finding:
+class SecondOpinion:
     """What the second opinion says.
 
     Attributes:
@@ -67,7 +67,7 @@ class Finding:
     step: int
 
 
-def recheck(recording: Recording, floor_plan: FloorPlan, goals: Sequence[Goal]) -> Finding:
+def recheck(recording: Recording, floor_plan: FloorPlan, goals: Sequence[Goal]) -> SecondOpinion:
     """Judge a recorded path.
 
     Args:
@@ -81,12 +81,12 @@ def recheck(recording: Recording, floor_plan: FloorPlan, goals: Sequence[Goal]) 
         met = _first(path.meets(goal, last), after=last)
         failure = _first_failure(path, floor_plan, goal, last, met, done + 1 == len(goals))
         if failure is not None:
-            return Finding(failure[1], done, failure[0])
+            return SecondOpinion(failure[1], done, failure[0])
         if met is None:
             stands = path.standing[-1] > SHORT_STAND
-            return Finding(STOPPED_SHORT if stands else OUT_OF_TIME, done, recording.steps)
+            return SecondOpinion(STOPPED_SHORT if stands else OUT_OF_TIME, done, recording.steps)
         last = met
-    return Finding(DONE, len(goals), last)
+    return SecondOpinion(DONE, len(goals), last)
 
 
 def _first_failure(
@@ -179,12 +179,12 @@ def _forbidden(floor_plan: FloorPlan, goal: Goal) -> list[Jambs]:
 
 def _wrong_places(goal: Goal) -> list[Polygon]:
     """Where the robot has gone astray: arms that are not named, and far behind the junction."""
-    if goal.hallway is None:
+    if goal.corridor is None:
         return []
-    frame, named = goal.hallway.frame, _named_arm(goal)
+    frame, named = goal.corridor.frame, _named_arm(goal)
     boxes = [
         _arm(opening, INSIDE_ARM)
-        for junction in goal.hallway.junctions
+        for junction in goal.corridor.junctions
         for opening in junction.openings
         if opening is not named and opening.far > ARM_AHEAD
     ]
@@ -193,17 +193,17 @@ def _wrong_places(goal: Goal) -> list[Polygon]:
     return [_placed(frame, box) for box in boxes]
 
 
-def _named_arm(goal: Goal) -> Opening | None:
+def _named_arm(goal: Goal) -> SideOpening | None:
     """The arm of the goal's junction that the goal lies in."""
-    if goal.hallway is None or goal.junction is None:
+    if goal.corridor is None or goal.junction is None:
         return None
-    frame, there = goal.hallway.frame, Point(goal.pose[:2])
+    frame, there = goal.corridor.frame, Point(goal.pose[:2])
     junction: Junction = goal.junction
     return min(junction.openings, key=lambda arm: _placed(frame, _arm(arm, 0.0)).distance(there))
 
 
-def _arm(opening: Opening, depth: float) -> Polygon:
-    """What lies at least `depth` inside an arm, in the hallway's frame."""
+def _arm(opening: SideOpening, depth: float) -> Polygon:
+    """What lies at least `depth` inside an arm, in the corridor's frame."""
     near = opening.offset + depth
     low, high = (near, FAR) if opening.left else (-FAR, -near)
     return shapely.box(opening.near, low, opening.far, high)

@@ -20,9 +20,9 @@ def clause(text: str) -> Clause:
     return only
 
 
-def goal_of(text: str, scene: Scene, begin: Pose = START, after_hallway: bool = False) -> Goal:
+def goal_of(text: str, scene: Scene, begin: Pose = START, after_corridor: bool = False) -> Goal:
     """The goal on a scene that is wholly known."""
-    return ground(clause(text), scene, begin, complete=True, after_hallway=after_hallway)
+    return ground(clause(text), scene, begin, complete=True, after_corridor=after_corridor)
 
 
 def middle(goal: Goal) -> float:

@@ -1,15 +1,15 @@
-"""What a hallway looks like from its start."""
+"""What a corridor looks like from its start."""
 
 from __future__ import annotations
 
+from semnav_env.features.corridor import Corridor
 from semnav_env.features.frames import Pose
-from semnav_env.features.hallway import Hallway
 from semnav_env.features.scene import Scene, Wall
 
 START: Pose = (0.0, 0.0, 0.0)
 
 
-def ways_on(seen: Hallway) -> list[tuple[bool, bool, bool]]:
+def ways_on(seen: Corridor) -> list[tuple[bool, bool, bool]]:
     """For each junction: does it open left, right, and go on ahead?"""
     return [(j.left is not None, j.right is not None, j.ahead) for j in seen.junctions]
 

@@ -165,7 +165,7 @@ HALLWAY_STARTS = {
 
 
 def hallway_task(name: str) -> tuple[FloatArray, Pose, Target]:
-    """The hallway, where to start for a door of it, and the target behind that door."""
+    """The corridor, where to start for a door of it, and the target behind that door."""
     segments, doors = heidelberg()
     start = HALLWAY_STARTS[name]
     jambs = doors[name].tolist()

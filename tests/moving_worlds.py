@@ -7,7 +7,7 @@ import math
 import numpy as np
 import shapely
 
-from semnav_env.dynamics import Dynamics, Stage
+from semnav_env.dynamics import Dynamics, PlanSource
 from semnav_env.maps.placement import footprint, sample_pose
 from semnav_env.robots import ROBOTS
 from semnav_env.world import World
@@ -19,7 +19,7 @@ EPISODE = 250
 
 def world_of(plan: str, robot: str, dynamics: Dynamics) -> World:
     body = ROBOTS[robot]
-    return World(Stage(plan, dynamics, body).plan(), body, dynamics=dynamics)
+    return World(PlanSource(plan, dynamics, body).plan(), body, dynamics=dynamics)
 
 
 def deepest_overlap(world: World) -> float:

@@ -81,7 +81,7 @@ def full_circle(segments: FloatArray, pose: Pose, beams: int = 1080) -> Scan:
 
 
 def heidelberg() -> tuple[FloatArray, dict[str, FloatArray]]:
-    """What the measured hallway's drawing shows, as segments, and its doors' jambs by name."""
+    """What the measured corridor's drawing shows, as segments, and its doors' jambs by name."""
     plan = load_floor_plan("heidelberg_hallway")
     drawn = [polyline(*surface.points) for surface in plan.surfaces if not surface.assumed]
     return np.concatenate(drawn), {d.name: np.array([d.start, d.end]) for d in plan.doors}

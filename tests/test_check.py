@@ -18,8 +18,8 @@ from shapely import LineString, Point, Polygon, box
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface, save_floor_plan
 from semnav_env.maps.check import check
 from semnav_env.maps.draw import save_picture
-from semnav_env.maps.finding import Finding
 from semnav_env.maps.placement import footprint
+from semnav_env.maps.plan_fault import PlanFault
 from semnav_env.maps.reach import reach
 from semnav_env.robots import SPOT, WHEELCHAIR
 from semnav_env.scripts.main import main
@@ -204,7 +204,7 @@ def test_faults_however_many_take_nothing_from_the_plan_and_lie_on_nothing(
     plan = room_at_a_corridor(0.62)
     west, south, east, north = plan.boundary.bounds
     corners = ((west, south), (east, north), (west + 0.1, north), (east, south))
-    faults = [Finding("kitchen", f"is wrong {'and ' * k}", corners[k % 4]) for k in range(count)]
+    faults = [PlanFault("kitchen", f"is wrong {'and ' * k}", corners[k % 4]) for k in range(count)]
     for findings in ((), faults):
         save_picture(plan, tmp_path / "plan.png", findings=findings)
     clean, marked = (figure.axes[0].get_window_extent() for figure in drawn)

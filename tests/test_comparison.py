@@ -12,7 +12,7 @@ from semnav_env.evaluation.comparison import compare_doors
 from semnav_env.evaluation.metrics import calibration, calibration_error, score, segmentation_rates
 from semnav_env.evaluation.overlap import Overlap, segmentation_rate
 from semnav_env.evaluation.records import Detection, Kind, Limits, as_table
-from semnav_env.features import Arc, Corner, CornerKind, Corridor, Scene, Wall
+from semnav_env.features import Arc, Corner, CornerKind, CorridorProbe, Scene, Wall
 from tests.evaluation_cases import WALL, cases, tables
 
 
@@ -91,8 +91,8 @@ def test_an_arc_is_found_by_its_centre():
 
 
 def test_corridors_are_found_by_their_midpoints():
-    corridor = Corridor((2.0, -1.0), (2.0, 1.0))
-    found = (Corridor((2.1, 1.0), (2.1, -1.0)), Corridor((3.0, 1.0), (3.0, -1.0)))
+    corridor = CorridorProbe((2.0, -1.0), (2.0, 1.0))
+    found = (CorridorProbe((2.1, 1.0), (2.1, -1.0)), CorridorProbe((3.0, 1.0), (3.0, -1.0)))
     sightings, detections = tables(
         cases(poses=1)[0].scans[0][1], Scene(corridors=(corridor,)), Scene(corridors=found)
     )

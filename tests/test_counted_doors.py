@@ -7,8 +7,8 @@ import math
 import pytest
 
 from semnav_env.commands import Side
+from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose
-from semnav_env.features.hallway import hallway
 from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import GoalKind, GroundingError, ground
 from semnav_env.grounding.doors import doors_along
@@ -103,7 +103,7 @@ def test_only_doors_that_open_onto_the_hallway_count() -> None:
     behind = Door((6.0, 5.0), (7.0, 5.0))
     beyond = Door((16.0, 1.0), (17.0, 1.0))
     scene = Scene(DOORS.walls, (*DOORS.doors, across, behind, beyond))
-    lefts = doors_along(scene, hallway(scene, START), Side.LEFT)
+    lefts = doors_along(scene, corridor_at(scene, START), Side.LEFT)
     assert [round(door.along, 6) for door in lefts] == [2.0, 5.0, 9.0]
 
 
@@ -113,7 +113,7 @@ def test_a_door_in_a_recess_counts_and_one_in_an_arm_does_not() -> None:
         back = (Wall((4.0, 1 + depth), (4.5, 1 + depth)), Wall((5.5, 1 + depth), (6.0, 1 + depth)))
         door = Door((4.5, 1.0 + depth), (5.5, 1.0 + depth))
         scene = Scene(arm.walls + back, (*arm.doors, door))
-        counted = doors_along(scene, hallway(scene, START))
+        counted = doors_along(scene, corridor_at(scene, START))
         assert [round(door.along, 6) for door in counted] == expected
 
 
@@ -135,7 +135,7 @@ def test_what_stands_beside_a_door_does_not_change_the_count(extra: list[Wall]) 
 
 def names(plan: str, pose: Pose, side: Side | None = None) -> list[str | None]:
     scene = load_floor_plan(plan).scene
-    return [counted.door.name for counted in doors_along(scene, hallway(scene, pose), side)]
+    return [counted.door.name for counted in doors_along(scene, corridor_at(scene, pose), side)]
 
 
 def test_the_doors_of_the_heidelberg_hallway() -> None:

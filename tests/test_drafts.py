@@ -23,15 +23,15 @@ from semnav_env.commands import (
     parse,
     readings,
 )
-from semnav_env.directory import Directory
+from semnav_env.directory import RoomGuide
 from semnav_env.episodes import SPLITS, Episode, load_episodes
-from semnav_env.episodes.doubts import Doubts
+from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.generate import BODY, SPACE, Site, exits, generate_episode
 from semnav_env.episodes.random_clauses import Verb
 from semnav_env.episodes.wording import worded
+from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose, to_local
-from semnav_env.features.hallway import hallway
 from semnav_env.grounding import Goal, GoalKind
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import is_clear, placement_error
@@ -52,7 +52,7 @@ def drafter(seed: int, site: Site = SITE) -> Drafter:
 
 def goals_of(episode: Episode, site: Site) -> tuple[Goal, ...]:
     command = parse(episode.readings[0], episode.language, site.plan.room_names)
-    guide = Directory(site.plan, command, site.geodesic)
+    guide = RoomGuide(site.plan, command, site.geodesic)
     return plan_goals(site.plan, command, episode.start, guide)
 
 
@@ -62,7 +62,7 @@ def test_no_start_is_beside_the_mouth_of_an_arm(name: str) -> None:
     for _ in range(15):
         x, y, heading = sample_start(plan, BODY, rng)
         for turn in (0.0, np.pi):
-            for junction in hallway(plan.scene, (x, y, heading + turn)).junctions:
+            for junction in corridor_at(plan.scene, (x, y, heading + turn)).junctions:
                 assert all(o.near >= 0.6 or o.far <= -0.6 for o in junction.openings)
 
 
@@ -77,7 +77,7 @@ def test_no_start_is_right_beside_a_door(name: str) -> None:
 
 
 def test_every_body_can_face_the_door_that_it_is_told_to_go_to() -> None:
-    """In the measured hallway no wheelchair can face one of the doors from 0.9 m before it."""
+    """In the measured corridor no wheelchair can face one of the doors from 0.9 m before it."""
     plan = load_floor_plan("heidelberg_hallway")
     site = Site(plan, "heidelberg_hallway")
     for number in range(0, 40, 2):
@@ -87,11 +87,11 @@ def test_every_body_can_face_the_door_that_it_is_told_to_go_to() -> None:
 
 
 def test_every_body_can_stand_where_a_turn_or_a_way_down_a_hallway_ends() -> None:
-    """A hallway that is first seen from a doorway beside it can have its axis along a wall."""
+    """A corridor that is first seen from a doorway beside it can have its axis along a wall."""
     for episode in load_episodes("test_real"):
         site = Site(episode.plan(), episode.floor_plan)
         for goal in goals_of(episode, site):
-            if goal.kind is GoalKind.REACH and goal.hallway is not None:
+            if goal.kind is GoalKind.REACH and goal.corridor is not None:
                 assert placement_error(site.plan, BODY, goal.pose) is None, episode.id
 
 
@@ -117,7 +117,7 @@ def test_who_is_told_to_leave_a_room_can_turn_round_and_has_one_way_out() -> Non
         assert is_clear(SITE.plan, episode.start[:2], SPACE - 0.01)
         for clause in clauses[1:2]:
             goal = plan_goals(SITE.plan, Command((Leave(),)), episode.start)[0]
-            ahead = hallway(SITE.plan.scene, goal.onward)
+            ahead = corridor_at(SITE.plan.scene, goal.onward)
             across = ahead.end <= LEAST_AHEAD or ahead.half_width >= WIDEST_HALF
             assert not across or (isinstance(clause, Turn) and clause.at is None)
     assert seen > 3
@@ -154,12 +154,12 @@ def test_conditions_are_drafted_and_both_judges_say_the_same_of_what_is_done(cla
 
 def test_a_condition_is_in_doubt_where_a_closed_door_decides_it() -> None:
     plan = load_floor_plan("office_cross")
-    doubts = Doubts(plan)
+    doubts = AmbiguityFilter(plan)
     conditions = [
         IfThere(DoorReference(n, side)) for side in (Side.LEFT, Side.RIGHT) for n in range(1, 12)
     ]
     answers = {condition: doubts.met(condition, WEST) for condition in conditions}
-    opened = Doubts(replace(plan, doors=tuple(door for door in plan.doors if door.open)))
+    opened = AmbiguityFilter(replace(plan, doors=tuple(door for door in plan.doors if door.open)))
     sure = {condition: opened.met(condition, WEST) for condition in conditions}
     doubtful = [condition for condition in conditions if answers[condition] is None]
     assert any(sure[condition] is not None for condition in doubtful)
@@ -182,14 +182,14 @@ def test_what_is_called_impossible_is_so_with_every_door_counted_and_without_gla
         seen.add(type(last))
         assert draft.doubts.impossible(last, begin)
         assert not any(
-            j.is_corner and j.far > 0.5 for j in hallway(SITE.plan.scene, begin).junctions
+            j.is_corner and j.far > 0.5 for j in corridor_at(SITE.plan.scene, begin).junctions
         )
-        assert hallway(SITE.plan.scene, begin).end < 40.0
+        assert corridor_at(SITE.plan.scene, begin).end < 40.0
     assert len(seen) > 1
 
 
 def test_what_can_be_done_or_done_by_another_count_is_not_called_impossible() -> None:
-    doubts = Doubts(load_floor_plan("office_cross"))
+    doubts = AmbiguityFilter(load_floor_plan("office_cross"))
     feasible = GoToDoor(DoorReference(1, Side.RIGHT))
     crossing = Follow(PlaceReference(Place.CORNER))  # there is no corner, but a crossing
     assert not doubts.impossible(feasible, WEST)

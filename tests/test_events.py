@@ -15,6 +15,7 @@ from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
 from semnav_env.maps import load_floor_plan
 from semnav_env.metrics import Recorder, Recording
+from semnav_env.metrics.event_log import events_of, runs
 from semnav_env.metrics.events import (
     Arm,
     ContactBegun,
@@ -24,7 +25,6 @@ from semnav_env.metrics.events import (
     Stopped,
     Turned,
 )
-from semnav_env.metrics.witness import events_of, runs
 from tests.driving import at_the_wall
 from tests.episodes import START, actions
 

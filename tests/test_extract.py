@@ -1,4 +1,4 @@
-"""Walls, doors and corridors in scans of rooms and hallways."""
+"""Walls, doors and corridors in scans of rooms and corridors."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def test_a_bare_turn_is_made_here() -> None:
 def test_after_go_down_the_hallway_a_bare_turn_is_the_next_that_offers_it(
     scene: Scene, turn: str, x: float
 ) -> None:
-    goal = goal_of(f"turn {turn}", scene, after_hallway=True)
+    goal = goal_of(f"turn {turn}", scene, after_corridor=True)
     assert goal.pose[0] == pytest.approx(x, abs=0.06)
 
 

@@ -1,4 +1,4 @@
-"""A hallway's junctions: which openings of its sides count, and where they lead."""
+"""A corridor's junctions: which openings of its sides count, and where they lead."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from semnav_env.features.hallway import hallway
+from semnav_env.features.corridor import corridor_at
 from semnav_env.features.scene import Door, Scene, Wall
-from tests.hallways import START, ways_on, with_walls
+from tests.corridors import START, ways_on, with_walls
 from tests.hand_made import (
     L_LEFT,
     L_RIGHT,
@@ -39,17 +39,17 @@ from tests.hand_made import (
 def test_junctions_and_where_they_lead(
     scene: Scene, expected: list[tuple[bool, bool, bool]]
 ) -> None:
-    assert ways_on(hallway(scene, START)) == expected
+    assert ways_on(corridor_at(scene, START)) == expected
 
 
 def test_only_a_bend_is_a_corner() -> None:
-    corners = [hallway(s, START).junctions[0].is_corner for s in (L_LEFT, L_RIGHT, T_JUNCTION)]
+    corners = [corridor_at(s, START).junctions[0].is_corner for s in (L_LEFT, L_RIGHT, T_JUNCTION)]
     assert corners == [True, True, False]
-    assert not hallway(X_JUNCTION, START).junctions[0].is_corner
+    assert not corridor_at(X_JUNCTION, START).junctions[0].is_corner
 
 
 def test_an_opening_is_found_to_within_one_probe() -> None:
-    left, right = (junction.openings[0] for junction in hallway(SIDE_ARMS, START).junctions)
+    left, right = (junction.openings[0] for junction in corridor_at(SIDE_ARMS, START).junctions)
     assert (left.left, right.left) == (True, False)
     assert (left.near, left.far) == pytest.approx((3.0, 5.0), abs=0.06)
     assert (right.near, right.far) == pytest.approx((8.0, 10.0), abs=0.06)
@@ -68,7 +68,7 @@ def test_an_opening_is_found_to_within_one_probe() -> None:
     ids=["pillar", "cabinet", "pillar in the middle", "half-open leaf", "open leaf"],
 )
 def test_what_stands_in_a_hallway_neither_ends_nor_opens_it(extra: list[Wall]) -> None:
-    seen = hallway(corridor(left=(8,), right=(9,), extra=extra, half=1.1), START)
+    seen = corridor_at(corridor(left=(8,), right=(9,), extra=extra, half=1.1), START)
     assert seen.junctions == ()
     assert seen.end == pytest.approx(14.0)
     assert seen.frame[1] == pytest.approx(0.0, abs=0.05)
@@ -77,15 +77,15 @@ def test_what_stands_in_a_hallway_neither_ends_nor_opens_it(extra: list[Wall]) -
 def test_a_recess_belongs_to_the_side() -> None:
     scene = corridor(left_arms=[(4.0, 6.0)])
     recess = with_walls(scene, Wall((4.0, 2.0), (6.0, 2.0)))
-    assert ways_on(hallway(scene, START)) == [(True, False, True)]
-    seen = hallway(recess, START)
+    assert ways_on(corridor_at(scene, START)) == [(True, False, True)]
+    seen = corridor_at(recess, START)
     assert seen.junctions == ()
     assert seen.side_at(True, 5.0) == pytest.approx(2.0)
 
 
 def test_a_gap_that_no_wall_leads_out_of_is_unseen_and_no_opening() -> None:
     walls = tuple(w for w in X_JUNCTION.walls if not (6.0 <= w.start[0] == w.end[0] <= 8.0))
-    seen = hallway(Scene(walls), START)
+    seen = corridor_at(Scene(walls), START)
     assert seen.junctions == ()
     assert seen.unseen(True, 0.0, 10.0) == pytest.approx(6.0, abs=0.1)
     assert math.isinf(seen.unseen(True, 8.1, 12.0))
@@ -96,7 +96,7 @@ def test_a_long_wall_across_the_end_leads_out_though_it_is_a_little_askew(tilt: 
     """Odometry drifts; and with doors close to both near corners only that wall tells of arms."""
     sides = polyline((-3.0, 1.0), (8.0, 1.0), (8.0, 1.3)) + polyline((-3.0, -1.0), (8.0, -1.0))
     across = Wall((10.0 - 20.0 * tilt, -20.0), (10.0 + 20.0 * tilt, 20.0))
-    seen = hallway(Scene((*sides, across), ()), START)
+    seen = corridor_at(Scene((*sides, across), ()), START)
     assert ways_on(seen) == [(True, True, False)]
 
 
@@ -105,7 +105,7 @@ def test_a_door_close_to_the_corner_leads_out_as_the_wall_does(offset: float, le
     sides = polyline((-3.0, 1.0), (6.0, 1.0), (6.0, 1.3))
     sides += polyline((8.0, 1.0), (14.0, 1.0), (14.0, -1.0), (-3.0, -1.0))
     door = Door((6.0, 1.0 + offset), (6.0, 2.0 + offset))
-    seen = hallway(Scene(tuple(sides), (door,)), START)
+    seen = corridor_at(Scene(tuple(sides), (door,)), START)
     assert ways_on(seen) == ([(True, False, True)] if leads else [])
 
 
@@ -119,14 +119,14 @@ def test_a_narrow_opening_needs_walls_that_lead_out_of_both_edges(
     sides += polyline((far, 1.0), (14.0, 1.0), (14.0, -1.0), (-3.0, -1.0))
     out = {"near": (6.05,), "far": (far,), "both": (6.05, far)}[edges]
     walls = tuple(Wall((x, 1.0), (x, 5.0)) for x in out)
-    seen = hallway(Scene((*sides, *walls)), START)
+    seen = corridor_at(Scene((*sides, *walls)), START)
     assert ways_on(seen) == ([] if narrow and edges != "both" else [(True, False, True)])
 
 
 @pytest.mark.parametrize("x", [-0.9, 0.0, 0.9])
 def test_a_robot_in_a_junction_looks_along_the_hallway_that_leads_on(x: float) -> None:
     walls = polyline((1.0, -6.0), (1.0, -0.5), (9.0, -0.5), (9.0, 0.5), (-1.0, 0.5), (-1.0, -6.0))
-    seen = hallway(Scene((*walls, Wall((-1.0, -6.0), (1.0, -6.0)))), (x, 0.1, 0.0))
+    seen = corridor_at(Scene((*walls, Wall((-1.0, -6.0), (1.0, -6.0)))), (x, 0.1, 0.0))
     assert seen.frame[1] == pytest.approx(0.0, abs=0.1)
     assert seen.place(seen.end)[0] == pytest.approx(9.0)
 
@@ -140,7 +140,7 @@ def test_an_arm_that_leads_off_at_an_angle_is_an_opening(slant: float) -> None:
         Wall((7.0, half), (7.0 + slant * (deep - half), deep)),
         *polyline((7.0, half), (12.0, half), (12.0, -half), (-3.0, -half)),
     ]
-    (junction,) = hallway(Scene(tuple(walls)), START).junctions
+    (junction,) = corridor_at(Scene(tuple(walls)), START).junctions
     assert junction.left is not None
     assert junction.left.offset == pytest.approx(half)
     assert (junction.left.near, junction.left.far) == pytest.approx((5.0, 7.0), abs=0.26)

@@ -12,10 +12,10 @@ from hypothesis.extra.numpy import arrays
 
 from semnav_env.agents.evaluation.runner import run_episode
 from semnav_env.agents.learned import LearnedAgent, pretrained_names
+from semnav_env.agents.learning.action_repeat import ActionRepeat
 from semnav_env.agents.learning.compact import COMPACT_SIZE, SECTORS, compact
 from semnav_env.agents.learning.files import AGENT, POLICY, Description, replace_file, save_tensors
 from semnav_env.agents.learning.policy import Policy
-from semnav_env.agents.learning.practice import Practice
 from semnav_env.agents.learning.presets import PRESETS, preset
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import FAR, GOAL_SIZE
@@ -93,14 +93,14 @@ def test_the_observation_of_every_robot_becomes_compact(robot):
 
 
 def test_practice_draws_the_trials_of_its_preset():
-    practice = Practice(preset("quick"))
+    practice = ActionRepeat(preset("quick"))
     drawn = {practice.reset(seed=seed)[1]["command"] for seed in range(20)}
     assert len(drawn) == len(preset("quick").trials)
     assert all(name == p.name for name, p in PRESETS.items())
 
 
 def test_practice_sums_the_rewards_of_the_steps_that_an_action_holds():
-    practice = Practice(preset("quick"))
+    practice = ActionRepeat(preset("quick"))
     practice.reset(seed=1)
     twin = SemNavEnv(observation="all", rewards=practice.preset.rewards)
     practice.env.reset(seed=1, options={"pose": (-2.5, -0.3, 0.24)})

@@ -18,7 +18,7 @@ from semnav_env.features import ExtractorSettings
 from semnav_env.features.elements import Door
 from semnav_env.features.frames import compose, to_local, to_parent
 from semnav_env.features.mapping import MapSettings
-from semnav_env.features.mapping.doorway import Passage
+from semnav_env.features.mapping.doorway import DoorwayEvidence
 from semnav_env.features.mapping.map_door import MapDoor
 from semnav_env.features.mapping.map_doors import MapDoors
 from semnav_env.lidar import Lidar
@@ -133,7 +133,7 @@ def test_beams_tell_where_the_jambs_are(frame, first, last):
     jambs = to_parent(frame, DOOR[:2]), to_parent(frame, DOOR[2:])
     seen = to_parent(frame, (DOOR[0] + first, 1.0)), to_parent(frame, (DOOR[2] + last, 1.0))
     ends = np.array(seen).ravel()
-    passage, lidar = Passage(ends), Lidar(corridor())
+    passage, lidar = DoorwayEvidence(ends), Lidar(corridor())
     for k, pose in enumerate(VIEWS):
         passage.observe(lidar.scan(pose, key=(5, 0, k)), compose(frame, pose))
     assert passage.bounds(ends) == pytest.approx(np.array(jambs).ravel(), abs=0.02)
@@ -141,7 +141,7 @@ def test_beams_tell_where_the_jambs_are(frame, first, last):
 
 def test_a_reveal_hides_no_more_than_two_centimetres_of_an_opening():
     """Oblique beams that pass the one jamb end on the reveal of the other."""
-    plan, passage = corridor(reveal=0.15), Passage(np.array(DOOR))
+    plan, passage = corridor(reveal=0.15), DoorwayEvidence(np.array(DOOR))
     lidar = Lidar(plan)
     for k, pose in enumerate(VIEWS):
         passage.observe(lidar.scan(pose, key=(5, 0, k)), pose)
@@ -149,7 +149,7 @@ def test_a_reveal_hides_no_more_than_two_centimetres_of_an_opening():
 
 
 def test_few_looks_leave_the_jambs_where_they_were_seen():
-    passage, ends = Passage(np.array(DOOR)), np.array((-0.45, 1.0, 0.45, 1.0))
+    passage, ends = DoorwayEvidence(np.array(DOOR)), np.array((-0.45, 1.0, 0.45, 1.0))
     lidar = Lidar(corridor())
     for k, pose in enumerate(VIEWS[8:13]):
         passage.observe(lidar.scan(pose, key=(5, 0, k)), pose)
@@ -158,7 +158,7 @@ def test_few_looks_leave_the_jambs_where_they_were_seen():
 
 
 def test_a_passage_knows_when_its_door_has_moved_off_it():
-    passage = Passage(np.array(DOOR))
+    passage = DoorwayEvidence(np.array(DOOR))
     assert passage.lies_along(np.array((-0.48, 1.02, 0.42, 1.02)))
     assert not passage.lies_along(np.array((-0.5, 1.1, 0.4, 1.1)))  # beside it
     assert not passage.lies_along(np.array((-0.5, 1.04, 0.4, 0.96)))  # turned

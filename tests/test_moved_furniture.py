@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from shapely import Polygon
 
-from semnav_env.dynamics import Dynamics, Stage
+from semnav_env.dynamics import Dynamics, PlanSource
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.floor_plan import FloorPlan, Material
 from semnav_env.maps.geodesic import Geodesic
@@ -20,7 +20,7 @@ seeds = pytest.mark.parametrize("seed", range(3))
 
 
 def rearranged(seed: int, pose: tuple[float, float, float] | None = None) -> FloorPlan:
-    stage = Stage("office_cross", MUCH, WHEELCHAIR)
+    stage = PlanSource("office_cross", MUCH, WHEELCHAIR)
     return stage.plan({"pose": pose}, np.random.default_rng(seed))
 
 
@@ -71,4 +71,4 @@ def test_nothing_is_put_where_the_robot_is_asked_to_start() -> None:
 def test_furniture_of_a_seed_is_the_same_and_stays_without_one() -> None:
     assert rearranged(1).surfaces == rearranged(1).surfaces != rearranged(2).surfaces
     drawn = load_floor_plan("office_cross")
-    assert Stage(drawn, MUCH, SPOT).plan() is drawn
+    assert PlanSource(drawn, MUCH, SPOT).plan() is drawn

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, Point
 
-from semnav_env.dynamics import Dynamics, Stage
+from semnav_env.dynamics import Dynamics, PlanSource
 from semnav_env.features.frames import Pose
 from semnav_env.lidar import Lidar, LidarSpec
 from semnav_env.maps import load_floor_plan
@@ -74,7 +74,7 @@ def test_what_is_seen_follows_what_moves() -> None:
 def crowded(plan: str) -> tuple[World, Lidar]:
     """A world of people and swinging doors without glass, after which the lidar looks."""
     dynamics = Dynamics(pedestrians=8, changing_doors=1.0)
-    staged = Stage(without_glass(load_floor_plan(plan)), dynamics, PROBE).plan()
+    staged = PlanSource(without_glass(load_floor_plan(plan)), dynamics, PROBE).plan()
     world = World(staged, PROBE, dynamics=dynamics)
     return world, Lidar(world.still, AROUND, moving=world.moving_shapes)
 

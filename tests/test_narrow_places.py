@@ -1,4 +1,4 @@
-"""A hallway that narrows to the width of a door goes on; one with a door across it ends there."""
+"""A corridor that narrows to the width of a door goes on; one with a door across it ends there."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import points_to_parent
-from semnav_env.features.hallway import hallway
 from semnav_env.features.kernels.narrow_places import is_narrow_place
 from semnav_env.features.scene import Door, PlainWalls, Scene
 from semnav_env.grounding.doors import doors_along
@@ -90,7 +90,7 @@ def test_a_hallway_ends_at_a_door_across_it_and_not_where_it_narrows(steps, end)
     across = Door((0.0, 0.6), (0.0, -0.6))
     on_the_left = Door((2.0, 0.6 + steps[2]), (3.0, 0.6 + steps[2]))
     scene = Scene(PlainWalls(walls), (across, on_the_left))
-    seen = hallway(scene, (-4.0, 0.0, 0.0))
+    seen = corridor_at(scene, (-4.0, 0.0, 0.0))
     assert seen.end == pytest.approx(end, abs=0.05)
     assert [door.door for door in doors_along(scene, seen)] == [
         on_the_left if end > 4.0 else across
@@ -101,4 +101,4 @@ def test_a_door_of_the_floor_plan_is_a_door_wherever_it_is():
     walls = np.vstack((passage(), (4.0, 2.0, 4.0, -2.0)))
     for name, end in (("1.01", 4.0), (None, 8.0)):
         scene = Scene(PlainWalls(walls), (Door((0.0, 0.6), (0.0, -0.6), name),))
-        assert hallway(scene, (-4.0, 0.0, 0.0)).end == pytest.approx(end, abs=0.05)
+        assert corridor_at(scene, (-4.0, 0.0, 0.0)).end == pytest.approx(end, abs=0.05)

@@ -6,7 +6,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
 
-from semnav_env.features import Arc, Corner, CornerKind, Corridor, Door, Scan, Scene, Wall
+from semnav_env.features import Arc, Corner, CornerKind, CorridorProbe, Door, Scan, Scene, Wall
 from semnav_env.features.plot import draw_scene, save_page
 
 SCAN = Scan(np.full(90, 3.0), -math.pi / 4, math.pi / 180)
@@ -14,7 +14,7 @@ SCENE = Scene(
     walls=(Wall((1.0, -1.0), (4.0, -1.0)), Wall((4.0, 1.0), (1.0, 1.0))),
     doors=(Door((4.0, -0.5), (4.0, 0.5)),),
     corners=tuple(Corner((4.0, float(kind)), kind) for kind in CornerKind),
-    corridors=(Corridor((1.0, -1.0), (1.0, 1.0)),),
+    corridors=(CorridorProbe((1.0, -1.0), (1.0, 1.0)),),
 )
 
 

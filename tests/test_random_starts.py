@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from semnav_env.features.hallway import hallway
+from semnav_env.features.corridor import corridor_at
 from semnav_env.maps import load_floor_plan
 from semnav_env.robots import robot_spec
 from semnav_env.tasks import CommandTask, RewardWeights
@@ -17,5 +17,5 @@ def test_a_random_start_looks_along_a_hallway(plan: str) -> None:
     rng = np.random.default_rng(0)
     for _ in range(20):
         x, y, heading = task.begin({}, rng)
-        views = [hallway(floor_plan.scene, (x, y, heading + turn)) for turn in (-0.2, 0.0, 0.2)]
+        views = [corridor_at(floor_plan.scene, (x, y, heading + turn)) for turn in (-0.2, 0.0, 0.2)]
         assert any(seen.end > LEAST_AHEAD and seen.half_width < WIDEST_HALF for seen in views)

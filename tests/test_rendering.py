@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from semnav_env.features.scene import Corner, CornerKind, Corridor, Scene, Wall
+from semnav_env.features.scene import Corner, CornerKind, CorridorProbe, Scene, Wall
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.maps.floor_plan import Material, Surface
 from semnav_env.rendering import Frame, Viewer
@@ -68,7 +68,7 @@ def test_the_body_is_drawn_where_the_robot_is(viewer: Viewer, robot: object) -> 
 FEATURES = {
     "wall": {"scene": Scene(walls=(Wall((0.0, 0.0), (4.0, 0.0)),))},
     "door": {"scene": Scene(doors=(DOOR,))},
-    "corridor": {"scene": Scene(corridors=(Corridor((6.0, 0.0), (6.0, 4.0)),))},
+    "corridor": {"scene": Scene(corridors=(CorridorProbe((6.0, 0.0), (6.0, 4.0)),))},
     "remembered wall": {"remembered": Scene(walls=(Wall((0.0, 0.1), (4.0, 0.1)),))},
     "remembered door": {"remembered": Scene(doors=(DOOR,))},
     "first door": {"remembered": Scene(doors=(DOOR,)), "door_numbers": {0: 1}},

@@ -26,7 +26,7 @@ from semnav_env.commands import (
     parse,
 )
 from semnav_env.commands.rooms import plain_name, spoken_names
-from semnav_env.directory import Directory
+from semnav_env.directory import RoomGuide
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose, compose, to_local, wrap_angle
 from semnav_env.features.scene import Door, Scene
@@ -45,7 +45,7 @@ DOORS = corridor(left=(3.0, 6.0), right=(4.0,))
 
 
 def told(name: str, begin: Pose = WEST) -> Way:
-    way = Directory(PLAN, Command((GoToRoom(name),)), GEODESIC)(0, begin)
+    way = RoomGuide(PLAN, Command((GoToRoom(name),)), GEODESIC)(0, begin)
     assert way is not None
     return way
 

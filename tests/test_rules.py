@@ -59,8 +59,8 @@ def way(row: Row) -> Iterator[Pose]:
     """
     *goals, last = plan_goals(situation(row.situation), parse(row.command), row.begin)
     stops = [pose for goal in goals for pose in (goal.onward or goal.pose, goal.pose)]
-    if last.hallway is not None and re.search("last|other", row.command):
-        stops.append(last.hallway.place(last.hallway.end - 1.0))
+    if last.corridor is not None and re.search("last|other", row.command):
+        stops.append(last.corridor.place(last.corridor.end - 1.0))
     stops.append(compose(last.pose, (-STAND_OFF - 0.3, 0.0, 0.0)))
     for here, there in pairwise([row.begin, *stops]):
         if math.dist(here[:2], there[:2]) > 0.1:

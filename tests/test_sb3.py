@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from semnav_env.agents.learning.practice import Practice
+from semnav_env.agents.learning.action_repeat import ActionRepeat
 from semnav_env.agents.learning.presets import PRESETS
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import MODES
@@ -22,7 +22,7 @@ def test_the_environment_passes_the_checker(robot, mode):
 
 @pytest.mark.parametrize("preset", PRESETS.values(), ids=PRESETS)
 def test_practice_passes_the_checker_without_any_warning(preset):
-    check_env(Practice(preset))
+    check_env(ActionRepeat(preset))
 
 
 def test_ppo_takes_the_environment_as_it_is():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features import Corner, CornerKind, Corridor, Door, Scene, Wall
+from semnav_env.features import Corner, CornerKind, CorridorProbe, Door, Scene, Wall
 from semnav_env.features.frames import Pose
 
 coordinates = st.floats(-20.0, 20.0)
@@ -16,7 +16,7 @@ SCENE = Scene(
     walls=(Wall((1.0, -1.0), (1.0, 2.0), end_break=True, beams=40, residual=0.01),),
     doors=(Door((0.0, 1.0), (1.0, 1.0), name="office"),),
     corners=(Corner((3.0, 4.0), CornerKind.INNER),),
-    corridors=(Corridor((0.0, -1.0), (0.0, 1.0)),),
+    corridors=(CorridorProbe((0.0, -1.0), (0.0, 1.0)),),
 )
 
 

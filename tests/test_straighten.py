@@ -24,7 +24,7 @@ from semnav_env.maps.importers.building_doors import with_walls
 from semnav_env.maps.importers.directions import dominant_direction
 from semnav_env.maps.importers.outlines import outlines
 from semnav_env.maps.importers.redrawing import Drawn, clashing
-from semnav_env.maps.importers.runs import Run, Span
+from semnav_env.maps.importers.runs import PixelRun, Span
 from semnav_env.maps.importers.straighten import straighten
 from semnav_env.maps.rules import FloorPlanError
 from semnav_env.scripts import main as cli
@@ -177,7 +177,7 @@ def test_the_ends_of_thin_walls_are_square(thick: int, length: int) -> None:
 def test_of_two_runs_as_long_that_meet_that_of_the_first_outline_is_given_up(
     first: int, further: int
 ) -> None:
-    runs = [Run(k, Span(0, 1, 0, 4.0), -1, 1, 0, True, 0, 4) for k in (first, first + further)]
+    runs = [PixelRun(k, Span(0, 1, 0, 4.0), -1, 1, 0, True, 0, 4) for k in (first, first + further)]
     square = np.array(((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)))
     one, other = (
         Drawn(square + 2.0 * k, [frozenset((run,))] * 4, {run: 0.0}, turned=False)

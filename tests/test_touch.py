@@ -36,7 +36,7 @@ def felt() -> Felt:
 
 
 def pane_across(east: float = 6.0) -> FloorPlan:
-    """A hallway along x, 3 m wide, with a pane across its left half."""
+    """A corridor along x, 3 m wide, with a pane across its left half."""
     return plan_of(
         closed((0, -1.5), (12, -1.5), (12, 1.5), (0, 1.5)),
         Surface(((east, -0.2), (east, 1.5)), Material.GLASS),

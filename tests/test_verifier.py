@@ -179,7 +179,7 @@ def test_the_verdict_on_the_whole_is_that_of_the_clause_that_decides() -> None:
 
 
 def test_what_no_one_can_find_on_the_plan_is_refused() -> None:
-    """From beside the door of a room there is no end of a hallway to be seen on the plan."""
+    """From beside the door of a room there is no end of a corridor to be seen on the plan."""
     plan = load_floor_plan("villa_hall")
     start: Pose = (1.0426539, 0.685958, -2.890914)
     command = "turn left at the first corner and go down the hallway until the end of the hallway"

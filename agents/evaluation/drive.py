@@ -10,8 +10,8 @@ from semnav_env.agents.base import Agent, steps
 from semnav_env.agents.evaluation.causes import cause_of
 from semnav_env.env import SemNavEnv
 from semnav_env.metrics import Metrics, Recorder, Recording, measure
+from semnav_env.metrics.event_log import events_of
 from semnav_env.metrics.events import Event
-from semnav_env.metrics.witness import events_of
 from semnav_env.recheck import recheck
 from semnav_env.robots import RobotSpec
 from semnav_env.verifier import Verdict, Verifier

@@ -116,7 +116,7 @@ def run_episode(
     env: SemNavEnv, agent: Any, trial: Trial, seed: int, extras: Extras = NO_EXTRAS
 ) -> Result:
     """One episode from a start pose that the seed scatters."""
-    drawn = env.stage.plan({"floor_plan": trial.floor_plan})  # furniture keeps off the pose
+    drawn = env.plan_source.plan({"floor_plan": trial.floor_plan})  # furniture keeps off the pose
     pose = scattered(trial, drawn, env.robot, np.random.default_rng(seed))
     options = {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
     driven = drive(env, agent, seed, options)

@@ -15,6 +15,7 @@ from stable_baselines3 import PPO
 from stable_baselines3.common.logger import configure
 from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor
 
+from semnav_env.agents.learning.action_repeat import ActionRepeat
 from semnav_env.agents.learning.files import (
     POLICY,
     TRAINING,
@@ -23,7 +24,6 @@ from semnav_env.agents.learning.files import (
     save_tensors,
 )
 from semnav_env.agents.learning.policy import Policy
-from semnav_env.agents.learning.practice import Practice
 from semnav_env.agents.learning.presets import Preset
 from semnav_env.agents.learning.state import read_state, write_state
 from semnav_env.metrics import spl
@@ -68,7 +68,7 @@ class Trainer:
         torch.set_num_threads(1)  # so small a network only loses by more
         self.preset, self.folder, self.seed = preset, folder, seed
         self._envs = VecMonitor(
-            DummyVecEnv([partial(Practice, preset)] * preset.envs), info_keywords=OUTCOME
+            DummyVecEnv([partial(ActionRepeat, preset)] * preset.envs), info_keywords=OUTCOME
         )
         self.model = _model(preset, self._envs, _seed_from(seed, steps))
         self.model.set_logger(configure(str(folder / "tensorboard"), ["tensorboard"]))

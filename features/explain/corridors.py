@@ -10,7 +10,7 @@ import numpy as np
 
 from semnav_env.features.elements import Rejection
 from semnav_env.features.explain.trace import Trace, ends
-from semnav_env.features.kernels import corridors as kernel
+from semnav_env.features.kernels import corridor_probes as kernel
 from semnav_env.features.kernels.corners import OUTER
 from semnav_env.features.kernels.layout import CORNERS, CORRIDOR, WALLS
 from semnav_env.features.settings import ExtractorSettings

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.arcs import find_arcs
 from semnav_env.features.kernels.corners import find_corners
-from semnav_env.features.kernels.corridors import find_corridors
+from semnav_env.features.kernels.corridor_probes import find_corridors
 from semnav_env.features.kernels.doors import find_doors
 from semnav_env.features.kernels.filters import filter_ranges
 from semnav_env.features.kernels.layout import ARCS, CORNERS, CORRIDORS, DOORS, PIECES, WALLS

@@ -1,4 +1,4 @@
-"""Numba kernel that tells where a hallway narrows to the width of a door from a door across it."""
+"""Numba kernel that tells where a corridor narrows to the width of a door from a door across it."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ THROUGH = 1.25
 """One side runs through if so much of it is there beyond the opening, more than a leaf, metres."""
 
 WIDER = 0.45
-"""A hallway with a door across it is wider than the door by more than this, metres."""
+"""A corridor with a door across it is wider than the door by more than this, metres."""
 
 FAR, ASIDE = 8.0, 1.25
-"""The sides of a hallway that goes on behind an opening are looked for so far before and behind it
+"""The sides of a corridor that goes on behind an opening are looked for so far before and behind it
 and so far beside its middle, metres."""
 
 ON = 2.5
@@ -44,13 +44,13 @@ SLANT = math.tan(math.radians(20.0))
 
 @njit(cache=True, error_model="numpy")
 def is_narrow_place(door: FloatArray, solid: FloatArray) -> bool:
-    """Whether an opening across the way is no doorway, but the hallway goes on through it.
+    """Whether an opening across the way is no doorway, but the corridor goes on through it.
 
-    So it is where a passage about as wide leads up to the opening and away from it: a hallway that
-    narrows, between a pilaster and a wall for instance. A hallway with a door in it, or a room
-    behind one, is wider than the door. Where the hallway ends in a room or a lobby one of its sides
-    runs through. Nor is it the end of a hallway both of whose sides go on behind it, however much
-    narrower it is, as between the corners of two alcoves.
+    So it is where a passage about as wide leads up to the opening and away from it: a corridor that
+    narrows, between a pilaster and a wall for instance. A corridor with a door in it, or a room
+    behind one, is wider than the door. Where the corridor ends in a room or a lobby, one of its
+    sides runs through. A corridor both of whose sides go on behind the opening does not end
+    there either, however much narrower the opening is, as between the corners of two alcoves.
 
     Args:
         door: the opening's jambs, shape (4,), metres.
@@ -106,7 +106,7 @@ def _sides(door: FloatArray, solid: FloatArray) -> tuple[NDArray[np.bool_], NDAr
 
 @njit(cache=True, error_model="numpy")
 def _goes_on(far: NDArray[np.bool_]) -> bool:
-    """Whether both sides of a hallway are there before and behind the opening."""
+    """Whether both sides of a corridor are there before and behind the opening."""
     for end in range(2):
         for side in range(2):
             if _length(far[end, side]) < ON:

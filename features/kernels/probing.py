@@ -1,6 +1,6 @@
-"""Numba kernels that probe a hallway: by rays across its axis and by lanes along it.
+"""Numba kernels that probe a corridor: by rays across its axis and by lanes along it.
 
-In the frame of the axis x runs along the hallway and y to its left; the robot lies at x = 0.
+In the frame of the axis x runs along the corridor and y to its left; the robot lies at x = 0.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ BEHIND = 2.0
 """How far behind the robot the sides are probed, metres."""
 
 NEAR = 8.0
-"""Where the hallway is as wide as usual: not farther ahead than this, metres."""
+"""Where the corridor is as wide as usual: not farther ahead than this, metres."""
 
 REACH = 6.0
 """A side farther than this is none, metres."""
 
 BODY_WIDTH = 0.7
-"""A hallway ends where no way of this width goes on, metres."""
+"""A corridor ends where no way of this width goes on, metres."""
 
 FURNITURE = 1.5
 """What stands in the way of going on before a side is at most this deep, metres."""
@@ -43,7 +43,7 @@ ASIDE = 0.85
 """Ways that begin so far beside the robot still count as ahead of it, metres."""
 
 ALONG = math.sin(math.radians(15.0))
-"""A wall nearer to the axis in direction runs along the hallway and does not end it."""
+"""A wall nearer to the axis in direction runs along the corridor and does not end it."""
 
 
 @njit(cache=True)
@@ -65,7 +65,7 @@ def probe(local: FloatArray, sign: float, back: float, count: int) -> FloatArray
     Args:
         local: segments in the frame of the axis, shape (n, 4).
         sign: 1 for the left side, -1 for the right.
-        back: how far the hallway goes back, metres; no ray starts behind that.
+        back: how far the corridor goes back, metres; no ray starts behind that.
         count: of rays; ray k starts at x = k * `SPACING` - `BEHIND`.
     """
     side = np.full(count, np.inf)

@@ -5,7 +5,7 @@ from semnav_env.features.mapping.map_settings import MapSettings
 from semnav_env.features.mapping.matching import (
     Match,
     MatchError,
-    Surface,
+    ReferenceLines,
     match_scans,
     match_surfaces,
     surface_of,
@@ -20,8 +20,8 @@ __all__ = [
     "Match",
     "MatchError",
     "MatchSettings",
+    "ReferenceLines",
     "ScanOdometry",
-    "Surface",
     "match_scans",
     "match_surfaces",
     "surface_of",

@@ -29,7 +29,7 @@ _SHIFT, _TURN = 0.05, math.radians(3.0)
 """Ends that are farther off the line, or turned by more, need to be looked at anew."""
 
 
-class Passage:
+class DoorwayEvidence:
     """The pieces of the line through two jambs, from a little before to a little after them.
 
     Args:

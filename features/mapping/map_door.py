@@ -9,7 +9,7 @@ import numpy as np
 
 from semnav_env.features.elements import Door
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.mapping.doorway import Passage
+from semnav_env.features.mapping.doorway import DoorwayEvidence
 
 
 @dataclass(slots=True, eq=False)
@@ -26,11 +26,11 @@ class MapDoor:
     seen: list[FloatArray]
     belief: float
     ends: FloatArray = field(init=False)
-    passage: Passage = field(init=False)
+    passage: DoorwayEvidence = field(init=False)
 
     def __post_init__(self) -> None:
         self.ends = np.median(self.seen, axis=0)
-        self.passage = Passage(self.ends)
+        self.passage = DoorwayEvidence(self.ends)
 
     def see(self, door: FloatArray, confidence: float) -> None:
         """Add a sighting, in whichever direction."""
@@ -77,5 +77,5 @@ class MapDoor:
         self.ends = np.median(self.seen, axis=0)
         if not self.passage.lies_along(self.ends):
             looks = self.passage.looks
-            self.passage = Passage(self.ends)
+            self.passage = DoorwayEvidence(self.ends)
             self.passage.looks = looks

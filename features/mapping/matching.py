@@ -97,7 +97,7 @@ def match_scans(
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Surface:
+class ReferenceLines:
     """A scan made ready for matching: worth keeping where one is matched with many.
 
     Attributes:
@@ -111,7 +111,7 @@ class Surface:
     angle_increment: float
 
 
-def surface_of(scan: Scan, settings: MatchSettings = DEFAULT_MATCH_SETTINGS) -> Surface:
+def surface_of(scan: Scan, settings: MatchSettings = DEFAULT_MATCH_SETTINGS) -> ReferenceLines:
     """The points of a scan with their lines; beams beyond one full turn are left out."""
     directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
     table = np.zeros((ROWS, len(directions)))
@@ -119,12 +119,12 @@ def surface_of(scan: Scan, settings: MatchSettings = DEFAULT_MATCH_SETTINGS) -> 
     ranges = scan.ranges[: len(directions)]
     sigma = settings.sigma or range_noise(ranges, limits)
     sense_surface(ranges, directions, scan.angle_increment, limits, sigma, settings.window, table)
-    return Surface(table, scan.angle_min, scan.angle_increment)
+    return ReferenceLines(table, scan.angle_min, scan.angle_increment)
 
 
 def match_surfaces(
-    reference: Surface,
-    scan: Surface,
+    reference: ReferenceLines,
+    scan: ReferenceLines,
     guess: Pose = (0.0, 0.0, 0.0),
     settings: MatchSettings = DEFAULT_MATCH_SETTINGS,
 ) -> Match:

@@ -11,7 +11,7 @@ from semnav_env.features.mapping.matching import (
     DEFAULT_MATCH_SETTINGS,
     Match,
     MatchError,
-    Surface,
+    ReferenceLines,
     match_surfaces,
     surface_of,
 )
@@ -41,7 +41,7 @@ class KeyframeRule:
 class _Placed(NamedTuple):
     """A scan and where it was taken."""
 
-    surface: Surface
+    surface: ReferenceLines
     pose: Pose
 
 
@@ -103,7 +103,7 @@ class ScanOdometry:
             self._keep(self._last)
         return self.pose
 
-    def _found(self, surface: Surface, guess: Pose) -> Pose | None:
+    def _found(self, surface: ReferenceLines, guess: Pose) -> Pose | None:
         """Where a scan was taken, matched with the keyframe or, failing that, the one before it."""
         assert self._keyframe is not None
         assert self._last is not None
@@ -117,7 +117,7 @@ class ScanOdometry:
             self.match = None
         return compose(self._keyframe.pose, self.match.pose) if self.match else None
 
-    def _match(self, reference: _Placed, surface: Surface, guess: Pose) -> Match | None:
+    def _match(self, reference: _Placed, surface: ReferenceLines, guess: Pose) -> Match | None:
         start = relative(reference.pose, guess)
         try:
             return match_surfaces(reference.surface, surface, start, self._settings)

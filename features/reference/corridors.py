@@ -7,19 +7,19 @@ import math
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.corridors import END_ON
+from semnav_env.features.kernels.corridor_probes import END_ON
 from semnav_env.features.reference.corners import FoundCorner
 from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.reference.walls import Piece
-from semnav_env.features.scene import CornerKind, Corridor
+from semnav_env.features.scene import CornerKind, CorridorProbe
 from semnav_env.features.settings import ExtractorSettings
 
 
 def find_corridors(
     sweep: Sweep, walls: list[Piece], corners: list[FoundCorner], settings: ExtractorSettings
-) -> list[Corridor]:
+) -> list[CorridorProbe]:
     """Probe from inner and potential corners (Barbret sections 3.3, 4.8)."""
-    found: list[Corridor] = []
+    found: list[CorridorProbe] = []
     for corner in corners:
         if corner.kind == CornerKind.OUTER:
             continue
@@ -29,7 +29,7 @@ def find_corridors(
             if reach is None:
                 continue
             x, y = (np.array(corner.point) + reach * along).tolist()
-            corridor = Corridor(corner.point, (x, y))
+            corridor = CorridorProbe(corner.point, (x, y))
             if (
                 _in_reach(corridor, settings)
                 and _is_seen(corridor, sweep)
@@ -71,14 +71,14 @@ def _nearest_wall(
     return nearest if squareness >= square else None
 
 
-def _in_reach(corridor: Corridor, settings: ExtractorSettings) -> bool:
+def _in_reach(corridor: CorridorProbe, settings: ExtractorSettings) -> bool:
     width = math.dist(corridor.start, corridor.end)
     away = math.hypot(*corridor.midpoint)
     near, far = settings.corridor_distance_min, settings.corridor_distance_max
     return width >= 2.0 * settings.corridor_half_width and near <= away <= far
 
 
-def _is_seen(corridor: Corridor, sweep: Sweep) -> bool:
+def _is_seen(corridor: CorridorProbe, sweep: Sweep) -> bool:
     """Whether a beam passes over the midpoint."""
     x, y = corridor.midpoint
     angle = math.remainder(math.atan2(y, x) - sweep.angle_min, 2.0 * math.pi)

@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 
-from semnav_env.features.elements import Leaf
+from semnav_env.features.elements import SceneLeaf
 from semnav_env.features.kernels import door_leaf as kernel
 from semnav_env.features.reference.door_evidence import Gap
 from semnav_env.features.reference.walls import Piece
 
 
-def find_leaf(gap: Gap, pieces: list[Piece]) -> Leaf | None:
+def find_leaf(gap: Gap, pieces: list[Piece]) -> SceneLeaf | None:
     """The piece of about the door's width that ends nearest to a jamb, if it is no wall."""
     best, nearest = None, kernel.HINGE
     for piece in pieces:
@@ -25,7 +25,7 @@ def find_leaf(gap: Gap, pieces: list[Piece]) -> Leaf | None:
                 turn = _angle(tip - hinge, closed, np.array((gap.along[1], -gap.along[0])))
                 flat = kernel.NARROWEST
                 if distance < nearest and flat <= abs(turn) <= math.pi - flat:
-                    best, nearest = Leaf(at_start, turn), distance
+                    best, nearest = SceneLeaf(at_start, turn), distance
     return best
 
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numba import njit
 
-from semnav_env.dynamics.leaves import Leaf
+from semnav_env.dynamics.leaves import PlanLeaf
 from semnav_env.dynamics.nearby import on_body, on_segment
 from semnav_env.dynamics.settings import Dynamics
 from semnav_env.features.frames import FloatArray
@@ -30,7 +30,7 @@ class SwingingDoors:
         segments: hinge and tip of each, metres, shape (m, 4); always the same array.
     """
 
-    def __init__(self, leaves: tuple[Leaf, ...], dynamics: Dynamics) -> None:
+    def __init__(self, leaves: tuple[PlanLeaf, ...], dynamics: Dynamics) -> None:
         self.leaves, self._dynamics = leaves, dynamics
         self.angles = np.zeros(len(leaves))
         self.segments = np.zeros((len(leaves), 4))

@@ -26,7 +26,7 @@ AXLE = 0.06
 
 
 @dataclass(frozen=True)
-class Leaf:
+class PlanLeaf:
     """A leaf that swings about one jamb of a door.
 
     Attributes:
@@ -67,13 +67,13 @@ def with_leaves(plan: FloorPlan) -> FloorPlan:
     return replace(plan, surfaces=(*plan.surfaces, *hung)) if hung else plan
 
 
-def swinging_leaves(plan: FloorPlan) -> tuple[tuple[Leaf, ...], FloorPlan]:
+def swinging_leaves(plan: FloorPlan) -> tuple[tuple[PlanLeaf, ...], FloorPlan]:
     """The leaves that can close, as drawn, and the plan without them.
 
     Those of open doors with one leaf as wide as the opening that has room to swing; of two that
     would meet, the first.
     """
-    leaves: list[Leaf] = []
+    leaves: list[PlanLeaf] = []
     drawn: list[Surface] = []
     taken: list[Polygon] = []
     for door in plan.doors:
@@ -96,7 +96,7 @@ def _hangs(surface: Surface, door: PlanDoor) -> bool:
     return any(math.dist(end, jamb) < TOUCH for end in ends for jamb in (door.start, door.end))
 
 
-def _as_leaf(surface: Surface, door: PlanDoor) -> Leaf | None:
+def _as_leaf(surface: Surface, door: PlanDoor) -> PlanLeaf | None:
     """A straight leaf that can close the door; None if it is another kind of leaf."""
     if len(surface.points) != 2:
         return None
@@ -106,27 +106,27 @@ def _as_leaf(surface: Surface, door: PlanDoor) -> Leaf | None:
             if math.dist(hinge, jamb) < TOUCH and abs(length - door.width) < 2 * TOUCH:
                 closed = math.atan2(other[1] - hinge[1], other[0] - hinge[0])
                 drawn = math.atan2(tip[1] - hinge[1], tip[0] - hinge[0])
-                return Leaf(
+                return PlanLeaf(
                     door.name, hinge, length, closed, math.remainder(drawn - closed, math.tau)
                 )
     return None
 
 
-def _new_leaves(door: PlanDoor, plan: FloorPlan) -> list[Leaf]:
+def _new_leaves(door: PlanDoor, plan: FloorPlan) -> list[PlanLeaf]:
     """On either jamb and to either side, those that open into a corridor last."""
     leaves = []
     for jamb, other in ((door.start, door.end), (door.end, door.start)):
         closed = math.atan2(other[1] - jamb[1], other[0] - jamb[0])
-        leaves += [Leaf(door.name, jamb, door.width, closed, swing) for swing in (OPEN, -OPEN)]
+        leaves += [PlanLeaf(door.name, jamb, door.width, closed, swing) for swing in (OPEN, -OPEN)]
     return sorted(leaves, key=lambda leaf: _in_corridor(leaf, plan))
 
 
-def _in_corridor(leaf: Leaf, plan: FloorPlan) -> bool:
+def _in_corridor(leaf: PlanLeaf, plan: FloorPlan) -> bool:
     swept = _swept(leaf)
     return any(region.polygon.intersection(swept).area > 0.1 for region in plan.corridors)
 
 
-def _swept(leaf: Leaf) -> Polygon:
+def _swept(leaf: PlanLeaf) -> Polygon:
     """What the leaf sweeps, a little less at the hinge and at both ends of the way."""
     sign = math.copysign(1.0, leaf.swing)
     angles = np.linspace(sign * SPARE, leaf.swing - sign * SPARE, 16)
@@ -137,13 +137,13 @@ def _swept(leaf: Leaf) -> Polygon:
     return Polygon([*rim, *inner[::-1]])
 
 
-def _meets(leaf: Leaf, taken: Sequence[Polygon]) -> bool:
+def _meets(leaf: PlanLeaf, taken: Sequence[Polygon]) -> bool:
     """Whether a leaf sweeps something that another one sweeps as well."""
     swept = _swept(leaf)
     return any(swept.intersects(other) for other in taken)
 
 
-def _has_room(leaf: Leaf, plan: FloorPlan, own: Surface | None = None) -> bool:
+def _has_room(leaf: PlanLeaf, plan: FloorPlan, own: Surface | None = None) -> bool:
     """Whether nothing stands where the leaf swings."""
     if abs(leaf.swing) < 4 * SPARE:
         return False

@@ -61,7 +61,7 @@ def _bare_door(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
 
 
 def _back(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
-    """To the start, or round and down the hallway?"""
+    """To the start, or round and down the corridor?"""
     text = {"en": "go back", "de": "geh zurück"}[code]
     return text, ((GoBack(),), (Turn(Turning.AROUND), Follow()))
 

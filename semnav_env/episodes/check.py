@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from semnav_env.commands import readings
-from semnav_env.directory import Directory
+from semnav_env.directory import RoomGuide
 from semnav_env.episodes.episode import Episode, Expected, StaleEpisodeError
 from semnav_env.grounding import GroundingError
 from semnav_env.maps import FloorPlan
@@ -41,7 +41,7 @@ def _faults(episode: Episode, plan: FloorPlan, geodesic: Geodesic) -> Iterator[s
         yield f'{episode.id}: "{episode.command}" now means {meant}'
     for command in meanings:
         try:
-            plan_goals(plan, command, episode.start, Directory(plan, command, geodesic))
+            plan_goals(plan, command, episode.start, RoomGuide(plan, command, geodesic))
             impossible = ""
         except GroundingError as error:
             impossible = str(error)

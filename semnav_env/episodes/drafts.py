@@ -18,8 +18,8 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.directory import Directory
-from semnav_env.episodes.doubts import Doubts
+from semnav_env.directory import RoomGuide
+from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.episodes.random_clauses import RandomClauses, Verb
 from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
@@ -56,9 +56,9 @@ class Drafter:
         self._followers: dict[tuple[Clause, ...], Follower] = {}
 
     @cached_property
-    def doubts(self) -> Doubts:
+    def doubts(self) -> AmbiguityFilter:
         """What people could see otherwise there."""
-        return Doubts(self._plan)
+        return AmbiguityFilter(self._plan)
 
     def feasible(self, clauses: int, verb: Verb | None) -> Command | None:
         """A command that can be carried out; None if none came up.
@@ -146,7 +146,7 @@ class Drafter:
 
     def _goals(self, command: Command) -> int:
         """How many goals a command has; 0 if it cannot be carried out."""
-        guide = Directory(self._plan, command, self._geodesic)
+        guide = RoomGuide(self._plan, command, self._geodesic)
         try:
             return len(plan_goals(self._plan, command, self.start, guide))
         except GroundingError:
@@ -164,7 +164,7 @@ class Drafter:
         if clauses in self._followers:
             return self._followers[clauses]
         command = Command(clauses)
-        guide = Directory(self._plan, command, self._geodesic)
+        guide = RoomGuide(self._plan, command, self._geodesic)
         if len(clauses) == 1:
             follower = Follower(command, complete=True, guide=guide)
             follower.start(self._plan.scene, self.start)
@@ -196,5 +196,5 @@ class Drafter:
         return self._clauses.underway()
 
     def _faces_a_wall(self, said: tuple[Clause, ...]) -> bool:
-        """Whether one looks across a hallway, so that nobody would count its doors from there."""
+        """Whether one looks across a corridor, so that nobody would count its doors from there."""
         return not looks_along(self._plan, self._begin_after(said))

@@ -249,11 +249,11 @@ def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | Non
 
 
 def _has_room(plan: FloorPlan, goal: Goal) -> bool:
-    """Whether every body can stand at a goal that says which way to look or how far down a hallway.
+    """Whether every body can stand at a goal that fixes a heading or a distance down a corridor.
 
     It may lie so near to a wall, or in a corner, that nobody could turn or stop right there.
     """
-    posed = goal.heading_tolerance < math.pi or goal.hallway is not None
+    posed = goal.heading_tolerance < math.pi or goal.corridor is not None
     stands = goal.kind is GoalKind.REACH and posed
     return not stands or placement_error(plan, BODY, goal.pose) is None
 

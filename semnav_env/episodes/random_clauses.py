@@ -124,7 +124,7 @@ class RandomClauses:
         return Turn(self.choose(Turning.LEFT, Turning.RIGHT), degrees=degrees)
 
     def follow(self) -> Follow:
-        """Along the hallway up to somewhere."""
+        """Along the corridor up to somewhere."""
         kind = self._rng.random()
         if kind < 0.03:
             return Follow(PlaceReference(Place.END))

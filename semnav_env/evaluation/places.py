@@ -10,9 +10,9 @@ import numpy as np
 
 from semnav_env.evaluation.records import NAN, Detection, Kind, Limits, Rows, Sighting, polar
 from semnav_env.features.frames import Point
-from semnav_env.features.scene import Arc, Corner, CornerKind, Corridor, Scene, Wall
+from semnav_env.features.scene import Arc, Corner, CornerKind, CorridorProbe, Scene, Wall
 
-T = TypeVar("T", Corner, Corridor, Arc)
+T = TypeVar("T", Corner, CorridorProbe, Arc)
 
 AT_CORNER = 0.02
 """A true wall with an end this close to a true corner is one of its walls, metres."""
@@ -48,7 +48,9 @@ def _is_clear_corner(corner: Corner, walls: Sequence[Wall], limits: Limits) -> b
     return all(limits.shows_well(wall) for wall in near)
 
 
-def compare_corridors(truth: Sequence[Corridor], found: Sequence[Corridor], limits: Limits) -> Rows:
+def compare_corridors(
+    truth: Sequence[CorridorProbe], found: Sequence[CorridorProbe], limits: Limits
+) -> Rows:
     """Corridors by their midpoints, each found once; all are in good view."""
     pairs = _pairs(truth, found, lambda corridor: corridor.midpoint, limits.midpoint)
     sightings = [

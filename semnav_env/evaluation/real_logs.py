@@ -14,7 +14,7 @@ from semnav_env.evaluation.sheets import Cell, Sheet
 from semnav_env.features import (
     Arc,
     Corner,
-    Corridor,
+    CorridorProbe,
     Door,
     ExtractorSettings,
     Scene,
@@ -64,7 +64,7 @@ def log_row(path: Path, settings: ExtractorSettings) -> tuple[Cell, ...]:
 
 def is_finite(scene: Scene) -> bool:
     """Whether every number in a scene is finite."""
-    items: tuple[Wall | Door | Corner | Corridor | Arc, ...]
+    items: tuple[Wall | Door | Corner | CorridorProbe | Arc, ...]
     items = (*scene.walls, *scene.doors, *scene.corners, *scene.corridors, *scene.arcs)
     return all(
         math.isfinite(number)

@@ -16,7 +16,7 @@ from semnav_env.grounding.situation import Situation
 def is_met(condition: IfThere, situation: Situation) -> bool | Goal:
     """Whether a condition is met, or the goal of looking for what it speaks of.
 
-    What is there is known as soon as it is seen; that nothing is there, at the end of the hallway,
+    What is there is known as soon as it is seen; that nothing is there, at the end of the corridor,
     or where there can be no more.
     """
     situation = situation.towards(condition.what)
@@ -43,7 +43,7 @@ def _count(what: DoorReference | PlaceReference, situation: Situation) -> tuple[
         return len(doors), more
     if what.place is Place.END:
         return int(situation.seen_to_end), True
-    return len(junctions_ahead(situation.hallway, what.place)), True
+    return len(junctions_ahead(situation.corridor, what.place)), True
 
 
 def after(clauses: Sequence[Clause], index: int, met: bool | None = None) -> int:

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from semnav_env.commands.clauses import Approach, GoToDoor
 from semnav_env.commands.references import Side
+from semnav_env.features.corridor import doorway_at
 from semnav_env.features.frames import compose, wrap_angle
-from semnav_env.features.hallway import doorway_at
 from semnav_env.grounding.doors import OUT_OF_DOORWAY, STAND_OFF, CountedDoor, find_door
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import Situation, UnclearError, turned
@@ -29,9 +29,9 @@ def ground_door(clause: GoToDoor, situation: Situation) -> Goal:
         goal = Goal(GoalKind.REACH, found.pose(-STAND_OFF), found.door, 0.7, 0.6)
     else:
         goal = Goal(GoalKind.PASS, found.pose(STAND_OFF), found.door, onward=found.pose(0.0))
-    across = found.side in (Side.BEHIND, Side.OPPOSITE)  # not along the hallway
-    hallway = None if across else situation.hallway
-    return replace(goal, because=str(clause.door), hallway=hallway)
+    across = found.side in (Side.BEHIND, Side.OPPOSITE)  # not along the corridor
+    corridor = None if across else situation.corridor
+    return replace(goal, because=str(clause.door), corridor=corridor)
 
 
 def ground_leave(situation: Situation) -> Goal:

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 from semnav_env.commands.references import OTHER, DoorReference, Side
+from semnav_env.features.corridor import Corridor
 from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
-from semnav_env.features.hallway import Hallway
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal
 from semnav_env.grounding.opposite import find_opposite
@@ -33,13 +33,13 @@ OUT_OF_DOORWAY = 1.0
 """How far a robot that stands in a doorway drives out of it before it turns, metres."""
 
 ON_THE_SIDE = 0.25
-"""So near to the side of a hallway a door lies on it, metres."""
+"""So near to the side of a corridor a door lies on it, metres."""
 
 AT_THE_END = 0.6
-"""So near to the end of a hallway a door lies ahead, metres."""
+"""So near to the end of a corridor a door lies ahead, metres."""
 
 ABREAST = 0.3
-"""Doors so close along the hallway are not one before the other, metres."""
+"""Doors so close along the corridor are not one before the other, metres."""
 
 AS_STRAIGHT = math.radians(6.0)
 """Doors whose directions differ by less are as straight behind one as the other."""
@@ -50,13 +50,13 @@ CORRIDOR = 3.0
 
 @dataclass(frozen=True, slots=True)
 class CountedDoor:
-    """A door of a hallway.
+    """A door of a corridor.
 
     Attributes:
         door: in the scene's frame.
-        along: where its middle lies along the hallway's axis, metres.
+        along: where its middle lies along the corridor's axis, metres.
         side: on which side of the axis, or ahead.
-        outward: the heading that leads through it, away from the hallway, scene frame.
+        outward: the heading that leads through it, away from the corridor, scene frame.
         off: how far it lies off straight behind, radians; only of doors that are ordered by it.
     """
 
@@ -81,7 +81,7 @@ def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | G
         situation: of one who looks towards it, see `Situation.towards`.
 
     Raises:
-        GroundingError: the hallway ended before.
+        GroundingError: the corridor ended before.
         UnclearError: the side is open and doors on both fit.
     """
     if reference.side is Side.OPPOSITE:
@@ -122,26 +122,26 @@ def doors_named(reference: DoorReference, situation: Situation) -> tuple[list[Co
         situation: of one who looks towards it.
     """
     if not situation.back:
-        return doors_along(situation.scene, situation.hallway, reference.side), True
-    scene, begin, hallway = situation.scene, situation.begin, situation.hallway
+        return doors_along(situation.scene, situation.corridor, reference.side), True
+    scene, begin, corridor = situation.scene, situation.begin, situation.corridor
     doorway = own_doorway(scene, turned(begin))
     if doorway is not None:
         outward = heading_through(doorway, begin[2])
         return [CountedDoor(doorway, 0.0, Side.BEHIND, outward)], False
-    if hallway.half_width <= CORRIDOR / 2:
-        doors = doors_along(scene, hallway)
+    if corridor.half_width <= CORRIDOR / 2:
+        doors = doors_along(scene, corridor)
         if doors or not situation.seen_to_end:
             return doors, True
     elif not situation.complete and not situation.looks_along(begin[2]):
         return [], True
-    straight = _straight_behind(scene, (*begin[:2], hallway.frame[2]))
+    straight = _straight_behind(scene, (*begin[:2], corridor.frame[2]))
     return straight, not straight
 
 
 def _straight_behind(scene: Scene, pose: Pose) -> list[CountedDoor]:
     """The doors around that lie more ahead of a pose, which is turned around, than beside it.
 
-    What they are ordered by is no way along a hallway but how far they are off straight ahead.
+    What they are ordered by is no way along a corridor but how far they are off straight ahead.
     """
     seen = ((bearing(pose, door), door) for door in doors_around(scene, pose))
     return [
@@ -166,19 +166,19 @@ def _index(reference: DoorReference, count: int) -> int:
     return reference.ordinal - 1 if reference.ordinal > 0 else count + reference.ordinal
 
 
-def doors_along(scene: Scene, hallway: Hallway, side: Side | None = None) -> list[CountedDoor]:
-    """The doors that open onto a hallway ahead of its frame, in the order of travel.
+def doors_along(scene: Scene, corridor: Corridor, side: Side | None = None) -> list[CountedDoor]:
+    """The doors that open onto a corridor ahead of its frame, in the order of travel.
 
     A door counts while at least half of its opening is still ahead. A door that runs with the
-    hallway belongs to the side it lies on, if it is what one sees when looking there from the
+    corridor belongs to the side it lies on, if it is what one sees when looking there from the
     axis; one that runs across it and ends it lies ahead.
 
     Args:
-        scene: the doors, in the frame of the hallway.
-        hallway: whose frame stands where the counting begins.
+        scene: the doors, in the frame of the corridor.
+        corridor: whose frame stands where the counting begins.
         side: count only the doors there.
     """
-    counted = [_counted(door, hallway) for door in scene.doors]
+    counted = [_counted(door, corridor) for door in scene.doors]
     ahead = [door for door in counted if door is not None and side in (None, door.side)]
     return sorted(ahead, key=lambda door: door.along)
 
@@ -202,35 +202,35 @@ def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> b
         return False  # what cannot be seen from there, no looking will show
     lefts = {Side.LEFT: (True,), Side.RIGHT: (False,), Side.AHEAD: (), None: (True, False)}
     start = max(0.0, situation.progress)
-    return any(math.isfinite(situation.hallway.unseen(left, start, until)) for left in lefts[side])
+    return any(math.isfinite(situation.corridor.unseen(left, start, until)) for left in lefts[side])
 
 
-def _counted(door: Door, hallway: Hallway) -> CountedDoor | None:
-    start, end = to_local(hallway.frame, door.start), to_local(hallway.frame, door.end)
+def _counted(door: Door, corridor: Corridor) -> CountedDoor | None:
+    start, end = to_local(corridor.frame, door.start), to_local(corridor.frame, door.end)
     dx, dy = end[0] - start[0], end[1] - start[1]
     along, offset = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
     if along < 0.0:
         return None
     if abs(dx) < abs(dy):
-        at_end = abs(along - hallway.end) <= AT_THE_END and abs(offset) <= hallway.half_width
+        at_end = abs(along - corridor.end) <= AT_THE_END and abs(offset) <= corridor.half_width
         side, towards = Side.AHEAD if at_end else None, 0.0
     else:
         beside = Side.LEFT if offset > 0 else Side.RIGHT
-        side = beside if _is_on_the_side(start, end, hallway) else None
+        side = beside if _is_on_the_side(start, end, corridor) else None
         towards = math.copysign(math.pi / 2, offset)
     if side is None:
         return None
     normal = math.atan2(dx, -dy)
     if math.cos(normal - towards) < 0:
         normal += math.pi
-    return CountedDoor(door, along, side, wrap_angle(hallway.frame[2] + normal))
+    return CountedDoor(door, along, side, wrap_angle(corridor.frame[2] + normal))
 
 
-def _is_on_the_side(start: Point, end: Point, hallway: Hallway) -> bool:
+def _is_on_the_side(start: Point, end: Point, corridor: Corridor) -> bool:
     """Whether a ray from the axis to the side meets the door first, somewhere along it."""
     for share in (0.15, 0.5, 0.85):
         along = start[0] + share * (end[0] - start[0])
         offset = start[1] + share * (end[1] - start[1])
-        if abs(hallway.side_at(offset > 0, along) - abs(offset)) < ON_THE_SIDE:
+        if abs(corridor.side_at(offset > 0, along) - abs(offset)) < ON_THE_SIDE:
             return True
     return False

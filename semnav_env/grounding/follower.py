@@ -14,7 +14,7 @@ from semnav_env.grounding.conditions import after, hangs_on_condition, in_contex
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.ground import goal_of
 from semnav_env.grounding.situation import GroundingError, Situation, is_behind, looks_along, turned
-from semnav_env.grounding.ways import Guide, Told, Trail, Way
+from semnav_env.grounding.ways import Guide, KnownWays, Trail, Way
 
 STANDSTILL = 0.05
 """Slower than this is standing still, m/s."""
@@ -49,7 +49,7 @@ class Follower:
     complete: bool = False
     care: float = 1.0
     jamb_margin: float = 0.0
-    guide: Guide = field(default_factory=lambda: Told({}), repr=False)
+    guide: Guide = field(default_factory=lambda: KnownWays({}), repr=False)
     active: int = field(default=0, init=False)
     begin: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     goal: Goal = field(default=Goal(GoalKind.STOP, (0.0, 0.0, 0.0)), init=False)
@@ -124,8 +124,8 @@ class Follower:
         """The goal of the active clause, or whether its condition is met."""
         here = pose if self._way else self._farthest  # what was looked at stays so on coming back
         here = (*here[:2], self._ahead[2] if self._looked_back else pose[2])
-        after_hallway, way, beside = self._after_hallway, self._way, self._beside
-        situation = Situation(scene, self.begin, here, self.complete, after_hallway, way, beside)
+        after_corridor, way, beside = self._after_corridor, self._way, self._beside
+        situation = Situation(scene, self.begin, here, self.complete, after_corridor, way, beside)
         clause = in_context(self.command.clauses, self.active)
         return (
             is_met(clause, situation) if isinstance(clause, IfThere) else goal_of(clause, situation)
@@ -176,7 +176,7 @@ class Follower:
         return isinstance(following, Follow | Turn | GoToDoor) and not on_the_spot
 
     @property
-    def _after_hallway(self) -> bool:
+    def _after_corridor(self) -> bool:
         """Whether a bare turn means the next place that offers it, not here."""
         if self.active == 0:
             return False

@@ -8,8 +8,8 @@ from enum import IntEnum
 
 from numba import njit
 
+from semnav_env.features.corridor import Corridor, Junction
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
-from semnav_env.features.hallway import Hallway, Junction
 from semnav_env.features.scene import Door
 
 PLACES_AHEAD = 2
@@ -48,7 +48,7 @@ class Goal:
         distance_tolerance: how far from `pose` still counts as there, metres.
         heading_tolerance: how far off its heading, radians; pi where the heading is free.
         because: what was understood, for the picture and the log.
-        hallway: the hallway in which the referent was found.
+        corridor: the corridor in which the referent was found.
         junction: the junction at which to turn.
         onward: where the next clause begins; None for `pose`. The middle of the doorway that was
             crossed, or the mouth of the arm that was turned into.
@@ -63,7 +63,7 @@ class Goal:
     distance_tolerance: float = math.inf
     heading_tolerance: float = math.pi
     because: str = ""
-    hallway: Hallway | None = field(default=None, compare=False, repr=False)
+    corridor: Corridor | None = field(default=None, compare=False, repr=False)
     junction: Junction | None = field(default=None, compare=False, repr=False)
     onward: Pose | None = None
     places: tuple[Point, ...] = field(default=(), compare=False, repr=False)
@@ -133,7 +133,7 @@ class Goal:
 def _as_far_beside(there: Pose, beside: float) -> Pose:
     """The place beside one on a straight way, as far to its side as the robot is from it here.
 
-    So a hallway is driven down where it is, however far odometry has drifted to a side.
+    So a corridor is driven down where it is, however far odometry has drifted to a side.
     """
     x, y = to_parent(there, (0.0, beside if abs(beside) < BESIDE else 0.0))
     return x, y, there[2]

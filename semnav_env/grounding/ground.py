@@ -31,7 +31,7 @@ def ground(
     pose: Pose | None = None,
     *,
     complete: bool = False,
-    after_hallway: bool = False,
+    after_corridor: bool = False,
     way: Way | None = None,
 ) -> Goal:
     """Find what a clause refers to.
@@ -42,7 +42,7 @@ def ground(
         begin: where the robot was when the clause began, in the scene's frame.
         pose: how far it has come since then; `begin` if not given.
         complete: the scene holds everything there is, so there is nothing to look for.
-        after_hallway: the clause follows "go down the hallway", so a bare turn means the next
+        after_corridor: the clause follows "go down the hallway", so a bare turn means the next
             place that offers it.
         way: to the room that the clause names, or back, in the scene's frame.
 
@@ -53,7 +53,7 @@ def ground(
         GroundingError: the referent cannot be there; the message says what is.
     """
     here = begin if pose is None else pose
-    return goal_of(clause, Situation(scene, begin, here, complete, after_hallway, way))
+    return goal_of(clause, Situation(scene, begin, here, complete, after_corridor, way))
 
 
 def goal_of(clause: Clause, situation: Situation) -> Goal:

@@ -1,4 +1,4 @@
-"""Which intersections and corners count, and the goals of turns and of following a hallway."""
+"""Which intersections and corners count, and the goals of turns and of following a corridor."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from semnav_env.commands.clauses import Follow, Turn, Turning
 from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference, Side
+from semnav_env.features.corridor import Corridor, Junction, corridor_at, doorway_at
 from semnav_env.features.frames import Pose, compose, to_parent
-from semnav_env.features.hallway import Hallway, Junction, doorway_at, hallway
 from semnav_env.grounding.doors import OUT_OF_DOORWAY, doors_along, find_door
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import (
@@ -47,7 +47,7 @@ def ground_turn(clause: Turn, situation: Situation) -> Goal:
     """The goal of "turn left at the intersection"."""
     if clause.degrees is not None:
         return _turn_by(clause.turning, clause.degrees, situation)
-    if clause.at is None and not situation.after_hallway:
+    if clause.at is None and not situation.after_corridor:
         return _turn_here(clause.turning, situation)
     if clause.turning is Turning.AROUND:
         return _turn_around(clause, situation)
@@ -61,7 +61,7 @@ def ground_turn(clause: Turn, situation: Situation) -> Goal:
         distance_tolerance=1.6,
         heading_tolerance=0.5,
         because=f"turn {clause.turning} at {_name(clause.at)}",
-        hallway=situation.hallway,
+        corridor=situation.corridor,
         junction=junction,
         onward=mouth,
     )
@@ -69,7 +69,7 @@ def ground_turn(clause: Turn, situation: Situation) -> Goal:
 
 def ground_follow(clause: Follow, situation: Situation) -> Goal:
     """The goal of "follow the hallway until the next intersection"."""
-    until, end = clause.until, situation.hallway.end - END_MARGIN
+    until, end = clause.until, situation.corridor.end - END_MARGIN
     if isinstance(until, Distance):
         return _go_on(situation, _distance_along(until, situation), str(until))
     if isinstance(until, DoorReference):
@@ -91,7 +91,7 @@ def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) 
     """Up to a door or past it.
 
     Raises:
-        UnclearError: it is opposite, across the hallway and not along it; or the doorway that one
+        UnclearError: it is opposite, across the corridor and not along it; or the doorway that one
             stands in.
     """
     if until.side is Side.OPPOSITE:
@@ -102,7 +102,7 @@ def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) 
     if situation.back and door.door == own_doorway(situation.scene, turned(situation.begin)):
         raise UnclearError(f"{clause}: one stands in that doorway; say to go through it")
     beside = JUST_BEHIND if clause.past else -JUST_BEFORE
-    along = min(door.along + beside, situation.hallway.end - END_MARGIN)
+    along = min(door.along + beside, situation.corridor.end - END_MARGIN)
     return replace(_go_on(situation, along, _past(clause)), beside=door.door)
 
 
@@ -111,15 +111,15 @@ def _past(clause: Follow) -> str:
 
 
 def _distance_along(distance: Distance, situation: Situation) -> float:
-    """How far to go; not beyond the end of the hallway.
+    """How far to go; not beyond the end of the corridor.
 
     Raises:
-        GroundingError: the hallway is known, and shorter.
+        GroundingError: the corridor is known, and shorter.
     """
-    most = situation.hallway.end - END_MARGIN / 2
+    most = situation.corridor.end - END_MARGIN / 2
     if distance.metres > most and situation.complete:
         raise GroundingError(
-            f"{distance} ahead: the hallway ends after {situation.hallway.end:.1f} m"
+            f"{distance} ahead: the hallway ends after {situation.corridor.end:.1f} m"
         )
     return min(distance.metres, most)
 
@@ -127,17 +127,17 @@ def _distance_along(distance: Distance, situation: Situation) -> float:
 def _go_on(situation: Situation, along: float, where: str) -> Goal:
     return Goal(
         GoalKind.REACH,
-        situation.hallway.place(along),
+        situation.corridor.place(along),
         distance_tolerance=1.0,
         because=f"go on to {where}",
-        hallway=situation.hallway,
+        corridor=situation.corridor,
     )
 
 
 def _turn_here(turning: Turning, situation: Situation) -> Goal:
     """Turn where the clause began, or where there is room for it before the doorway there."""
     doorway = doorway_at(situation.scene, situation.begin)
-    out = 0.0 if doorway is None else min(OUT_OF_DOORWAY, situation.hallway.end / 2)
+    out = 0.0 if doorway is None else min(OUT_OF_DOORWAY, situation.corridor.end / 2)
     pose = compose(situation.begin, (out, 0.0, QUARTERS[turning] * math.pi / 2))
     leaves_door = doorway is not None or _faces_a_door(situation)
     past = PAST_DOORWAY if leaves_door and turning is not Turning.AROUND else 0.0
@@ -153,7 +153,7 @@ def _turn_here(turning: Turning, situation: Situation) -> Goal:
 
 def _faces_a_door(situation: Situation) -> bool:
     """Whether the robot stands right before a door and looks at it."""
-    facing = doors_along(situation.scene, situation.hallway, Side.AHEAD)
+    facing = doors_along(situation.scene, situation.corridor, Side.AHEAD)
     return any(door.along <= RIGHT_BEFORE for door in facing)
 
 
@@ -179,7 +179,7 @@ def _turn_around(clause: Turn, situation: Situation) -> Goal:
         distance_tolerance=1.5,
         heading_tolerance=0.5,
         because=f"turn around at {clause.at or 'the end of the hallway'}",
-        hallway=situation.hallway,
+        corridor=situation.corridor,
     )
 
 
@@ -190,16 +190,16 @@ def _find_junction(
 
     Only junctions that open to the side of the turn count. Without a reference it is the next
     one of any kind. Whether a junction is a corner can hang on an opening that is hard to see; so
-    at the end of a hallway that has none of the kind a robot takes what else leads its way.
+    at the end of a corridor that has none of the kind a robot takes what else leads its way.
 
     Raises:
         GroundingError: there is no such place.
     """
     place = None if reference is None else reference.place
     ordinal = 1 if reference is None else reference.ordinal
-    junctions = junctions_ahead(situation.hallway, place, turning)
+    junctions = junctions_ahead(situation.corridor, place, turning)
     if not junctions and situation.seen_to_end and not situation.complete:
-        junctions = junctions_ahead(situation.hallway, None, turning)
+        junctions = junctions_ahead(situation.corridor, None, turning)
     counted = ordinal > 0 or situation.seen_to_end
     if counted and len(junctions) >= abs(ordinal):
         return junctions[ordinal - 1 if ordinal > 0 else ordinal]
@@ -210,14 +210,14 @@ def _find_junction(
 
 
 def junctions_ahead(
-    hallway: Hallway, place: Place | None = None, turning: Turning | None = None
+    corridor: Corridor, place: Place | None = None, turning: Turning | None = None
 ) -> list[Junction]:
     """The junctions ahead that are such a place and open to the side of the turn, in order."""
     return [
         junction
-        for junction in hallway.junctions
+        for junction in corridor.junctions
         if junction.far > STILL_AHEAD
-        and junction.centre < hallway.end
+        and junction.centre < corridor.end
         and _is_a(junction, place)
         and _opens_to(junction, turning)
     ]
@@ -247,10 +247,10 @@ def _mouth(junction: Junction, turning: Turning, situation: Situation) -> Pose:
     opening = junction.left if turning is Turning.LEFT else junction.right
     assert opening is not None
     side = QUARTERS[turning]
-    inside = situation.hallway.place(
+    inside = situation.corridor.place(
         opening.centre, side * (opening.offset + ARM_DEPTH), side * math.pi / 2
     )
-    arm = hallway(situation.scene, inside).frame
+    arm = corridor_at(situation.scene, inside).frame
     moved = math.dist(arm[:2], inside[:2])
     fits = moved < (opening.far - opening.near) / 2
     inside = arm if fits else inside

@@ -84,9 +84,9 @@ class Look:
 
     def _is_gap(self, situation: Situation, left: bool) -> bool:
         """Whether some of a side, as wide as is faced, is no wall or not seen."""
-        here = situation.hallway.along(self.pose[:2])
+        here = situation.corridor.along(self.pose[:2])
         width = (here - self.half_width, here, here + self.half_width)
-        return any(math.isinf(situation.hallway.side_at(left, along)) for along in width)
+        return any(math.isinf(situation.corridor.side_at(left, along)) for along in width)
 
     def goal(self, situation: Situation, what: object) -> Goal:
         """Turn there; or come out of the doorway to look."""
@@ -148,5 +148,5 @@ def _look(situation: Situation) -> Look | None:
 
 
 def _looks_round(situation: Situation) -> list[Look]:
-    axis = (*situation.begin[:2], situation.hallway.frame[2])
+    axis = (*situation.begin[:2], situation.corridor.frame[2])
     return [Look(compose(axis, (0.0, 0.0, turn)), side) for side, turn in ROUND_ABOUT.items()]

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from semnav_env.commands.references import DoorReference, Side
+from semnav_env.features.corridor import Corridor, corridor_at
 from semnav_env.features.frames import Pose, compose
-from semnav_env.features.hallway import Hallway, hallway
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.ways import Way
@@ -17,13 +17,13 @@ LOOK_AHEAD = 4.0
 """How far ahead of the robot the goal of a search lies, metres."""
 
 END_MARGIN = 1.0
-"""How far before the end of a hallway the robot's centre stops, metres."""
+"""How far before the end of a corridor the robot's centre stops, metres."""
 
 THERE = 0.45
 """So near the place to look from a robot has come to it, metres."""
 
 AT_END = END_MARGIN + THERE
-"""Within this distance of its end a hallway has been seen to its end, metres."""
+"""Within this distance of its end a corridor has been seen to its end, metres."""
 
 LOOKED_AT = math.radians(40.0)
 """Who is turned by less from a direction has looked there, radians."""
@@ -47,7 +47,7 @@ class Situation:
         pose: how far the robot has come since then, in the scene's frame; and which way it looks
             now, or has looked since then if that is where to look.
         complete: the scene holds everything there is.
-        after_hallway: the clause before was "go down the hallway".
+        after_corridor: the clause before was "go down the hallway".
         way: that was pointed out or driven, for a clause that needs one.
         beside: the door that the clause before led to, and not through.
         back: `begin` is turned around, see `towards`.
@@ -57,26 +57,26 @@ class Situation:
     begin: Pose
     pose: Pose
     complete: bool = False
-    after_hallway: bool = False
+    after_corridor: bool = False
     way: Way | None = None
     beside: Door | None = None
     back: bool = False
 
     @cached_property
-    def hallway(self) -> Hallway:
-        """The hallway that the robot looked along when the clause began."""
-        return hallway(self.scene, self.begin)
+    def corridor(self) -> Corridor:
+        """The corridor that the robot looked along when the clause began."""
+        return corridor_at(self.scene, self.begin)
 
     @cached_property
     def progress(self) -> float:
-        """How far along the hallway the robot has come, metres."""
-        return self.hallway.along((self.pose[0], self.pose[1]))
+        """How far along the corridor the robot has come, metres."""
+        return self.corridor.along((self.pose[0], self.pose[1]))
 
     @property
     def seen_to_end(self) -> bool:
-        """Whether nothing of the hallway is left to be looked at."""
+        """Whether nothing of the corridor is left to be looked at."""
         looked = not self.back or self.looks_along(self.begin[2])
-        return self.complete or (looked and self.progress > self.hallway.end - AT_END)
+        return self.complete or (looked and self.progress > self.corridor.end - AT_END)
 
     def towards(self, reference: object) -> Situation:
         """The same for one who turns to what is spoken of: around, if that is behind."""
@@ -92,24 +92,24 @@ class Situation:
         return Goal(GoalKind.REACH, pose, None, 0.0, 0.0, f"looking for {what}")
 
     def seek(self, what: object, at_most: float = math.inf) -> Goal:
-        """Go on along the hallway and keep looking for something; first turn to where it may be.
+        """Go on along the corridor and keep looking for something; first turn to where it may be.
 
         Args:
             what: is being looked for.
-            at_most: how far along the hallway to go, metres.
+            at_most: how far along the corridor to go, metres.
         """
         if self.back and not self.looks_along(self.begin[2]):
             return self.turn_to(self.begin[2], what)
         along = min(self.progress + LOOK_AHEAD, self._farthest(at_most))
-        pose = self.hallway.place(along)
-        return Goal(GoalKind.SEEK, pose, because=f"looking for {what}", hallway=self.hallway)
+        pose = self.corridor.place(along)
+        return Goal(GoalKind.SEEK, pose, because=f"looking for {what}", corridor=self.corridor)
 
     def has_come(self, at_most: float) -> bool:
         """Whether the robot has gone as far as `seek` would lead it."""
         return self.progress > self._farthest(at_most) - THERE
 
     def _farthest(self, at_most: float) -> float:
-        return min(self.hallway.end - END_MARGIN, at_most)
+        return min(self.corridor.end - END_MARGIN, at_most)
 
     def missing(self, what: str, count: int) -> GroundingError:
         """The error for something that is not there: "no third door: the hallway ended after 2".

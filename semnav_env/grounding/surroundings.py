@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from semnav_env.features.corridor import doorway_at
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_angle
-from semnav_env.features.hallway import doorway_at
 from semnav_env.features.scene import Door, Scene, ends_of
 
 SHARES = (0.2, 0.5, 0.8)

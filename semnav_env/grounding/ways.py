@@ -20,7 +20,7 @@ MISPLACED = (1.5, 1.0)
 it less than from door to door."""
 
 CROSSED = 0.5
-"""A robot that is farther behind a door faces another one, metres: less than half a hallway."""
+"""A robot that is farther behind a door faces another one, metres: less than half a corridor."""
 
 ACROSS = math.radians(30.0)
 """And so far it may be turned."""
@@ -57,7 +57,7 @@ class Guide(Protocol):
 
 
 @dataclass(frozen=True)
-class Told:
+class KnownWays:
     """A guide that has pointed out all ways beforehand, by the number of their clause."""
 
     ways: Mapping[int, Way]

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from semnav_env.maps.faults import faults
-from semnav_env.maps.finding import Finding
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.leaks import leaks
-from semnav_env.maps.promises import broken_promises
+from semnav_env.maps.gaps import leaks
+from semnav_env.maps.plan_fault import PlanFault
+from semnav_env.maps.reachability import broken_promises
 from semnav_env.maps.rules import FloorPlanError, check_plan
 from semnav_env.robots import WHEELCHAIR, RobotSpec
 
 
-def check(plan: FloorPlan, robot: RobotSpec = WHEELCHAIR) -> list[Finding]:
+def check(plan: FloorPlan, robot: RobotSpec = WHEELCHAIR) -> list[PlanFault]:
     """Everything found wrong with a plan; an empty list if nothing.
 
     A plan that breaks a rule gets that one finding. Else it is searched for leaks (to the outside,
@@ -26,5 +26,5 @@ def check(plan: FloorPlan, robot: RobotSpec = WHEELCHAIR) -> list[Finding]:
     try:
         check_plan(plan)
     except FloorPlanError as error:
-        return [Finding(plan.name, str(error))]
+        return [PlanFault(plan.name, str(error))]
     return [*leaks(plan), *faults(plan), *broken_promises(plan, robot)]

@@ -16,7 +16,7 @@ from shapely import Polygon, union_all
 
 from semnav_env.features.plot import check_suffix
 from semnav_env.maps.doorways import TOUCH
-from semnav_env.maps.draw_findings import (
+from semnav_env.maps.draw_faults import (
     LINE_HEIGHT,
     MARK_ROOM,
     columns_of,
@@ -24,8 +24,8 @@ from semnav_env.maps.draw_findings import (
     mark,
     write_columns,
 )
-from semnav_env.maps.finding import Finding
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
+from semnav_env.maps.plan_fault import PlanFault
 
 COLOURS = {
     Material.WALL: "black",
@@ -103,7 +103,7 @@ def _free_place(text: Text, kept: Sequence[Bbox], figure: Figure) -> Bbox | None
 
 
 def save_picture(
-    plan: FloorPlan, path: str | Path, dpi: int = 100, findings: Sequence[Finding] = ()
+    plan: FloorPlan, path: str | Path, dpi: int = 100, findings: Sequence[PlanFault] = ()
 ) -> None:
     """Write a picture of a plan; the suffix of `path` says the format (png, svg, pdf).
 

@@ -9,8 +9,8 @@ import shapely.ops
 from shapely import LineString, Point, Polygon, STRtree
 
 from semnav_env.maps.doorways import TOUCH
-from semnav_env.maps.finding import Finding, point_in, written
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
+from semnav_env.maps.plan_fault import PlanFault, point_in, written
 
 LEAST_OVERLAP = 0.05
 """Regions that share less than so many square metres only touch."""
@@ -21,7 +21,7 @@ DOORSTEP = 0.3
 WALLS = (Material.WALL, Material.GLASS)
 
 
-def faults(plan: FloorPlan) -> Iterator[Finding]:
+def faults(plan: FloorPlan) -> Iterator[PlanFault]:
     """All of them."""
     yield from _overlaps(plan)
     for door in plan.doors:
@@ -31,7 +31,7 @@ def faults(plan: FloorPlan) -> Iterator[Finding]:
     yield from _outside(plan)
 
 
-def _overlaps(plan: FloorPlan) -> Iterator[Finding]:
+def _overlaps(plan: FloorPlan) -> Iterator[PlanFault]:
     """Rooms share no floor with each other, with an area or with a corridor."""
     regions = [*plan.rooms, *plan.areas, *plan.corridors]
     enclosed = len(plan.rooms) + len(plan.areas)
@@ -41,19 +41,19 @@ def _overlaps(plan: FloorPlan) -> Iterator[Finding]:
             shared = region.polygon.intersection(regions[j].polygon)
             if j > i and shared.area > LEAST_OVERLAP:
                 problem = f"overlaps {regions[j].name} by {shared.area:.2f} m2; part the two"
-                yield Finding(region.name, problem, point_in(shared))
+                yield PlanFault(region.name, problem, point_in(shared))
 
 
-def _unframed(door: PlanDoor, plan: FloorPlan) -> Iterator[Finding]:
+def _unframed(door: PlanDoor, plan: FloorPlan) -> Iterator[PlanFault]:
     """Each jamb is a wall's or a pane's, not a cabinet's."""
     for jamb in (door.start, door.end):
         owners = {s.material for s in _surfaces(plan, Point(jamb).buffer(TOUCH))}
         if not owners & set(WALLS):
             problem = f"this door does not lie in a wall at {written(jamb)}; draw one"
-            yield Finding(door.name, problem, jamb)
+            yield PlanFault(door.name, problem, jamb)
 
 
-def _obstructed(door: PlanDoor, plan: FloorPlan) -> Iterator[Finding]:
+def _obstructed(door: PlanDoor, plan: FloorPlan) -> Iterator[PlanFault]:
     """Nothing but its leaf stands in a doorway or right before it."""
     opening = LineString((door.start, door.end))
     share = min(0.4, 2 * TOUCH / door.width)
@@ -63,7 +63,7 @@ def _obstructed(door: PlanDoor, plan: FloorPlan) -> Iterator[Finding]:
         if surface.material is not Material.LEAF and (door.open or not _fills(surface, opening)):
             line = LineString(surface.points).intersection(step)
             problem = f"{surface.material} at {written(point_in(line))} stands in this doorway"
-            yield Finding(door.name, problem, point_in(line))
+            yield PlanFault(door.name, problem, point_in(line))
 
 
 def _fills(surface: Surface, opening: LineString) -> bool:
@@ -71,7 +71,7 @@ def _fills(surface: Surface, opening: LineString) -> bool:
     return bool(LineString(surface.points).buffer(TOUCH).covers(opening))
 
 
-def _pointless(door: PlanDoor, plan: FloorPlan) -> Iterator[Finding]:
+def _pointless(door: PlanDoor, plan: FloorPlan) -> Iterator[PlanFault]:
     """A door leads from one region to another."""
     (x1, y1), (x2, y2) = door.start, door.end
     nx, ny = (y2 - y1) / door.width, (x1 - x2) / door.width
@@ -80,10 +80,10 @@ def _pointless(door: PlanDoor, plan: FloorPlan) -> Iterator[Finding]:
     before, behind = ([r for r in plan.regions if r.polygon.covers(side)] for side in sides)
     if before and {r.name for r in before} == {r.name for r in behind}:
         problem = f"this door leads from {before[0].name} to itself; put it in a wall"
-        yield Finding(door.name, problem, door.midpoint)
+        yield PlanFault(door.name, problem, door.midpoint)
 
 
-def _outside(plan: FloorPlan) -> Iterator[Finding]:
+def _outside(plan: FloorPlan) -> Iterator[PlanFault]:
     """Furniture stands in the building."""
     inside = plan.boundary.buffer(TOUCH)
     shapely.prepare(inside)
@@ -92,7 +92,7 @@ def _outside(plan: FloorPlan) -> Iterator[Finding]:
         if surface.material is Material.FURNITURE and not inside.covers(line):
             at = point_in(line.difference(inside))
             problem = f"furniture at {written(at)} reaches out of the building; move it"
-            yield Finding(plan.name, problem, at)
+            yield PlanFault(plan.name, problem, at)
 
 
 def _surfaces(plan: FloorPlan, area: Polygon) -> list[Surface]:

@@ -38,7 +38,7 @@ class Geodesic:
     Args:
         floor_plan: where.
         comfort: how far from everything solid ways would rather keep, metres. Nearer to it they
-            count for more, so that they run in the middle of hallways; 0 for the shortest ways.
+            count for more, so that they run in the middle of corridors; 0 for the shortest ways.
         clearance: from everything solid that every way keeps, metres.
     """
 

@@ -44,7 +44,7 @@ class Column:
 
 
 @dataclass(frozen=True)
-class Entry:
+class PanelEntry:
     """A clause as it is set: its lines, and below them what the active one was taken to mean."""
 
     index: int
@@ -120,17 +120,17 @@ def _nearby(frame: Frame) -> range:
     )
 
 
-def _entry(inner: Column, frame: Frame, index: int) -> Entry:
+def _entry(inner: Column, frame: Frame, index: int) -> PanelEntry:
     active = index == frame.active_clause
     notes: tuple[str, ...] = ()
     if active and frame.goal is not None and frame.goal.because:
         notes = inner.wrapped(frame.goal.because, 11.0, most=4)
-    return Entry(index, inner.wrapped(frame.command[index], 13.5, active), notes)
+    return PanelEntry(index, inner.wrapped(frame.command[index], 13.5, active), notes)
 
 
-def _fitting(entries: Sequence[Entry], active: int, room: float) -> list[Entry]:
+def _fitting(entries: Sequence[PanelEntry], active: int, room: float) -> list[PanelEntry]:
     """As many clauses as fit, in order, those nearest to the active one first."""
-    shown: list[Entry] = []
+    shown: list[PanelEntry] = []
     for entry in sorted(entries, key=lambda entry: (abs(entry.index - active), -entry.index)):
         room -= entry.height
         if room < 0 and shown:
@@ -139,7 +139,7 @@ def _fitting(entries: Sequence[Entry], active: int, room: float) -> list[Entry]:
     return sorted(shown, key=lambda entry: entry.index)
 
 
-def _draw_entry(column: Column, inner: Column, y: float, entry: Entry, frame: Frame) -> None:
+def _draw_entry(column: Column, inner: Column, y: float, entry: PanelEntry, frame: Frame) -> None:
     canvas, active = column.canvas, frame.active_clause
     if entry.index == active:
         ground = Viewport(column.left - 8.0, y, column.width + 16.0, entry.height - 3.0)

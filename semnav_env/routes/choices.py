@@ -22,8 +22,8 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
+from semnav_env.features.corridor import Corridor
 from semnav_env.features.frames import FloatArray, points_to_local
-from semnav_env.features.hallway import Hallway
 from semnav_env.grounding.doors import CountedDoor, doors_along
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.situation import Situation
@@ -38,10 +38,10 @@ ASIDE = (Turning.LEFT, Turning.RIGHT)
 DEGREES = (45, 135)
 
 LEFT_BY = 0.9
-"""A route leaves the hallway where it points so far away from the hallway's axis, radians."""
+"""A route leaves the corridor where it points so far away from the corridor's axis, radians."""
 
 BESIDE = 0.3
-"""It leaves the hallway as well where it goes so far beyond its side, metres."""
+"""It leaves the corridor as well where it goes so far beyond its side, metres."""
 
 NEAR_END = 1.5
 """A route that ends so near to a door may lead to it, metres."""
@@ -66,7 +66,7 @@ class Choices:
 
         Those of a group mean the same, the shortest first; not all of them need be unambiguous.
         """
-        seen = self.situation.hallway
+        seen = self.situation.corridor
         doors = doors_along(self.situation.scene, seen)
         for group in (
             *self._doors(doors),
@@ -85,8 +85,8 @@ class Choices:
             elif self.door is None and self._ends_near(door):
                 yield [GoToDoor(name, Approach.TO) for name in names]
 
-    def _along(self, seen: Hallway, doors: Sequence[CountedDoor]) -> Iterator[Sequence[Clause]]:
-        """As far as the route follows the hallway: to its end, or to or past what is near there."""
+    def _along(self, seen: Corridor, doors: Sequence[CountedDoor]) -> Iterator[Sequence[Clause]]:
+        """As far as the route follows the corridor: to its end, or to or past what is near it."""
         yield from ([Follow()], [Follow(END)])
         stop = self._follows(seen)
         for names in self._near(stop, seen, doors):
@@ -96,9 +96,9 @@ class Choices:
             yield [Follow(Distance(round(2.0 * stop) / 2.0))]
 
     def _near(
-        self, stop: float, seen: Hallway, doors: Sequence[CountedDoor]
+        self, stop: float, seen: Corridor, doors: Sequence[CountedDoor]
     ) -> list[list[DoorReference | PlaceReference]]:
-        """The names of the last door or junction before a place in the hallway, and the next."""
+        """The names of the last door or junction before a place in the corridor, and the next."""
         marks: list[tuple[float, list[DoorReference | PlaceReference]]] = []
         marks += ((door.along, [*names_of_door(door, doors)]) for door in doors)
         marks += ((one.centre, [*names_of_junction(one, seen)]) for one in junctions_ahead(seen))
@@ -106,8 +106,8 @@ class Choices:
         first = max(0, sum(along < stop for along, _ in marks) - 1)
         return [names for _, names in marks[first : first + 2]]
 
-    def _follows(self, seen: Hallway) -> float:
-        """How far along the hallway the route follows it, metres."""
+    def _follows(self, seen: Corridor) -> float:
+        """How far along the corridor the route follows it, metres."""
         local = points_to_local(seen.frame, self.way[:, :2])
         aside = np.abs(local[:, 1]) > seen.half_width + BESIDE
         away = np.cos(self.way[:, 2] - seen.frame[2]) < math.cos(LEFT_BY)
@@ -118,7 +118,7 @@ class Choices:
         return math.dist(self.way[-1, :2], door.door.midpoint) <= NEAR_END
 
 
-def _turns(seen: Hallway) -> Iterator[Sequence[Clause]]:
+def _turns(seen: Corridor) -> Iterator[Sequence[Clause]]:
     """At every junction that leads aside, and here."""
     for turning in ASIDE:
         for junction in junctions_ahead(seen, None, turning):

@@ -212,7 +212,7 @@ def _goal(clause: Clause, told: Told, situation: Situation) -> Goal | None:
     """Where a clause leads from there; None if nowhere."""
     bare = _is_on_the_spot(clause) and clause != Turn(Turning.AROUND)
     if bare and told.clauses and _is_past(told.clauses[-1]):
-        situation = replace(situation, after_hallway=True)
+        situation = replace(situation, after_corridor=True)
     try:
         return goal_of(clause, situation)
     except GroundingError:

@@ -1,4 +1,4 @@
-"""What the doors and junctions of a hallway may be called, by the rules of reference."""
+"""What the doors and junctions of a corridor may be called, by the rules of reference."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from semnav_env.commands import (
     PlaceReference,
     Turning,
 )
-from semnav_env.features.hallway import Hallway, Junction
+from semnav_env.features.corridor import Corridor, Junction
 from semnav_env.grounding.doors import CountedDoor
 from semnav_env.grounding.junctions import junctions_ahead
 
@@ -21,7 +21,7 @@ KINDS = (Place.CORNER, Place.T_JUNCTION, Place.INTERSECTION, Place.TURNING, Plac
 
 
 def names_of_door(target: CountedDoor, doors: Sequence[CountedDoor]) -> Iterator[DoorReference]:
-    """What a door may be called among the doors of a hallway.
+    """What a door may be called among the doors of a corridor.
 
     The side is left out only where it makes no difference: where the door has the same number on
     its side as among all doors.
@@ -39,11 +39,11 @@ def names_of_door(target: CountedDoor, doors: Sequence[CountedDoor]) -> Iterator
 
 
 def names_of_junction(
-    target: Junction, hallway: Hallway, turning: Turning | None = None
+    target: Junction, corridor: Corridor, turning: Turning | None = None
 ) -> Iterator[PlaceReference]:
-    """What a junction of a hallway may be called, for a turn to one side or for none."""
+    """What a junction of a corridor may be called, for a turn to one side or for none."""
     for kind in KINDS:
-        junctions = junctions_ahead(hallway, kind, turning)
+        junctions = junctions_ahead(corridor, kind, turning)
         if target not in junctions:
             continue
         for ordinal in _ordinals(junctions.index(target), len(junctions)):

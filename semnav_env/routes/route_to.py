@@ -28,7 +28,7 @@ SMOOTH = 7
 
 
 def comfortable(floor_plan: FloorPlan) -> Geodesic:
-    """The ways that routes take: short ones in the middle of hallways."""
+    """The ways that routes take: short ones in the middle of corridors."""
     return Geodesic(floor_plan, COMFORT)
 
 

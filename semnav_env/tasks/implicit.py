@@ -1,4 +1,4 @@
-"""Steps that go without saying: who is in a room leaves it before counting the hallway's doors.
+"""Steps that go without saying: who is in a room leaves it before counting the corridor's doors.
 
 MacMahon, Stankiewicz and Kuipers, "Walk the Talk" (AAAI 2006), infer such actions from what route
 instructions leave out.

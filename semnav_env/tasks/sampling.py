@@ -21,8 +21,8 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
+from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose, to_local, wrap_angle
-from semnav_env.features.hallway import hallway
 from semnav_env.grounding import Goal, GoalKind, GroundingError
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import is_clear, placement_error, sample_pose
@@ -40,7 +40,7 @@ START_TRIES = 200
 """Start poses drawn before any free one will do."""
 
 LEAST_AHEAD, WIDEST_HALF = 3.0, 1.5
-"""A random start has so much of a hallway ahead, no wider than twice that, metres; if there is any
+"""A random start has so much of a corridor ahead, no wider than twice that, metres; if there is any
 such place."""
 
 OUTSIDE = 0.6
@@ -56,7 +56,7 @@ def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generat
     region = corridors[rng.integers(len(corridors))] if corridors else None
     for attempt in count():
         pose = sample_pose(floor_plan, robot, rng, region)
-        axis = hallway(floor_plan.scene, pose).frame[2]
+        axis = corridor_at(floor_plan.scene, pose).frame[2]
         start = (*pose[:2], wrap_angle(axis + rng.uniform(-0.2, 0.2)))
         along = looks_along(floor_plan, pose)
         sees = along and not in_junction(floor_plan, start) and not beside_door(floor_plan, start)
@@ -66,8 +66,8 @@ def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generat
 
 
 def looks_along(floor_plan: FloorPlan, pose: Pose) -> bool:
-    """Whether there is a hallway ahead that one would speak of, rather than the wall of one."""
-    seen = hallway(floor_plan.scene, pose)
+    """Whether there is a corridor ahead that one would speak of, rather than the wall of one."""
+    seen = corridor_at(floor_plan.scene, pose)
     return seen.end > LEAST_AHEAD and seen.half_width < WIDEST_HALF
 
 
@@ -78,7 +78,7 @@ def in_junction(floor_plan: FloorPlan, pose: Pose) -> bool:
     knows the plan takes it for the first.
     """
     x, y, heading = pose
-    views = (hallway(floor_plan.scene, (x, y, heading + turn)) for turn in (0.0, math.pi))
+    views = (corridor_at(floor_plan.scene, (x, y, heading + turn)) for turn in (0.0, math.pi))
     mouths = [o for view in views for junction in view.junctions for o in junction.openings]
     return any(mouth.near < OUTSIDE and mouth.far > -OUTSIDE for mouth in mouths)
 

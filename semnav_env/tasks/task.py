@@ -12,7 +12,7 @@ import shapely
 
 from semnav_env.commands import Command, parse
 from semnav_env.commands.language import language_of
-from semnav_env.directory import Directory
+from semnav_env.directory import RoomGuide
 from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.maps.floor_plan import FloorPlan
@@ -129,7 +129,7 @@ class CommandTask:
     def _objection(self, command: Command, start: Pose) -> str:
         """Why a command cannot be carried out from there; empty if it can."""
         try:
-            guide = Directory(self.floor_plan, command, self.geodesic)
+            guide = RoomGuide(self.floor_plan, command, self.geodesic)
             plan_goals(self.floor_plan, command, start, guide)
         except GroundingError as error:
             return str(error)

@@ -13,9 +13,9 @@ from semnav_env.features.reference.corridors import find_corridors
 from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.reference.walls import Piece
 from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Arc, Corner, CornerKind, Corridor, Wall
+from semnav_env.features.scene import Arc, Corner, CornerKind, CorridorProbe, Wall
 from semnav_env.features.settings import ExtractorSettings
-from semnav_env.truth.runs import Run
+from semnav_env.truth.runs import WallRun
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Joint:
         return Corner(self.point, self.kind)
 
 
-def find_joints(run: Run, least_turn: float) -> list[Joint]:
+def find_joints(run: WallRun, least_turn: float) -> list[Joint]:
     """The corners of a run in beam order.
 
     Walls that meet at a turn of at least `least_turn` radians make a full corner: an outer one
@@ -64,7 +64,7 @@ def _meeting(a: Wall | Arc, b: Wall | Arc, least_turn: float) -> Joint | None:
 
 def true_corridors(
     scan: Scan, walls: list[Wall], joints: list[Joint], settings: ExtractorSettings
-) -> tuple[Corridor, ...]:
+) -> tuple[CorridorProbe, ...]:
     """The extractor's corridors (its NumPy reference) of the walls that it would take for walls.
 
     Args:

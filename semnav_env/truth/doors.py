@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local
-from semnav_env.features.scene import Door, Leaf
+from semnav_env.features.scene import Door, SceneLeaf
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor
 from semnav_env.truth.sweep import Outline, distances_along, points_at
 
@@ -99,7 +99,7 @@ def visible_share(
     return float(min(1.0, steps[seen].sum() / math.dist(start, end)))
 
 
-def _leaf(door: OpenDoor, lidar: Pose, start: Point, end: Point) -> Leaf:
+def _leaf(door: OpenDoor, lidar: Pose, start: Point, end: Point) -> SceneLeaf:
     assert door.hinge is not None
     assert door.tip is not None
     hinge, tip = to_local(lidar, door.hinge), to_local(lidar, door.tip)
@@ -107,4 +107,4 @@ def _leaf(door: OpenDoor, lidar: Pose, start: Point, end: Point) -> Leaf:
     other = end if at_start else start
     closed = math.atan2(other[1] - hinge[1], other[0] - hinge[0])
     turned = math.remainder(math.atan2(tip[1] - hinge[1], tip[0] - hinge[0]) - closed, math.tau)
-    return Leaf(at_start, -turned if at_start else turned)
+    return SceneLeaf(at_start, -turned if at_start else turned)

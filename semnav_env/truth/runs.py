@@ -23,7 +23,7 @@ STRAIGHT = 0.01
 
 
 @dataclass(frozen=True)
-class Run:
+class WallRun:
     """Walls and arcs in beam order, each beginning where the one before it ends.
 
     Attributes:
@@ -35,7 +35,7 @@ class Run:
     closed: bool = False
 
 
-def cut_into_runs(outline: Outline, shapes: Shapes, lidar: Pose, spec: LidarSpec) -> list[Run]:
+def cut_into_runs(outline: Outline, shapes: Shapes, lidar: Pose, spec: LidarSpec) -> list[WallRun]:
     """The walls and arcs of an outline in the frame of the lidar, whose pose is given."""
     groups = list(_connected(outline))
     count = len(outline.owners)
@@ -50,7 +50,7 @@ def cut_into_runs(outline: Outline, shapes: Shapes, lidar: Pose, spec: LidarSpec
         if not closed:
             pieces[0] = _flagged(pieces[0], "start", outline, group[0], -1)
             pieces[-1] = _flagged(pieces[-1], "end", outline, group[-1], 1)
-        runs.append(Run(tuple(pieces), closed))
+        runs.append(WallRun(tuple(pieces), closed))
     return runs
 
 

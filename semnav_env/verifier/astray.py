@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from semnav_env.commands.clauses import Clause, Turn
+from semnav_env.features.corridor import SideOpening
 from semnav_env.features.frames import Pose, to_local
-from semnav_env.features.hallway import Opening
 from semnav_env.grounding.goal import Goal
 
 ASTRAY = 1.2
@@ -12,17 +12,17 @@ ASTRAY = 1.2
 
 
 def went_astray(clause: Clause, goal: Goal, pose: Pose) -> bool:
-    """Whether the robot left the hallway by an arm that the clause does not name.
+    """Whether the robot left the corridor by an arm that the clause does not name.
 
     Args:
         clause: under way.
         goal: of that clause, on the true scene.
         pose: of the robot's centre, world frame.
     """
-    if goal.hallway is None:
+    if goal.corridor is None:
         return False
-    along, offset = to_local(goal.hallway.frame, (pose[0], pose[1]))
-    for junction in goal.hallway.junctions if abs(offset) > ASTRAY else ():
+    along, offset = to_local(goal.corridor.frame, (pose[0], pose[1]))
+    for junction in goal.corridor.junctions if abs(offset) > ASTRAY else ():
         for opening in (junction.left, junction.right):
             if opening is None or not opening.near < along < opening.far:
                 continue
@@ -33,7 +33,7 @@ def went_astray(clause: Clause, goal: Goal, pose: Pose) -> bool:
     return goal.junction is not None and along > goal.junction.far + 2 * ASTRAY
 
 
-def _names(clause: Clause, opening: Opening) -> bool:
+def _names(clause: Clause, opening: SideOpening) -> bool:
     return isinstance(clause, Turn) and clause.turning.value == (
         "left" if opening.left else "right"
     )

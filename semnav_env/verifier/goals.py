@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from semnav_env.commands import Command
-from semnav_env.directory import Directory
+from semnav_env.directory import RoomGuide
 from semnav_env.features.frames import Point, Pose
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, GoalKind
@@ -23,7 +23,7 @@ def plan_goals(
         floor_plan: the truth.
         command: what to do.
         start: from where.
-        guide: points out the ways to rooms; a `Directory` of the floor plan if not given.
+        guide: points out the ways to rooms; a `RoomGuide` of the floor plan if not given.
 
     Raises:
         GroundingError: a clause cannot be carried out.
@@ -35,7 +35,7 @@ def goals_in_turn(
     floor_plan: FloorPlan, command: Command, start: Pose, guide: Guide | None = None
 ) -> Iterator[Goal]:
     """As `plan_goals`, but the goals before the clause that cannot be carried out come first."""
-    guide = Directory(floor_plan, command) if guide is None else guide
+    guide = RoomGuide(floor_plan, command) if guide is None else guide
     follower = Follower(command, complete=True, guide=guide)
     follower.start(floor_plan.scene, start)
     while not follower.done:

@@ -10,13 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from semnav_env.commands import Command, encode
-from semnav_env.directory import Directory
+from semnav_env.directory import RoomGuide
 from semnav_env.features.frames import FloatArray, Pose, path_length
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, GoalKind, first_crossed
 from semnav_env.grounding.situation import GroundingError
-from semnav_env.grounding.ways import Told
+from semnav_env.grounding.ways import KnownWays
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor
 from semnav_env.maps.geodesic import Geodesic, WaysTo
 from semnav_env.verifier.astray import went_astray
@@ -77,7 +77,7 @@ class Verifier:
         self.floor_plan = floor_plan
         self.command = command
         self.start = start
-        directory = Directory(floor_plan, command, geodesic)
+        directory = RoomGuide(floor_plan, command, geodesic)
         self.planned_goals: tuple[Goal, ...] = ()
         try:
             for goal in goals_in_turn(floor_plan, command, start, directory):
@@ -87,7 +87,7 @@ class Verifier:
                 raise
         self.ways = dict(directory.ways)
         self.tokens = encode(command, floor_plan.room_names)
-        self.follower = Follower(command, complete=True, guide=Told(self.ways))
+        self.follower = Follower(command, complete=True, guide=KnownWays(self.ways))
         self.follower.start(floor_plan.scene, start)
         self.failure: Verdict | None = None
         self.crossed: list[str] = []

@@ -11,8 +11,8 @@ from semnav_env.maps.floor_plan import FloorPlan, Material, Region, Surface
 from semnav_env.maps.generator.boxes import Box
 from semnav_env.maps.generator.lots import Lot
 from semnav_env.maps.generator.openings import Doorway
-from semnav_env.maps.promises import SEARCHES
 from semnav_env.maps.reach import reach
+from semnav_env.maps.reachability import SEARCHES
 from semnav_env.robots import WHEELCHAIR
 
 NARROW = 0.7

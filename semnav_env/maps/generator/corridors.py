@@ -26,7 +26,7 @@ KINDS = {2: "corner", 3: "T-junction", 4: "crossing"}
 
 
 @dataclass(frozen=True)
-class Corridor:
+class OfficeCorridor:
     """A straight corridor.
 
     Attributes:
@@ -41,13 +41,13 @@ class Corridor:
     depths: tuple[int, int]
     blind: tuple[bool, bool]
 
-    def transposed(self) -> Corridor:
+    def transposed(self) -> OfficeCorridor:
         """With x and y exchanged."""
         return replace(self, box=self.box.transposed(), along_x=not self.along_x)
 
 
 @dataclass(frozen=True)
-class Junction:
+class OfficeJunction:
     """Where corridors meet.
 
     Attributes:
@@ -78,7 +78,7 @@ class Lines:
 
 def draw_corridors(
     rng: Generator, settings: OfficeSettings
-) -> tuple[tuple[Corridor, ...], tuple[Junction, ...]]:
+) -> tuple[tuple[OfficeCorridor, ...], tuple[OfficeJunction, ...]]:
     """Corridors and their junctions: along x first, then across."""
     (fewest, most), (fewest_rows, most_rows) = settings.crossings
     columns = int(rng.integers(fewest, most + 1))
@@ -182,7 +182,7 @@ def _is_leaf(edge: Edge, edges: set[Edge]) -> bool:
 
 def _runs(
     rng: Generator, edges: set[Edge], lines: tuple[Lines, Lines], along_x: bool
-) -> list[Corridor]:
+) -> list[OfficeCorridor]:
     """The longest straight stretches in one direction."""
     step = (1, 0) if along_x else (0, 1)
     corridors = []
@@ -202,7 +202,7 @@ def _corridor(
     blind: tuple[bool, ...],
     lines: tuple[Lines, Lines],
     along_x: bool,
-) -> Corridor:
+) -> OfficeCorridor:
     """From one node to another: to the far side of what it meets there, or a stub beyond."""
     own, other = lines if along_x else lines[::-1]
     first, last = (node[not along_x] for node in ends)
@@ -214,7 +214,7 @@ def _corridor(
     half = own.widths[i] // 2
     span = other.at[first] - low, other.at[last] + high
     box = box_of(along_x, span, (own.at[i] - half, own.at[i] + half))
-    return Corridor(box, along_x, own.depths[i], (blind[0], blind[1]))
+    return OfficeCorridor(box, along_x, own.depths[i], (blind[0], blind[1]))
 
 
 def _moved(node: Node, step: Node, times: int = 1) -> Node:
@@ -227,7 +227,7 @@ def _crosses(node: Node, edges: set[Edge], along_x: bool) -> bool:
     return (node, _moved(node, step)) in edges or (_moved(node, step, -1), node) in edges
 
 
-def _junctions(edges: set[Edge], lines: tuple[Lines, Lines]) -> list[Junction]:
+def _junctions(edges: set[Edge], lines: tuple[Lines, Lines]) -> list[OfficeJunction]:
     rows, columns = lines
     degrees = Counter(node for edge in edges for node in edge)
     junctions = []
@@ -238,5 +238,5 @@ def _junctions(edges: set[Edge], lines: tuple[Lines, Lines]) -> list[Junction]:
                 for line, i in zip((columns, rows), node, strict=True)
             )
             box = Box(x - half_x, y - half_y, x + half_x, y + half_y)
-            junctions.append(Junction(box, degrees[node]))
+            junctions.append(OfficeJunction(box, degrees[node]))
     return junctions

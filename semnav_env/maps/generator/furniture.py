@@ -9,8 +9,8 @@ from numpy.random import Generator
 from semnav_env.maps.floor_plan import Material, Surface
 from semnav_env.maps.generator.boxes import Box, Span, box_of, is_free
 from semnav_env.maps.generator.chance import centimetres, chance
-from semnav_env.maps.generator.corridors import Corridor, Junction
-from semnav_env.maps.generator.lots import Lot, Wall
+from semnav_env.maps.generator.corridors import OfficeCorridor, OfficeJunction
+from semnav_env.maps.generator.lots import Lot, OfficeWall
 from semnav_env.maps.generator.openings import NIB, Doorway, lanes
 from semnav_env.maps.generator.settings import OfficeSettings
 
@@ -99,17 +99,17 @@ def _pieces(
         yield table
 
 
-def _inner_walls(lot: Lot) -> Iterator[Wall]:
+def _inner_walls(lot: Lot) -> Iterator[OfficeWall]:
     """The walls of a room, as seen from within; not the open front of an area."""
     for along_x in (True, False):
         low, high = lot.box.span(not along_x)
         for at, inward in ((low, 1), (high, -1)):
             is_front = along_x == lot.front.along_x and at == lot.front.at
             if not (is_front and lot.open):
-                yield Wall(along_x, at, lot.box.span(along_x), inward)
+                yield OfficeWall(along_x, at, lot.box.span(along_x), inward)
 
 
-def _along(rng: Generator, settings: OfficeSettings, wall: Wall) -> Iterator[Box]:
+def _along(rng: Generator, settings: OfficeSettings, wall: OfficeWall) -> Iterator[Box]:
     """Pieces in a row along a wall, with gaps between them."""
     along = wall.span[0] + GAP
     while along < wall.span[1]:
@@ -147,8 +147,8 @@ def _inside(inner: Box, outer: Box) -> bool:
 def line_corridors(
     rng: Generator,
     settings: OfficeSettings,
-    corridors: Sequence[Corridor],
-    junctions: Sequence[Junction],
+    corridors: Sequence[OfficeCorridor],
+    junctions: Sequence[OfficeJunction],
     lots: Sequence[Lot],
     doors: Sequence[Doorway],
 ) -> Iterator[Surface]:
@@ -174,7 +174,7 @@ def line_corridors(
 
 
 def _beside(
-    rng: Generator, corridor: Corridor, along: int, width: int
+    rng: Generator, corridor: OfficeCorridor, along: int, width: int
 ) -> tuple[Box | None, Material]:
     """A column, or in a wide corridor a cabinet, at one of the walls."""
     low, high = corridor.box.span(not corridor.along_x)

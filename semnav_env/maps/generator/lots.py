@@ -10,7 +10,7 @@ from numpy.random import Generator
 
 from semnav_env.maps.generator.boxes import Box, Span, box_of, is_free, without
 from semnav_env.maps.generator.chance import centimetres, chance
-from semnav_env.maps.generator.corridors import Corridor
+from semnav_env.maps.generator.corridors import OfficeCorridor
 from semnav_env.maps.generator.settings import OfficeSettings
 
 SHALLOWEST = 280
@@ -36,7 +36,7 @@ CAPPED = 0.6
 
 
 @dataclass(frozen=True)
-class Wall:
+class OfficeWall:
     """A stretch of wall between a room and what lies before it.
 
     Attributes:
@@ -51,7 +51,7 @@ class Wall:
     span: Span
     inward: int
 
-    def transposed(self) -> Wall:
+    def transposed(self) -> OfficeWall:
         """With x and y exchanged."""
         return replace(self, along_x=not self.along_x)
 
@@ -72,7 +72,7 @@ class Lot:
     """
 
     box: Box
-    front: Wall
+    front: OfficeWall
     corridor: int
     open: bool = False
 
@@ -94,7 +94,7 @@ class Lot:
 
 
 def lay_rooms(
-    rng: Generator, settings: OfficeSettings, corridors: Sequence[Corridor]
+    rng: Generator, settings: OfficeSettings, corridors: Sequence[OfficeCorridor]
 ) -> tuple[Lot, ...]:
     """Rooms on both sides of the corridors and at their dead ends, none on another."""
     taken = [corridor.box for corridor in corridors]
@@ -116,7 +116,7 @@ def lay_rooms(
 def _row(
     rng: Generator,
     settings: OfficeSettings,
-    corridors: Sequence[Corridor],
+    corridors: Sequence[OfficeCorridor],
     index: int,
     side: int,
     taken: list[Box],
@@ -128,7 +128,7 @@ def _row(
         return
     low, high = corridor.box.span(corridor.along_x)
     at = corridor.box.span(not corridor.along_x)[side > 0]
-    band = Wall(corridor.along_x, at, _with_corners(corridors, index), side)
+    band = OfficeWall(corridor.along_x, at, _with_corners(corridors, index), side)
     near = band.box(band.span, SHALLOWEST)
     holes = [box.span(corridor.along_x) for box in taken if box.overlaps(near)]
     for gap in without([band.span], holes):
@@ -144,7 +144,7 @@ def _row(
             yield Lot(box, wall, index, is_area)
 
 
-def _with_corners(corridors: Sequence[Corridor], index: int) -> Span:
+def _with_corners(corridors: Sequence[OfficeCorridor], index: int) -> Span:
     """The extent of a corridor, and of the rooms that a corridor across its end has behind it."""
     corridor = corridors[index]
     low, high = corridor.box.span(corridor.along_x)
@@ -177,7 +177,7 @@ def _width(rng: Generator, settings: OfficeSettings) -> int:
     return centimetres(rng, BIG_WIDTH if draw > 1.0 - BIG_ROOMS else settings.room_width)
 
 
-def _depth(band: Wall, span: Span, depth: int, taken: list[Box]) -> int:
+def _depth(band: OfficeWall, span: Span, depth: int, taken: list[Box]) -> int:
     """How deep a room is: as planned, but no narrow strip stays behind it."""
     behind = band.box(span, depth + ABSORBED)
     clear = depth + ABSORBED + 1
@@ -188,11 +188,13 @@ def _depth(band: Wall, span: Span, depth: int, taken: list[Box]) -> int:
     return clear if clear <= depth + ABSORBED else depth
 
 
-def _cap(rng: Generator, corridor: Corridor, index: int, end: int, taken: list[Box]) -> Lot | None:
+def _cap(
+    rng: Generator, corridor: OfficeCorridor, index: int, end: int, taken: list[Box]
+) -> Lot | None:
     """A room behind the end of a corridor, as wide as its wing if there is space."""
     low, high = corridor.box.span(not corridor.along_x)
     at = corridor.box.span(corridor.along_x)[end > 0]
-    front = Wall(not corridor.along_x, at, (low, high), end)
+    front = OfficeWall(not corridor.along_x, at, (low, high), end)
     depth = centimetres(rng, CAP_DEPTH)
     left, right = corridor.depths
     for span in ((low - left, high + right), (low - left, high), (low, high + right)):

@@ -13,7 +13,12 @@ from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Su
 from semnav_env.maps.generator.blocked import without_blocking
 from semnav_env.maps.generator.boxes import Box
 from semnav_env.maps.generator.chance import chance
-from semnav_env.maps.generator.corridors import KINDS, Corridor, Junction, draw_corridors
+from semnav_env.maps.generator.corridors import (
+    KINDS,
+    OfficeCorridor,
+    OfficeJunction,
+    draw_corridors,
+)
 from semnav_env.maps.generator.furniture import furnish, line_corridors
 from semnav_env.maps.generator.lots import Lot, lay_rooms
 from semnav_env.maps.generator.names import name_rooms
@@ -29,8 +34,8 @@ MOST_TRIES = 1000
 class Layout:
     """Where corridors and rooms lie."""
 
-    corridors: tuple[Corridor, ...]
-    junctions: tuple[Junction, ...]
+    corridors: tuple[OfficeCorridor, ...]
+    junctions: tuple[OfficeJunction, ...]
     lots: tuple[Lot, ...]
 
     def transposed(self) -> Layout:
@@ -106,7 +111,7 @@ def _regions(lots: Sequence[Lot], names: Sequence[str], is_open: bool) -> tuple[
     return tuple(_region(name, lot.box) for name, lot in pairs if lot.open == is_open)
 
 
-def _crossings(junctions: Sequence[Junction]) -> Iterator[Region]:
+def _crossings(junctions: Sequence[OfficeJunction]) -> Iterator[Region]:
     """Named after what they are: "corner 1", "T-junction 1", "crossing 1"."""
     used: Counter[str] = Counter()
     for junction in junctions:

@@ -11,7 +11,7 @@ from numpy.random import Generator
 from semnav_env.features.frames import Point
 from semnav_env.maps.generator.boxes import Box, Span
 from semnav_env.maps.generator.chance import centimetres, chance
-from semnav_env.maps.generator.lots import Lot, Wall
+from semnav_env.maps.generator.lots import Lot, OfficeWall
 from semnav_env.maps.generator.settings import OfficeSettings
 
 NIB = 15
@@ -55,7 +55,7 @@ class Doorway:
         lots: indices of the rooms it leads to.
     """
 
-    wall: Wall
+    wall: OfficeWall
     span: Span
     open: bool
     leaf: tuple[Point, Point] | None
@@ -99,18 +99,18 @@ def lanes(door: Doorway, lots: Sequence[Lot]) -> Iterator[Box]:
         yield lot.front.box((low, high), LANDING)
 
 
-def _fronts(rng: Generator, lot: Lot) -> list[Wall]:
+def _fronts(rng: Generator, lot: Lot) -> list[OfficeWall]:
     """The stretches of a room's front that get a door each."""
     wall, (low, high) = lot.front, lot.front.span
     if high - low < TWO_DOORS or chance(rng, 0.4):
         return [wall]
     middle = (low + high) // 2
     halves = (low, middle - NIB), (middle + NIB, high)
-    return [Wall(wall.along_x, wall.at, half, wall.inward) for half in halves]
+    return [OfficeWall(wall.along_x, wall.at, half, wall.inward) for half in halves]
 
 
 def _door(
-    rng: Generator, settings: OfficeSettings, wall: Wall, room: Span, lots: tuple[int, ...]
+    rng: Generator, settings: OfficeSettings, wall: OfficeWall, room: Span, lots: tuple[int, ...]
 ) -> Doorway:
     """A door somewhere in a wall; its leaf hangs on the jamb nearer to a corner of the room."""
     span = _place(rng, settings, wall)
@@ -128,7 +128,7 @@ def _door(
     return Doorway(wall, span, True, leaf if seen else None, span, lots)
 
 
-def _place(rng: Generator, settings: OfficeSettings, wall: Wall) -> Span:
+def _place(rng: Generator, settings: OfficeSettings, wall: OfficeWall) -> Span:
     """From jamb to jamb: near one of the wall's ends, or anywhere."""
     low, high = wall.span[0] + NIB, wall.span[1] - NIB
     width = min(centimetres(rng, settings.door_width), high - low)
@@ -145,7 +145,7 @@ def _half_open(rng: Generator, width: int) -> float:
     return float(rng.uniform(max(least, 45.0), STEEPEST_HALF))
 
 
-def _leaf(wall: Wall, span: Span, at_low: bool, degrees: float) -> tuple[Point, Point]:
+def _leaf(wall: OfficeWall, span: Span, at_low: bool, degrees: float) -> tuple[Point, Point]:
     """From hinge to tip, at an angle to its closed place."""
     hinge, sense = (span[0], 1.0) if at_low else (span[1], -1.0)
     width, angle = span[1] - span[0], math.radians(degrees)
@@ -153,7 +153,7 @@ def _leaf(wall: Wall, span: Span, at_low: bool, degrees: float) -> tuple[Point, 
     return _point(wall, hinge, 0.0), _point(wall, hinge + along, inward)
 
 
-def _point(wall: Wall, along: float, inward: float) -> Point:
+def _point(wall: OfficeWall, along: float, inward: float) -> Point:
     """Metres, to the millimetre."""
     a, b = round(along / 100, 3), round((wall.at + wall.inward * inward) / 100, 3)
     return (a, b) if wall.along_x else (b, a)
@@ -179,7 +179,7 @@ def _inner_doors(
             yield _door(rng, settings, wall, room, (index, index + 1))
 
 
-def _shared(first: Lot, second: Lot) -> Wall | None:
+def _shared(first: Lot, second: Lot) -> OfficeWall | None:
     """The part of the wall between two rooms that may hold a door."""
     front = first.front
     along = front.along_x
@@ -194,4 +194,4 @@ def _shared(first: Lot, second: Lot) -> Wall | None:
     low, high = min(ends), max(ends)
     if depth - NIB - INNER < 130 or min(first.width, second.width) < 240:
         return None
-    return Wall(not along, first.box.span(along)[1], (low, high), 1)
+    return OfficeWall(not along, first.box.span(along)[1], (low, high), 1)

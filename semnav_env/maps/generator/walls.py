@@ -15,8 +15,8 @@ from semnav_env.features.frames import Point
 from semnav_env.maps.floor_plan import Material, Surface
 from semnav_env.maps.generator.boxes import Box, Span, without
 from semnav_env.maps.generator.chance import chance
-from semnav_env.maps.generator.corridors import Corridor
-from semnav_env.maps.generator.lots import Lot, Wall
+from semnav_env.maps.generator.corridors import OfficeCorridor
+from semnav_env.maps.generator.lots import Lot, OfficeWall
 from semnav_env.maps.generator.openings import Doorway
 from semnav_env.maps.generator.settings import OfficeSettings
 
@@ -37,7 +37,7 @@ wall between them, cm."""
 def build_walls(
     rng: Generator,
     settings: OfficeSettings,
-    corridors: Sequence[Corridor],
+    corridors: Sequence[OfficeCorridor],
     lots: Sequence[Lot],
     doors: Sequence[Doorway],
 ) -> Iterator[Surface]:
@@ -90,12 +90,15 @@ class Pane(NamedTuple):
 
 
 def _panes(
-    rng: Generator, settings: OfficeSettings, corridors: Sequence[Corridor], lots: Sequence[Lot]
+    rng: Generator,
+    settings: OfficeSettings,
+    corridors: Sequence[OfficeCorridor],
+    lots: Sequence[Lot],
 ) -> dict[Line, list[Pane]]:
     """Fronts of rooms, and windows at the ends of corridors."""
     panes: dict[Line, list[Pane]] = defaultdict(list)
 
-    def add(wall: Wall) -> None:
+    def add(wall: OfficeWall) -> None:
         framed = not chance(rng, settings.frameless)
         panes[wall.along_x, wall.at].append(Pane(wall.span[0] + NIB, wall.span[1] - NIB, framed))
 
@@ -107,7 +110,7 @@ def _panes(
         across = corridor.box.span(not corridor.along_x)
         for at, blind in zip((low, high), corridor.blind, strict=True):
             if blind and chance(rng, settings.glass):
-                add(Wall(not corridor.along_x, at, across, 1))
+                add(OfficeWall(not corridor.along_x, at, across, 1))
     return panes
 
 

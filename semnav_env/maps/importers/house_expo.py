@@ -28,7 +28,8 @@ def is_house(content: Any) -> bool:
 def plan_of_house(content: dict[str, Any], path: Path, scale: float | None = None) -> Imported:
     """The floor plan of a house: `verts`, its outline in metres, and boxes in `room_category`.
 
-    The boxes are named by category and number; a hallway is a corridor. The data set has no doors.
+    The boxes are named by category and number; a hallway becomes a corridor. The data set has
+    no doors.
 
     Args:
         content: the JSON document.

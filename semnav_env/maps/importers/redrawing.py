@@ -10,7 +10,7 @@ import shapely
 from shapely import STRtree
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.maps.importers.runs import Run
+from semnav_env.maps.importers.runs import PixelRun
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,12 +25,12 @@ class Drawn:
     """
 
     points: FloatArray
-    makers: Sequence[frozenset[Run]]
-    moved: dict[Run, float]
+    makers: Sequence[frozenset[PixelRun]]
+    moved: dict[PixelRun, float]
     turned: bool
 
 
-def redrawn(points: FloatArray, runs: Collection[Run]) -> Drawn:
+def redrawn(points: FloatArray, runs: Collection[PixelRun]) -> Drawn:
     """An outline with runs on their lines; of each only the ends are left as vertices.
 
     Where two runs meet at the tip of a thin wall, it gets an end as thick as they are apart.
@@ -44,7 +44,7 @@ def redrawn(points: FloatArray, runs: Collection[Run]) -> Drawn:
     new = np.stack((points, points), axis=1)  # where the outline arrives, and where it leaves
     kept = np.ones((count, 2), dtype=bool)
     kept[:, 1] = [k in tips for k in range(count)]
-    makers: list[frozenset[Run]] = [frozenset()] * (2 * count)
+    makers: list[frozenset[PixelRun]] = [frozenset()] * (2 * count)
     for run in runs:
         there = run.vertices(count)
         kept[there[1:-1]] = False
@@ -61,14 +61,14 @@ def redrawn(points: FloatArray, runs: Collection[Run]) -> Drawn:
     return Drawn(drawn, [makers[k] for k in left], moved, turned)
 
 
-def _tips(runs: Collection[Run], count: int) -> set[int]:
+def _tips(runs: Collection[PixelRun], count: int) -> set[int]:
     """The vertices, of so many, at which a run ends and another begins along the same axis."""
     begun = {(run.span.axis, run.span.first % count) for run in runs}
     ended = {(run.span.axis, run.span.last % count) for run in runs}
     return {vertex for _, vertex in begun & ended}
 
 
-def clashing(drawn: Sequence[Drawn]) -> set[Run]:
+def clashing(drawn: Sequence[Drawn]) -> set[PixelRun]:
     """Runs that must be given up, since on their lines two outlines, or parts of one, meet.
 
     Of the runs that drew two segments which meet, the shortest is, of several the first one on the
@@ -76,7 +76,7 @@ def clashing(drawn: Sequence[Drawn]) -> set[Run]:
     """
     lost = {run for each in drawn if each.turned for run in each.moved}
     ends, following = [], []
-    makers: list[frozenset[Run]] = []
+    makers: list[frozenset[PixelRun]] = []
     for each in drawn:
         count = len(each.points)
         ends.append(np.stack((each.points, np.roll(each.points, -1, axis=0)), axis=1))
@@ -93,12 +93,12 @@ def clashing(drawn: Sequence[Drawn]) -> set[Run]:
     return lost
 
 
-def _rank(run: Run) -> tuple[float, int, int]:
+def _rank(run: PixelRun) -> tuple[float, int, int]:
     """The least is given up first."""
     return run.span.length, run.ring, run.span.first
 
 
-def _moved(old: FloatArray, new: FloatArray, run: Run) -> float:
+def _moved(old: FloatArray, new: FloatArray, run: PixelRun) -> float:
     """How far the vertices of a run lay from its line at most, and its ends from where they are."""
     there = run.vertices(len(old))
     ends = np.stack((new[there[0], 1], new[there[-1], 0]))

@@ -48,7 +48,7 @@ class Span(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Run:
+class PixelRun:
     """A stretch of an outline to be put on a line along an axis.
 
     Attributes:
@@ -76,7 +76,7 @@ class Run:
         return np.arange(self.span.first, self.span.last + 1) % count
 
 
-def runs_of(ring: int, points: FloatArray, limit: float) -> list[Run]:
+def runs_of(ring: int, points: FloatArray, limit: float) -> list[PixelRun]:
     """The runs of an outline, the longest first; they share no segment.
 
     A run is as long as it may be while its vertices lie within `limit` of a line along an axis. If
@@ -92,7 +92,7 @@ def runs_of(ring: int, points: FloatArray, limit: float) -> list[Run]:
         return []
     wide = list(_spans(points, 2.0 * limit))
     spans = [span for span in _spans(points, limit) if not _is_oblique(points, span, wide, limit)]
-    taken: list[Run | None] = [None] * len(points)
+    taken: list[PixelRun | None] = [None] * len(points)
     runs = []
     for span in sorted(spans, key=lambda span: -span.length):
         free = _free_part(span, taken, points)
@@ -189,7 +189,7 @@ def _stretch(points: FloatArray, span: Span) -> FloatArray:
     return points[np.arange(span.first, span.last + 1) % len(points)]
 
 
-def _free_part(span: Span, taken: Sequence[Run | None], points: FloatArray) -> Span:
+def _free_part(span: Span, taken: Sequence[PixelRun | None], points: FloatArray) -> Span:
     """The longest part of a stretch that no run has and that continues none the same way.
 
     It may meet a run that comes back along the same axis, at the tip of a thin wall.
@@ -214,11 +214,11 @@ def _free_part(span: Span, taken: Sequence[Run | None], points: FloatArray) -> S
     return best
 
 
-def _run(ring: int, points: FloatArray, span: Span, limit: float) -> Run:
+def _run(ring: int, points: FloatArray, span: Span, limit: float) -> PixelRun:
     stretch = _stretch(points, span)
     spread, weights = spread_out(stretch)
     across, along = spread[:, 1 - span.axis], stretch[:, span.axis]
     least, most = float(across.max()) - limit, float(across.min()) + limit
     level = min(max(float(weights @ across / weights.sum()), least), most)
     begin, end = sorted((float(along[0]), float(along[-1])))
-    return Run(ring, span, least, most, level, bool(along[-1] > along[0]), begin, end)
+    return PixelRun(ring, span, least, most, level, bool(along[-1] > along[0]), begin, end)

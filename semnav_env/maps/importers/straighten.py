@@ -10,7 +10,7 @@ from semnav_env.features.frames import FloatArray, points_to_local, points_to_pa
 from semnav_env.maps.importers.directions import dominant_direction
 from semnav_env.maps.importers.outlines import closed_ring
 from semnav_env.maps.importers.redrawing import clashing, redrawn
-from semnav_env.maps.importers.runs import Run, runs_of
+from semnav_env.maps.importers.runs import PixelRun, runs_of
 
 ALIGNED = 1.0
 """Runs whose lines lie at most so many pixels beside each other may be of one wall."""
@@ -39,7 +39,7 @@ class Straightened:
 def straighten(rings: Sequence[FloatArray], bound: float) -> Straightened:
     """The outlines with what runs along the building's two directions exactly on lines.
 
-    Every `Run` of an outline is put on a line along one of the two directions
+    Every `PixelRun` of an outline is put on a line along one of the two directions
     (`dominant_direction`); runs that continue each other, as beside a door, get the same line. All
     else, oblique or round, stays as it is. No point moves by more than the bound, and a run stays
     as it was if its line met another part of an outline, so that nothing opens or closes.
@@ -55,7 +55,7 @@ def straighten(rings: Sequence[FloatArray], bound: float) -> Straightened:
     drawn = [redrawn(ring, ()) for ring in outlines]
     changed = {run.ring for run in runs}
     while changed:
-        kept: dict[int, list[Run]] = {ring: [] for ring in changed}
+        kept: dict[int, list[PixelRun]] = {ring: [] for ring in changed}
         for run in runs:
             if run.ring in kept:
                 kept[run.ring].append(run)
@@ -71,13 +71,13 @@ def straighten(rings: Sequence[FloatArray], bound: float) -> Straightened:
     return Straightened(back, frame[2], segments, len(runs), moved)
 
 
-def _aligned(runs: Sequence[Run]) -> list[Run]:
+def _aligned(runs: Sequence[PixelRun]) -> list[PixelRun]:
     """The runs, the longest first, with one line for those that continue each other.
 
     A run takes over the line of a longer one that looks the same way, if its vertices allow, the
     two lie within `ALIGNED` and no farther from each other along the line than the longer is long.
     """
-    leaders: defaultdict[tuple[int, bool, int], list[Run]] = defaultdict(list)
+    leaders: defaultdict[tuple[int, bool, int], list[PixelRun]] = defaultdict(list)
     placed = []
     for run in sorted(runs, key=lambda run: -run.span.length):
         near = [

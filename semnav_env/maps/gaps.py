@@ -16,8 +16,8 @@ from shapely import LineString, Point, Polygon, STRtree
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.maps.doorways import NARROWEST_ROBOT, TOUCH
-from semnav_env.maps.finding import Finding, point_in, written
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.plan_fault import PlanFault, point_in, written
 
 Lines = NDArray[np.object_] | Sequence[LineString]
 
@@ -34,14 +34,14 @@ SHEET = WIDEST_GAP
 """So far around the boundary lies the outside, metres."""
 
 
-def leaks(plan: FloorPlan) -> Iterator[Finding]:
+def leaks(plan: FloorPlan) -> Iterator[PlanFault]:
     """All of them."""
     walls = shapely.linestrings(plan.segments.reshape(-1, 2, 2))
     thin = _thick(walls, LINE, 1)
     at = _way_out(plan, walls, thin)
     if at is not None:
         problem = f"one can walk out of the building at {written(at)}; close the walls"
-        yield Finding(plan.name, problem, at)
+        yield PlanFault(plan.name, problem, at)
     yield from _leaks_of_rooms(plan, thin)
 
 
@@ -78,7 +78,7 @@ def _gap_in_walls(plan: FloorPlan, walls: Lines, outside: Polygon) -> tuple[floa
     return None
 
 
-def _leaks_of_rooms(plan: FloorPlan, thin: BaseGeometry) -> Iterator[Finding]:
+def _leaks_of_rooms(plan: FloorPlan, thin: BaseGeometry) -> Iterator[PlanFault]:
     """With all doors sealed, no space may reach from a room to somewhere else."""
     doors = [LineString((door.start, door.end)) for door in plan.doors]
     spaces = STRtree(_spaces(plan, thin.union(_thick(doors, LINE, 1))))
@@ -93,7 +93,7 @@ def _leaks_of_rooms(plan: FloorPlan, thin: BaseGeometry) -> Iterator[Finding]:
             if _fits(NICHE, leak):
                 at = _at(space, room.polygon, leak)
                 problem = f"leaks at {written(at)} other than through a door; close it"
-                yield Finding(room.name, problem, at)
+                yield PlanFault(room.name, problem, at)
 
 
 def _thick(lines: Lines, by: float, quad_segs: int = 16) -> BaseGeometry:

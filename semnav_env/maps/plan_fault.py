@@ -10,7 +10,7 @@ from semnav_env.features.frames import Point
 
 
 @dataclass(frozen=True)
-class Finding:
+class PlanFault:
     """Something that a maker of plans would want to mend.
 
     Attributes:

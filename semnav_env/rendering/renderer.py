@@ -25,7 +25,7 @@ from semnav_env.verifier import Verdict, Verifier
 from semnav_env.world import World
 
 
-class Stage(Protocol):
+class RenderedEnvironment(Protocol):
     """What of an environment is shown."""
 
     robot: RobotSpec
@@ -43,7 +43,7 @@ class Stage(Protocol):
         """Simulated time since the start of the episode."""
 
 
-class Scribe:
+class Renderer:
     """Makes the pictures of an environment; nothing is drawn or imported before the first one."""
 
     def __init__(self, floor_plan: FloorPlan) -> None:
@@ -59,7 +59,7 @@ class Scribe:
         """Go on with the trail."""
         self._trail.append(pose[:2])
 
-    def draw(self, env: Stage, mode: str) -> NDArray[np.uint8] | None:
+    def draw(self, env: RenderedEnvironment, mode: str) -> NDArray[np.uint8] | None:
         """The picture, or None in "human" mode, where it goes to a window."""
         if self._viewer is None:
             self._viewer = Viewer(self._floor_plan, fps=env.metadata["render_fps"])
@@ -79,7 +79,7 @@ class Scribe:
         """A picture is drawn anew after unpickling; windows do not travel."""
         return {**self.__dict__, "_viewer": None}
 
-    def frame(self, env: Stage) -> Frame:
+    def frame(self, env: RenderedEnvironment) -> Frame:
         """This moment of the episode, world frame."""
         perception, verifier, pose = env.perception, env.task.verifier, env.world.pose
         believed = env.believed_pose
@@ -112,14 +112,14 @@ class Scribe:
 
 def door_numbers(scene: Scene, follower: Follower) -> dict[int, int]:
     """The numbers of a scene's doors as the active clause counts them, by index."""
-    hallway = follower.goal.hallway
-    if hallway is None:
+    corridor = follower.goal.corridor
+    if corridor is None:
         return {}
     clauses = follower.command.clauses
     clause = clauses[min(follower.active, len(clauses) - 1)]
     reference = reference_of(clause)
     side = reference.side if isinstance(reference, DoorReference) else None
-    counted = doors_along(scene, hallway, side)
+    counted = doors_along(scene, corridor, side)
     order = {id(item.door): number for number, item in enumerate(counted, start=1)}
     return {i: order[id(d)] for i, d in enumerate(scene.doors) if id(d) in order}
 

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
 from matplotlib.transforms import offset_copy
 
-from semnav_env.maps.finding import Finding
+from semnav_env.maps.plan_fault import PlanFault
 
 MOST_LINES = 12
 """Of findings below a picture before they are set in columns."""
@@ -21,7 +21,7 @@ PLATE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
 """Behind the numbers of marks."""
 
 
-def mark(findings: Sequence[Finding], ax: Axes) -> None:
+def mark(findings: Sequence[PlanFault], ax: Axes) -> None:
     """A numbered circle at each finding that has a place."""
     beside = offset_copy(ax.transData, ax.get_figure(root=True), 6.0, 6.0, units="points")
     for number, finding in enumerate(findings, 1):
@@ -47,7 +47,7 @@ def leave_room(ax: Axes, metres: float) -> None:
     ax.set_ylim(drawn.y0 - metres, drawn.y1 + metres)
 
 
-def columns_of(findings: Sequence[Finding], width: float) -> list[list[str]]:
+def columns_of(findings: Sequence[PlanFault], width: float) -> list[list[str]]:
     """The list of findings, numbered, in lines that are short enough; many in columns.
 
     Args:

@@ -18,7 +18,7 @@ from semnav_env.maps import load_floor_plan
 Array = NDArray[np.float32]
 
 
-class Practice(gym.Env[Array, Array]):
+class ActionRepeat(gym.Env[Array, Array]):
     """Episodes of a preset.
 
     Observations are `compact`. An action holds for `preset.repeat` steps, whose rewards are

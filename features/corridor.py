@@ -1,8 +1,8 @@
-"""The hallway around a pose: its axis, its sides, its openings and its end.
+"""The corridor around a pose: its axis, its sides, its openings and its end.
 
-Commands speak of hallways, so this is where walls become places. The scene is probed by rays to
-the left and to the right of the hallway's axis, as a person would look along both sides; what the
-rays meet first is the hallway's side. Works on perceived (remembered) and true scenes alike.
+Commands speak of corridors, so this is where walls become places. The scene is probed by rays to
+the left and to the right of the corridor's axis, as a person would look along both sides; what the
+rays meet first is the corridor's side. Works on perceived (remembered) and true scenes alike.
 """
 
 from __future__ import annotations
@@ -13,17 +13,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
-from semnav_env.features.kernels.hallway import first_gap, stands_in, survey
+from semnav_env.features.kernels.corridor_survey import first_gap, stands_in, survey
 from semnav_env.features.kernels.probing import BEHIND, SPACING
 from semnav_env.features.scene import Door, Scene, ends_of
 
 GOES_ON = 1.2
-"""A hallway goes on behind a junction if it is longer than this there, metres."""
+"""A corridor goes on behind a junction if it is longer than this there, metres."""
 
 
 @dataclass(frozen=True, slots=True)
-class Opening:
-    """Where a side of the hallway gives way to another one.
+class SideOpening:
+    """Where a side of the corridor gives way to another one.
 
     Attributes:
         left: on the left side, else on the right.
@@ -45,20 +45,20 @@ class Opening:
 
 @dataclass(frozen=True, slots=True)
 class Junction:
-    """One or two facing openings, and whether the hallway goes on behind them.
+    """One or two facing openings, and whether the corridor goes on behind them.
 
     Attributes:
         left: the opening to the left, if any.
         right: the opening to the right, if any.
-        ahead: whether the hallway goes on.
+        ahead: whether the corridor goes on.
     """
 
-    left: Opening | None
-    right: Opening | None
+    left: SideOpening | None
+    right: SideOpening | None
     ahead: bool
 
     @property
-    def openings(self) -> tuple[Opening, ...]:
+    def openings(self) -> tuple[SideOpening, ...]:
         """The openings there are."""
         return tuple(side for side in (self.left, self.right) if side is not None)
 
@@ -79,16 +79,16 @@ class Junction:
 
 
 @dataclass(frozen=True, eq=False)
-class Hallway:
-    """A hallway as seen from a pose.
+class Corridor:
+    """A corridor as seen from a pose.
 
     Attributes:
         frame: the axis: a pose on its centre line beside the pose asked for, looking along it.
         left: distance from the axis to the left side at each probe, shape (n,); inf where it is
-            not seen, has a gap or an opening, and beyond the hallway's ends.
+            not seen, has a gap or an opening, and beyond the corridor's ends.
         right: the same to the right.
         half_width: usual distance from the axis to the sides, metres.
-        end: where the hallway ends along the axis, metres; inf if that is not seen.
+        end: where the corridor ends along the axis, metres; inf if that is not seen.
         junctions: in order along the axis, those behind the pose included.
     """
 
@@ -132,13 +132,13 @@ def _probe(along: float) -> int:
     return round((along + BEHIND) / SPACING)
 
 
-def hallway(scene: Scene, pose: Pose) -> Hallway:
-    """The hallway that a robot at `pose` looks along, in the scene's frame.
+def corridor_at(scene: Scene, pose: Pose) -> Corridor:
+    """The corridor that a robot at `pose` looks along, in the scene's frame.
 
     Args:
         scene: walls and doors. Doors close their gaps here, for they are no openings; but not
             one that the robot stands in, looking through it, nor a perceived one (without a name)
-            across a hallway that only narrows there.
+            across a corridor that only narrows there.
         pose: where and which way, in the scene's frame; the axis is the direction, within 45
             degrees of the heading, that most of the wall in view runs along.
     """
@@ -146,9 +146,9 @@ def hallway(scene: Scene, pose: Pose) -> Hallway:
     (x, y, heading), half_width, end, (left, right), rows = survey(
         ends_of(scene.walls), ends_of(scene.doors), named, *pose
     )
-    openings = [Opening(on_left > 0.0, *edges) for on_left, *edges in rows.tolist()]
+    openings = [SideOpening(on_left > 0.0, *edges) for on_left, *edges in rows.tolist()]
     frame = x, y, wrap_angle(heading)
-    return Hallway(frame, left, right, half_width, end, _junctions(openings, end))
+    return Corridor(frame, left, right, half_width, end, _junctions(openings, end))
 
 
 def doorway_at(scene: Scene, pose: Pose) -> Door | None:
@@ -157,7 +157,7 @@ def doorway_at(scene: Scene, pose: Pose) -> Door | None:
     return next((door for door, ends in doors if stands_in(ends, *pose)), None)
 
 
-def _junctions(openings: list[Opening], end: float) -> tuple[Junction, ...]:
+def _junctions(openings: list[SideOpening], end: float) -> tuple[Junction, ...]:
     """Facing openings belong to one junction."""
     lefts = [o for o in openings if o.left]
     rights = [o for o in openings if not o.left]
@@ -171,6 +171,6 @@ def _junctions(openings: list[Opening], end: float) -> tuple[Junction, ...]:
     return tuple(sorted(junctions, key=lambda junction: junction.centre))
 
 
-def _junction(left: Opening | None, right: Opening | None, end: float) -> Junction:
+def _junction(left: SideOpening | None, right: SideOpening | None, end: float) -> Junction:
     far = max(opening.far for opening in (left, right) if opening is not None)
     return Junction(left, right, far < end - GOES_ON)

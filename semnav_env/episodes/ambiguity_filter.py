@@ -13,8 +13,8 @@ from functools import cached_property
 
 from semnav_env.commands import Clause, DoorReference, Follow, GoToDoor, IfThere, Turn
 from semnav_env.commands.command import reference_of
+from semnav_env.features.corridor import Corridor, corridor_at
 from semnav_env.features.frames import Pose
-from semnav_env.features.hallway import Hallway, hallway
 from semnav_env.features.scene import PlainWalls, Scene
 from semnav_env.grounding import Goal, GroundingError, UnclearError, ground
 from semnav_env.grounding.conditions import is_met
@@ -24,13 +24,13 @@ from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import is_clear
 
 FARTHEST = 40.0
-"""One can be asked to find out what is within so much of a hallway, metres."""
+"""One can be asked to find out what is within so much of a corridor, metres."""
 
 BEFORE_END, SPACE = 1.5, 0.45
 """So far before its end one must be able to look, with so much space around, metres."""
 
 
-class Doubts:
+class AmbiguityFilter:
     """The scene of a floor plan as people could see it, too.
 
     Args:
@@ -71,21 +71,21 @@ class Doubts:
         """
         if not self._seen_to_end(begin):
             return False
-        views = [hallway(scene, begin) for scene in self.scenes]
+        views = [corridor_at(scene, begin) for scene in self.scenes]
         if isinstance(reference_of(clause), DoorReference):
             return all(_is_missing(clause, scene, begin) for scene in self.scenes)
         return all(_too_few(clause, view) for view in views)
 
     def _seen_to_end(self, begin: Pose) -> bool:
-        """Whether a hallway ends soon, without a bend around which one could go on.
+        """Whether a corridor ends soon, without a bend around which one could go on.
 
         Nor anything else beside it that is neither a side nor an opening.
         """
         for scene in self.scenes:
-            seen = hallway(scene, begin)
+            seen = corridor_at(scene, begin)
             if seen.end > FARTHEST or any(j.is_corner for j in junctions_ahead(seen)):
                 return False
-        seen = hallway(self._plan.scene, begin)
+        seen = corridor_at(self._plan.scene, begin)
         if any(math.isfinite(seen.unseen(left, 0.0, seen.end)) for left in (True, False)):
             return False
         before = seen.place(max(0.0, seen.end - BEFORE_END))
@@ -121,7 +121,7 @@ def _is_missing(clause: Clause, scene: Scene, begin: Pose) -> bool:
     return False
 
 
-def _too_few(clause: Clause, view: Hallway) -> bool:
+def _too_few(clause: Clause, view: Corridor) -> bool:
     place = reference_of(clause)
     if place is None or place.ordinal < 1 or not isinstance(clause, Turn | Follow):
         return False

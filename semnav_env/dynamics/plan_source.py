@@ -17,7 +17,7 @@ from semnav_env.robots import RobotSpec
 from semnav_env.settings import check_kind
 
 
-class Stage:
+class PlanSource:
     """Makes the floor plans of episodes.
 
     Args:

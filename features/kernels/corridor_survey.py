@@ -1,7 +1,7 @@
-"""Numba kernels that look along the sides of a hallway.
+"""Numba kernels that look along the sides of a corridor.
 
-`survey` puts an axis through the hallway. In its frame x runs along the hallway and y to its left;
-the robot lies at x = 0.
+`survey` puts an axis through the corridor. In its frame x runs along the corridor and y to its
+left; the robot lies at x = 0.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ LEAF = 1.2
 """Longer than any door leaf, metres: so far a wall leads out at an edge of an opening."""
 
 MAX_OPENINGS = 32
-"""More openings along a hallway are left out."""
+"""More openings along a corridor are left out."""
 
 
 Frame: TypeAlias = tuple[float, float, float]
@@ -71,19 +71,19 @@ def survey(
     y: float,
     heading: float,
 ) -> tuple[Frame, float, float, FloatArray, FloatArray]:
-    """Look along the hallway that a robot at (x, y, heading) stands in.
+    """Look along the corridor that a robot at (x, y, heading) stands in.
 
     Args:
         walls: shape (n, 4), metres.
         doors: shape (m, 4); they close their gaps, but for one that the robot stands in, and for
-            doubtful ones across the hallway where that only narrows.
+            doubtful ones across the corridor where that only narrows.
         certain: which doors cannot be anything else, shape (m,).
         x: of the robot, metres.
         y: the same.
         heading: of the robot, radians.
 
     Returns:
-        The frame of the axis; the usual distance of the sides; where the hallway ends; the
+        The frame of the axis; the usual distance of the sides; where the corridor ends; the
         distance of the left and of the right side at each probe, inf where there is none, shape
         (2, PROBES); and for each opening 1 if on the left or 0, its near and far edge along the
         axis, and the distance of its side, shape (n, 4).
@@ -137,7 +137,7 @@ def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
 def _solid(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> FloatArray:
-    """The walls, then the doors that the robot does not stand in and that do part the hallway."""
+    """The walls, then the doors that the robot does not stand in and that do part the corridor."""
     known = np.concatenate((walls, doors))
     solid = np.empty((len(known), 4))
     solid[: len(walls)] = walls
@@ -172,14 +172,14 @@ def _follow(
     openings: FloatArray,
     count: int,
 ) -> int:
-    """Follow one side along the hallway; note the openings where it steps back.
+    """Follow one side along the corridor; note the openings where it steps back.
 
     Args:
         raw: what the rays to that side met, metres.
         solid: walls and doors in the frame of the axis.
         sign: 1 for the left side, -1 for the right.
         usual: distance of the side where it is not known better, metres.
-        stretch: how far the hallway goes back, and where it ends, metres.
+        stretch: how far the corridor goes back, and where it ends, metres.
         side: written: its distance at each probe; inf where it is not seen, has a gap or an
             opening, and beyond the stretch.
         openings: written, from row `count` on.

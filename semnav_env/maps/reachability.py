@@ -10,8 +10,8 @@ from shapely import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.maps.doorways import TOUCH, clear_width
-from semnav_env.maps.finding import Finding, point_in
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
+from semnav_env.maps.plan_fault import PlanFault, point_in
 from semnav_env.maps.reach import HEADINGS, SPACING, Reach, reach
 from semnav_env.robots import RobotSpec
 
@@ -25,14 +25,14 @@ AT_END = 0.6
 """So near to that its end is reached, metres."""
 
 
-def broken_promises(plan: FloorPlan, robot: RobotSpec) -> list[Finding]:
+def broken_promises(plan: FloorPlan, robot: RobotSpec) -> list[PlanFault]:
     """What a robot cannot reach from the middle of the largest corridor.
 
     An open door is reached when the robot's centre gets onto its line; a room with an open door,
     when the whole robot gets in, though it may have to back out; a corridor, when its centre gets
     near both ends. Nothing is promised behind closed doors.
     """
-    findings: list[Finding] = []
+    findings: list[PlanFault] = []
     for spacing, headings in SEARCHES:
         way = reach(plan, robot.length, robot.width, spacing, headings)
         findings = list(_unreached(plan, robot, way))
@@ -41,23 +41,23 @@ def broken_promises(plan: FloorPlan, robot: RobotSpec) -> list[Finding]:
     return findings
 
 
-def _unreached(plan: FloorPlan, robot: RobotSpec, way: Reach) -> Iterator[Finding]:
+def _unreached(plan: FloorPlan, robot: RobotSpec, way: Reach) -> Iterator[PlanFault]:
     body = f"a {robot.name} ({robot.length} m x {robot.width} m)"
     if not way.cells.any():
-        yield Finding(plan.name, f"{body} cannot stand in the middle of the largest corridor")
+        yield PlanFault(plan.name, f"{body} cannot stand in the middle of the largest corridor")
         return
     for door in plan.doors:
         if door.open and not way.near(_line(door)):
-            yield Finding(door.name, _of_door(door, plan, robot, body), door.midpoint)
+            yield PlanFault(door.name, _of_door(door, plan, robot, body), door.midpoint)
     for room in plan.rooms:
         opens = [d for d in plan.doors if d.open and room.polygon.dwithin(_line(d).centroid, TOUCH)]
         if opens and not way.near(_inside(room, opens, robot)):
-            yield Finding(room.name, f"{body} cannot get into this room", point_in(room.polygon))
+            yield PlanFault(room.name, f"{body} cannot get into this room", point_in(room.polygon))
     for corridor in plan.corridors:
         for end in _ends(corridor.polygon):
             if not way.near(end, AT_END):
                 problem = f"{body} cannot get to this end of the corridor"
-                yield Finding(corridor.name, problem, point_in(end))
+                yield PlanFault(corridor.name, problem, point_in(end))
 
 
 def _of_door(door: PlanDoor, plan: FloorPlan, robot: RobotSpec, body: str) -> str:

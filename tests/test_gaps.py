@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from shapely import box
 
 from semnav_env.maps import FloorPlan, PlanDoor, Region, Surface, load_floor_plan
+from semnav_env.maps.gaps import leaks
 from semnav_env.maps.importers import import_map
 from semnav_env.maps.importers.imported import boundary_of
-from semnav_env.maps.leaks import leaks
 from semnav_env.maps.occupancy_export import export_map
 from tests.small_plans import closed
 
