@@ -3,8 +3,9 @@
 from pathlib import Path
 
 from semnav_env.maps import load_floor_plan
-from semnav_env.routes import describe, route_to
+from semnav_env.routes.describe import describe
 from semnav_env.routes.draw import save_routes
+from semnav_env.routes.route_to import route_to
 
 START = (1.3, 9.1, 0.0)
 GOALS = ("west_south_2", "south_east", "room_bend_south_2")

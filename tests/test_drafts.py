@@ -23,12 +23,11 @@ from semnav_env.commands import (
     parse,
     readings,
 )
-from semnav_env.directory import RoomGuide
 from semnav_env.episodes import SPLITS, Episode, load_episodes
 from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.generate import BODY, SPACE, Site, exits, generate_episode
-from semnav_env.episodes.random_clauses import Verb
+from semnav_env.episodes.random_clauses import CommandTopic
 from semnav_env.episodes.wording import worded
 from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose, to_local
@@ -36,6 +35,7 @@ from semnav_env.grounding import Goal, GoalKind
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import is_clear, placement_error
 from semnav_env.recheck import recheck
+from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.tasks.sampling import LEAST_AHEAD, WIDEST_HALF, in_junction, sample_start
 from semnav_env.verifier import Verdict, Verifier, plan_goals
 from tests.erring import ghost, targets
@@ -136,7 +136,7 @@ def test_conditions_are_drafted_and_both_judges_say_the_same_of_what_is_done(cla
     verdicts, said = set(), set()
     for seed in range(24):
         draft, rng = drafter(seed), np.random.default_rng(seed)
-        command = draft.feasible(clauses, Verb.CONDITION)
+        command = draft.feasible(clauses, CommandTopic.CONDITION)
         if command is None:
             continue
         assert len(command.clauses) == clauses
@@ -228,7 +228,7 @@ def test_the_first_door_behind_a_closed_one_is_the_next(language: str) -> None:
 
 
 def test_passing_doors_and_turning_by_degrees_are_said_underway() -> None:
-    commands = [drafter(seed).feasible(3, Verb.TURN) for seed in range(40)]
+    commands = [drafter(seed).feasible(3, CommandTopic.TURN) for seed in range(40)]
     clauses = [clause for command in commands if command for clause in command.clauses]
     assert any(isinstance(clause, Follow) and clause.past for clause in clauses)
     assert any(isinstance(clause, Turn) and clause.degrees for clause in clauses)

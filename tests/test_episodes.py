@@ -28,7 +28,7 @@ from semnav_env.episodes.check import faults
 from semnav_env.episodes.files import to_line
 from semnav_env.episodes.fingerprint import fingerprint
 from semnav_env.episodes.generate import generate_split
-from semnav_env.episodes.random_clauses import verbs_of
+from semnav_env.episodes.random_clauses import topics_of
 from semnav_env.maps import generate_office, load_floor_plan
 from semnav_env.scripts.main import main
 from semnav_env.verifier import Verdict
@@ -137,7 +137,7 @@ def test_distributions_clauses_and_languages_are_balanced(name: str) -> None:
     assert len(set(offices.values())) == 1
     clauses = Counter(episode.clauses for episode in episodes)
     assert set(clauses) == set(split.clauses)
-    pairs = [n for n in split.clauses for _ in verbs_of(n)]
+    pairs = [n for n in split.clauses for _ in topics_of(n)]
     for n, count in clauses.items():
         assert count / split.episodes == pytest.approx(pairs.count(n) / len(pairs), rel=0.12)
     german = sum(episode.language == "de" for episode in episodes) / len(episodes)

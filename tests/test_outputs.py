@@ -3,7 +3,9 @@ import json
 import pytest
 
 from semnav_env.maps import load_floor_plan
-from semnav_env.routes import RouteError, describe, route_to
+from semnav_env.routes.describe import describe
+from semnav_env.routes.route import RouteError
+from semnav_env.routes.route_to import route_to
 from semnav_env.scripts import main as cli
 from semnav_env.scripts.outputs import check_file, check_folder, counted
 

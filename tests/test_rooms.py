@@ -26,7 +26,6 @@ from semnav_env.commands import (
     parse,
 )
 from semnav_env.commands.rooms import plain_name, spoken_names
-from semnav_env.directory import RoomGuide
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose, compose, to_local, wrap_angle
 from semnav_env.features.scene import Door, Scene
@@ -35,6 +34,7 @@ from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.ways import PACE, Trail, Way, paced
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
+from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.verifier import Motion, Verdict, Verifier, plan_goals
 from tests.hand_made import corridor
 

@@ -19,17 +19,11 @@ from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
 from semnav_env.maps.generator import DISTRIBUTIONS, generate_office
 from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import WHEELCHAIR
-from semnav_env.routes import (
-    Route,
-    RouteError,
-    UndescribableError,
-    comfortable,
-    describe,
-    follows,
-    route_to,
-)
 from semnav_env.routes.choices import words_of
-from semnav_env.routes.route import STEP, TURN_STEP
+from semnav_env.routes.describe import UndescribableError, describe
+from semnav_env.routes.follow import follows
+from semnav_env.routes.route import STEP, TURN_STEP, Route, RouteError
+from semnav_env.routes.route_to import comfortable, route_to
 from semnav_env.verifier import plan_goals
 
 PLANS = {name: load_floor_plan(name) for name in bundled_names()}

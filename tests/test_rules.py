@@ -19,7 +19,7 @@ from semnav_env.grounding.doors import STAND_OFF
 from semnav_env.lidar import Lidar
 from semnav_env.perception import Perception
 from semnav_env.robots import WHEELCHAIR
-from semnav_env.routes import Route
+from semnav_env.routes.route import Route
 from semnav_env.verifier import plan_goals
 from tests.situations import ROWS, Row, situation
 

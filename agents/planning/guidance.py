@@ -12,7 +12,6 @@ from semnav_env.agents.planning.collision import Body, Field
 from semnav_env.agents.planning.heuristic import (
     STEP,
     coarse_cell,
-    descent,
     room_grid,
     seconds_at,
     seconds_to,
@@ -20,6 +19,7 @@ from semnav_env.agents.planning.heuristic import (
 from semnav_env.agents.planning.lanes import close_gaps
 from semnav_env.agents.planning.motion import Costs
 from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.grid_search import descent
 
 ROUNDS = 4
 """How often a way is looked for again after a gap on it has proved too narrow."""
@@ -61,12 +61,12 @@ def guidance_to(
     room = room_grid(field, body, margin)
     sources, first = _sources(field, room, target, costs)
     time = seconds_to(sources, first, room, costs)
-    way = descent(time, *coarse_cell(field, *start))
+    way = _way(time, field, start)
     for _ in range(ROUNDS):
         if not close_gaps(field, body, room, way, margin):
             break
         time = seconds_to(sources, first, room, costs)
-        way = descent(time, *coarse_cell(field, *start))
+        way = _way(time, field, start)
     seconds = seconds_at(field, time, *start)
     reachable = math.isfinite(seconds)
     if reachable and len(sources) == 1:
@@ -78,8 +78,14 @@ def guidance_to(
     )
     cell = np.array([coarse_cell(field, *place)])
     time = seconds_to(cell, np.zeros(1), room, costs)
-    way = descent(time, *coarse_cell(field, *start))
+    way = _way(time, field, start)
     return Guidance(place, False, reachable, time, room, way, seconds, margin)
+
+
+def _way(time: FloatArray, field: Field, start: Point) -> NDArray[np.int64]:
+    """The cells (j, i) from the start downhill; a way in the window is not longer than this."""
+    way: NDArray[np.int64] = descent(time, *coarse_cell(field, *start), 4 * len(time))
+    return way
 
 
 def _sources(

@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.grid_search import lowest_around
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import SPACING, Geodesic, WaysTo
 
@@ -81,12 +82,7 @@ def look_ahead(
         return 0.0, 0.0, np.inf
     left = field[row, column]
     for _ in range(LOOK_AHEAD):
-        best_row, best_column = row, column
-        for r in range(max(row - 1, 0), min(row + 2, field.shape[0])):
-            for c in range(max(column - 1, 0), min(column + 2, field.shape[1])):
-                if field[r, c] < field[best_row, best_column]:
-                    best_row, best_column = r, c
-        row, column = best_row, best_column
+        row, column = lowest_around(field, row, column)
     dx, dy = west + SPACING * column - x, south + SPACING * row - y
     length = math.hypot(dx, dy)
     return (dx / length, dy / length, left) if length > 1e-6 else (0.0, 0.0, left)

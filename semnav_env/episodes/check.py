@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from semnav_env.commands import readings
-from semnav_env.directory import RoomGuide
 from semnav_env.episodes.episode import Episode, Expected, StaleEpisodeError
 from semnav_env.grounding import GroundingError
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import ROBOTS
+from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.verifier import plan_goals
 
 

@@ -18,14 +18,14 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.directory import RoomGuide
 from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
-from semnav_env.episodes.random_clauses import RandomClauses, Verb
+from semnav_env.episodes.random_clauses import CommandTopic, RandomClauses
 from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.grounding.follower import Follower
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
+from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.tasks.sampling import looks_along
 from semnav_env.verifier import plan_goals
 from semnav_env.verifier.goals import check_grounded
@@ -60,16 +60,16 @@ class Drafter:
         """What people could see otherwise there."""
         return AmbiguityFilter(self._plan)
 
-    def feasible(self, clauses: int, verb: Verb | None) -> Command | None:
+    def feasible(self, clauses: int, verb: CommandTopic | None) -> Command | None:
         """A command that can be carried out; None if none came up.
 
         Args:
             clauses: how many it has.
             verb: what it is about; None if more is to be said after it.
         """
-        if verb is Verb.CONDITION:
+        if verb is CommandTopic.CONDITION:
             return self._conditional(clauses)
-        said: tuple[Clause, ...] = (Leave(),) if verb is Verb.LEAVE else ()
+        said: tuple[Clause, ...] = (Leave(),) if verb is CommandTopic.LEAVE else ()
         if said and self.problem(said) is not None:
             return None
         for index in range(len(said), clauses):
@@ -91,7 +91,11 @@ class Drafter:
         begin = self._begin_after(before)
         for _ in range(TRIES):
             verb = self._clauses.choose(
-                Verb.ENTER, Verb.ENTER, Verb.TURN, Verb.APPROACH, Verb.FOLLOW
+                CommandTopic.ENTER,
+                CommandTopic.ENTER,
+                CommandTopic.TURN,
+                CommandTopic.APPROACH,
+                CommandTopic.FOLLOW,
             )
             last = self._clauses.last(verb, alone=True)
             impossible = self.problem((*before, last)) is not None
@@ -185,7 +189,7 @@ class Drafter:
             return True
         return isinstance(before.until, DoorReference) or isinstance(clause.until, DoorReference)
 
-    def _draw(self, said: tuple[Clause, ...], verb: Verb | None, attempt: int) -> Clause:
+    def _draw(self, said: tuple[Clause, ...], verb: CommandTopic | None, attempt: int) -> Clause:
         """The next clause: of that verb, or else on the way to more."""
         if said and isinstance(said[-1], Leave) and self._faces_a_wall(said):
             return self._clauses.turn_here()

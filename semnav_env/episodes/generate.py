@@ -17,7 +17,7 @@ from semnav_env.episodes.ambiguous import ambiguous_text
 from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.episode import Episode, Expected
 from semnav_env.episodes.fingerprint import fingerprint
-from semnav_env.episodes.random_clauses import Verb, verbs_of
+from semnav_env.episodes.random_clauses import CommandTopic, topics_of
 from semnav_env.episodes.splits import SEED, Split
 from semnav_env.episodes.walk import carries_out
 from semnav_env.episodes.wording import worded
@@ -128,15 +128,17 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
     raise TooBareError(f"{site.plan.name}: found no command of the kind of {split.name} there")
 
 
-def _wanted(plan: FloorPlan, split: Split, number: int, seed: int) -> list[tuple[int, Verb]]:
+def _wanted(
+    plan: FloorPlan, split: Split, number: int, seed: int
+) -> list[tuple[int, CommandTopic]]:
     """How many clauses an episode should have and about what, and what else would do.
 
     All take turns, in another order each time: so every tenth episode, say, is not about the same.
     A room cannot be named where none has a name.
     """
-    pairs = [(n, verb) for n in split.clauses for verb in verbs_of(n)]
+    pairs = [(n, verb) for n in split.clauses for verb in topics_of(n)]
     if not plan.room_names:
-        pairs = [pair for pair in pairs if pair[1] is not Verb.ROOM]
+        pairs = [pair for pair in pairs if pair[1] is not CommandTopic.ROOM]
     rounds, place = divmod(number, len(pairs))
     rng = Generator(PCG64(SeedSequence((seed, zlib.crc32(split.name.encode()), rounds, 1))))
     order = rng.permutation(len(pairs)).tolist()
@@ -144,7 +146,7 @@ def _wanted(plan: FloorPlan, split: Split, number: int, seed: int) -> list[tuple
 
 
 @dataclass(frozen=True)
-class Said:
+class EpisodeDraft:
     """What is said, all that it means, and the way that it leads."""
 
     text: str
@@ -153,19 +155,21 @@ class Said:
     expected: Expected
 
 
-def _feasible(site: Site, drafter: Drafter, clauses: int, verb: Verb, language: str) -> Said | None:
+def _feasible(
+    site: Site, drafter: Drafter, clauses: int, verb: CommandTopic, language: str
+) -> EpisodeDraft | None:
     command = drafter.feasible(clauses, verb)
     route = None if command is None else _route(site, command, drafter.start)
     if command is None or route is None:
         return None
     closed = drafter.skips_a_closed_door(command)
     text = worded(command, language, drafter.rng, site.plan.room_names, closed=closed)
-    return None if text is None else Said(text, (command,), route, Expected.FEASIBLE)
+    return None if text is None else EpisodeDraft(text, (command,), route, Expected.FEASIBLE)
 
 
 def _infeasible(
-    site: Site, drafter: Drafter, clauses: int, verb: Verb, language: str
-) -> Said | None:
+    site: Site, drafter: Drafter, clauses: int, verb: CommandTopic, language: str
+) -> EpisodeDraft | None:
     command = drafter.infeasible(clauses)
     if command is None:
         return None
@@ -175,12 +179,12 @@ def _infeasible(
     if route is None:
         return None
     text = worded(command, language, drafter.rng, site.plan.room_names)
-    return None if text is None else Said(text, (command,), route, Expected.INFEASIBLE)
+    return None if text is None else EpisodeDraft(text, (command,), route, Expected.INFEASIBLE)
 
 
 def _ambiguous(
-    site: Site, drafter: Drafter, clauses: int, verb: Verb, language: str
-) -> Said | None:
+    site: Site, drafter: Drafter, clauses: int, verb: CommandTopic, language: str
+) -> EpisodeDraft | None:
     """A text all of whose readings can be carried out there."""
     first = drafter.turns(clauses - 1) if clauses > 1 else None
     if clauses > 1 and first is None:
@@ -188,7 +192,7 @@ def _ambiguous(
     text, meanings = ambiguous_text(first, drafter.rng, language)
     if any(drafter.problem(meaning.clauses) for meaning in meanings):
         return None
-    return Said(text, meanings, (), Expected.AMBIGUOUS)
+    return EpisodeDraft(text, meanings, (), Expected.AMBIGUOUS)
 
 
 _MAKERS = {
@@ -198,15 +202,15 @@ _MAKERS = {
 }
 
 
-def _episode(name: str, site: Site, start: Pose, language: str, said: Said) -> Episode:
+def _episode(name: str, site: Site, start: Pose, language: str, said: EpisodeDraft) -> Episode:
     readings = tuple(meaning.say(language) for meaning in said.meanings)
     where = site.name, site.plan_hash, start
     return Episode(name, *where, said.text, language, readings, said.route, said.expected)
 
 
-def _start(site: Site, split: Split, verb: Verb, rng: Generator) -> Pose | None:
+def _start(site: Site, split: Split, verb: CommandTopic, rng: Generator) -> Pose | None:
     """Where every body can stand, rounded as it is written; in a room if that is to be left."""
-    if verb is Verb.LEAVE and split.expected is Expected.FEASIBLE and site.plan.rooms:
+    if verb is CommandTopic.LEAVE and split.expected is Expected.FEASIBLE and site.plan.rooms:
         pose = _start_in_room(site, rng)
     else:
         pose = sample_start(site.plan, BODY, rng)

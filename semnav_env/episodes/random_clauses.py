@@ -35,7 +35,7 @@ ON_THE_SPOT = 0.03
 carried out it is larger."""
 
 
-class Verb(StrEnum):
+class CommandTopic(StrEnum):
     """What a command is about: its last clause, or leaving a room, its first."""
 
     ENTER = "enter"
@@ -49,14 +49,14 @@ class Verb(StrEnum):
     CONDITION = "condition"
 
 
-LATE = (Verb.BACK, Verb.WAIT, Verb.CONDITION)
+LATE = (CommandTopic.BACK, CommandTopic.WAIT, CommandTopic.CONDITION)
 """They need something to be said before them, or behind."""
 
 
-def verbs_of(clauses: int) -> tuple[Verb, ...]:
+def topics_of(clauses: int) -> tuple[CommandTopic, ...]:
     """The verbs that a command of so many clauses can have."""
     late = LATE if clauses > 1 else ()
-    return tuple(verb for verb in Verb if verb not in LATE) + late
+    return tuple(verb for verb in CommandTopic if verb not in LATE) + late
 
 
 class RandomClauses:
@@ -70,22 +70,22 @@ class RandomClauses:
     def __init__(self, rng: np.random.Generator, rooms: Sequence[str]) -> None:
         self._rng, self._rooms = rng, rooms
 
-    def last(self, verb: Verb, *, alone: bool) -> Clause:
+    def last(self, verb: CommandTopic, *, alone: bool) -> Clause:
         """The last clause of a command about something; `alone` if nothing is said before it."""
         match verb:
-            case Verb.APPROACH:
+            case CommandTopic.APPROACH:
                 return GoToDoor(self.door(), Approach.TO)
-            case Verb.FOLLOW:
+            case CommandTopic.FOLLOW:
                 return self.follow()
-            case Verb.TURN if not alone and self._rng.random() < ON_THE_SPOT:
+            case CommandTopic.TURN if not alone and self._rng.random() < ON_THE_SPOT:
                 return self.turn_on_the_spot()
-            case Verb.TURN:
+            case CommandTopic.TURN:
                 return self.turn()
-            case Verb.ROOM:
+            case CommandTopic.ROOM:
                 return GoToRoom(plain_name(self.choose(*self._rooms)))
-            case Verb.BACK:
+            case CommandTopic.BACK:
                 return GoBack()
-            case Verb.WAIT:
+            case CommandTopic.WAIT:
                 return Stop(int(self._rng.integers(2, 11)))
             case _:
                 return GoToDoor(self.door())

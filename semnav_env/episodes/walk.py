@@ -9,7 +9,7 @@ import numpy as np
 
 from semnav_env.features.frames import Pose, to_parent
 from semnav_env.grounding import Goal, GoalKind
-from semnav_env.routes import Route
+from semnav_env.routes.route import Route
 from semnav_env.verifier import Motion, Verifier, place
 
 PERIOD = 0.1

@@ -11,11 +11,10 @@ import shapely
 from numba import njit
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import dijkstra
 from shapely import Polygon
 
 from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.grid_search import descent, least_costs
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.nearness import clear_near
 
@@ -64,7 +63,8 @@ class Geodesic:
         row, column = self._cell(goal)
         known = self._known.pop((row, column), None)
         if known is None:
-            known = self._distances(row * self._shape[1] + column)
+            source, diagonal = np.array([(row, column)]), SPACING * math.hypot(1, 1)
+            known = least_costs(source, np.zeros(1), self._weight, SPACING, diagonal, True)
         self._known[row, column] = known  # the latest one is the last to go
         if len(self._known) > KEPT:
             del self._known[next(iter(self._known))]
@@ -106,31 +106,13 @@ class Geodesic:
         free[rows[row], columns[column]] = False
 
     @cached_property
-    def _graph(self) -> coo_matrix:
-        index = np.arange(self.free.size).reshape(self._shape)
-        parts, weight = [], self._weight
-        for dr, dc in ((0, 1), (1, 0), (1, 1), (1, -1)):
-            a = np.s_[: self._shape[0] - dr, max(0, -dc) : self._shape[1] - max(0, dc)]
-            b = np.s_[dr:, max(0, dc) : self._shape[1] + min(0, dc)]
-            both = self.free[a] & self.free[b]
-            length = SPACING * math.hypot(dr, dc) * (weight[a][both] + weight[b][both]) / 2
-            parts.append((index[a][both], index[b][both], length))
-            parts.append((index[b][both], index[a][both], length))
-        i, j, length = (np.concatenate(column) for column in zip(*parts, strict=True))
-        return coo_matrix((length, (i, j)), shape=(self.free.size,) * 2).tocsr()
-
-    @property
     def _weight(self) -> FloatArray:
-        """How many times longer than it is a way through each cell counts."""
-        if not self._comfort:
-            return np.ones(self._shape)
-        room = self._clearance + SPACING * distance_transform_edt(self.free)
-        weight = 1.0 + DISCOMFORT * np.clip(1.0 - room / self._comfort, 0.0, 1.0)
-        return np.asarray(weight, dtype=np.float64)
-
-    def _distances(self, source: int) -> FloatArray:
-        distances = dijkstra(self._graph, indices=source)
-        return np.asarray(distances, dtype=np.float64).reshape(self._shape)
+        """How many times its length a way counts in each cell; infinite where none leads."""
+        weight = np.where(self.free, 1.0, np.inf)
+        if self._comfort:
+            room = self._clearance + SPACING * distance_transform_edt(self.free)
+            weight += DISCOMFORT * np.clip(1.0 - room / self._comfort, 0.0, 1.0)
+        return weight
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +141,8 @@ class WaysTo:
         west, south = self.geodesic.origin
         row = round((start[1] - south) / SPACING)
         column = round((start[0] - west) / SPACING)
-        cells = _descend(self.distances, *_nearest_reached(self.distances, row, column))
+        first = _nearest_reached(self.distances, row, column)
+        cells = descent(self.distances, *first, self.distances.size)
         inner = np.array((west, south)) + SPACING * cells[:, ::-1]
         return np.vstack((start, inner[1:-1], self.goal))
 
@@ -176,23 +159,6 @@ def _read(
             dx, dy = west + spacing * c - x, south + spacing * r - y
             best = min(best, field[r, c] + math.sqrt(dx * dx + dy * dy))
     return best
-
-
-@njit(cache=True)
-def _descend(field: FloatArray, row: int, column: int) -> NDArray[np.int64]:
-    """The cells from (row, column) downhill to the zero of the field."""
-    cells = [(row, column)]
-    while field[row, column] > 0.0 and len(cells) < field.size:
-        best_row, best_column = row, column
-        for r in range(max(row - 1, 0), min(row + 2, field.shape[0])):
-            for c in range(max(column - 1, 0), min(column + 2, field.shape[1])):
-                if field[r, c] < field[best_row, best_column]:
-                    best_row, best_column = r, c
-        if (best_row, best_column) == (row, column):
-            break
-        row, column = best_row, best_column
-        cells.append((row, column))
-    return np.array(cells)
 
 
 @njit(cache=True)

@@ -44,7 +44,7 @@ class UndescribableError(ValueError):
 
 
 @dataclass(frozen=True)
-class Told:
+class PartialDescription:
     """A part of a route that has been put in words.
 
     Attributes:
@@ -99,7 +99,7 @@ class _Search:
         self._poses = with_rest(route)
         self._crossings = crossings(floor_plan, self._poses)
         self._destination = destination(floor_plan, route)
-        self._farthest = Told((), route.start, 0, 0)
+        self._farthest = PartialDescription((), route.start, 0, 0)
 
     def best(self) -> Command:
         """The cheapest command that the verifier accepts."""
@@ -120,12 +120,12 @@ class _Search:
                 heapq.heappush(queue, (least, further.words, next(order), further, ends))
         raise self._undescribable()
 
-    def _still_to_tell(self, told: Told, ends: bool) -> int:
+    def _still_to_tell(self, told: PartialDescription, ends: bool) -> int:
         """The fewest clauses that can tell the rest: one for each door that is still to cross."""
         doors = sum(k > told.index for k, _ in self._crossings)
         return doors if ends else max(1, doors)
 
-    def _further(self, told: Told) -> Iterator[tuple[Told, bool]]:
+    def _further(self, told: PartialDescription) -> Iterator[tuple[PartialDescription, bool]]:
         """All that one more clause can tell, and whether it is the whole route."""
         crossing = next((c for c in self._crossings if c[0] > told.index), None)
         stop, door = crossing or (len(self._poses), None)
@@ -167,10 +167,12 @@ class _Search:
         before, after = (tuple(pose.tolist()) for pose in self._poses[stop - 1 : stop + 1])
         return goal.crossed_between(before, after)
 
-    def _told(self, told: Told, clause: Clause, goal: Goal, done: int) -> Told:
+    def _told(
+        self, told: PartialDescription, clause: Clause, goal: Goal, done: int
+    ) -> PartialDescription:
         anew = 2 if told.clauses and may_count_on(told.clauses[-1], clause) else 0
         words = told.words + words_of(clause) + anew
-        further = Told((*told.clauses, clause), goal.onward or goal.pose, done, words)
+        further = PartialDescription((*told.clauses, clause), goal.onward or goal.pose, done, words)
         if done > self._farthest.index:
             self._farthest = further
         return further
@@ -208,7 +210,7 @@ class _Search:
         )
 
 
-def _goal(clause: Clause, told: Told, situation: Situation) -> Goal | None:
+def _goal(clause: Clause, told: PartialDescription, situation: Situation) -> Goal | None:
     """Where a clause leads from there; None if nowhere."""
     bare = _is_on_the_spot(clause) and clause != Turn(Turning.AROUND)
     if bare and told.clauses and _is_past(told.clauses[-1]):

@@ -12,13 +12,13 @@ import shapely
 
 from semnav_env.commands import Command, parse
 from semnav_env.commands.language import language_of
-from semnav_env.directory import RoomGuide
 from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import RobotSpec
+from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.tasks.implicit import with_implicit_steps
 from semnav_env.tasks.rewards import RewardTerms, RewardWeights
 from semnav_env.tasks.sampling import sample_feasible, sample_start

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from semnav_env.commands import Command
-from semnav_env.directory import RoomGuide
 from semnav_env.features.frames import Point, Pose
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, GoalKind
 from semnav_env.grounding.situation import GroundingError
 from semnav_env.grounding.ways import Guide
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.routes.room_guide import RoomGuide
 
 
 def plan_goals(

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from semnav_env.commands import Command, encode
-from semnav_env.directory import RoomGuide
 from semnav_env.features.frames import FloatArray, Pose, path_length
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
@@ -19,6 +18,7 @@ from semnav_env.grounding.situation import GroundingError
 from semnav_env.grounding.ways import KnownWays
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor
 from semnav_env.maps.geodesic import Geodesic, WaysTo
+from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.verifier.astray import went_astray
 from semnav_env.verifier.goals import goals_in_turn, place
 from semnav_env.verifier.verdict import Verdict, verdicts

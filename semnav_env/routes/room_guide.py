@@ -1,4 +1,4 @@
-"""Points out the ways to named rooms, as the directory in a building's entrance does."""
+"""Points out the ways to named rooms to a robot that does not know the floor plan."""
 
 from __future__ import annotations
 
@@ -15,26 +15,29 @@ from semnav_env.grounding.ways import Way, paced
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.maps.geodesic import Geodesic
 
-BESIDE = 0.5
-"""So far on either side of a door one is in what it joins, metres."""
+SIDE_OFFSET = 0.5
+"""Distance from a door's middle to the places on its two sides that tell which rooms it joins,
+metres: beyond the thickness of any wall."""
 
-ABOUT = 0.3
-"""Outlines of rooms are as exact as this, metres."""
+OUTLINE_TOLERANCE = 0.3
+"""Largest distance of a place from a room's outline at which it counts as in the room, metres:
+outlines run along walls of some thickness."""
 
-IN_DOORWAY = 0.1
-"""So near to the middle of a door one stands in it, metres."""
+DOORWAY_RADIUS = 0.1
+"""A robot this near to the middle of a door stands in the doorway, metres."""
 
-WIDE = 1.5
-"""A way leads down the middle of what is less than twice as wide, metres."""
+MAX_SIDE_ROOM = 1.5
+"""Walls farther to the side than this do not pull a way towards the middle, metres: corridors are
+narrower than twice this, halls are not."""
 
 
 class RoomGuide:
-    """Knows the floor plan and tells the ways to its rooms.
+    """Knows the floor plan and tells a robot the ways to its rooms.
 
     Args:
         floor_plan: of the building.
-        command: of whose clauses it is asked.
-        geodesic: of the floor plan; made when it is needed if not given.
+        command: the command whose clauses name the rooms.
+        geodesic: shortest ways in the floor plan; made when first needed if not given.
     """
 
     def __init__(
@@ -48,7 +51,7 @@ class RoomGuide:
     def __call__(self, clause: int, begin: Pose) -> Way | None:
         """The way to the room that a clause names, world frame; None if it names none.
 
-        The ways asked for are kept in `ways` by the number of the clause.
+        Each way that was asked for is kept in `ways` under the number of its clause.
 
         Raises:
             GroundingError: there is no such room, or no way into it.
@@ -68,7 +71,7 @@ class RoomGuide:
         return self.ways[clause]
 
     def _into(self, room: Region, pose: Pose, named: str) -> Way:
-        """The shortest way into a room: through the door that it leads by, if there is one."""
+        """The shortest way into a room, through the nearest of its open doors if it has any."""
         assert self._geodesic is not None
         begin = pose[:2]
         doors = [(door, *_inward(door, room)) for door in self._plan.doors if door.open]
@@ -84,12 +87,12 @@ class RoomGuide:
             raise GroundingError(f"{named}: no open door leads there")
         if not entries:
             (ax, ay), (bx, by) = way[-3:-1].tolist()
-            return Way(self._amid(way[:-1]), heading=math.atan2(by - ay, bx - ax))
+            return Way(self._centred(way[:-1]), heading=math.atan2(by - ay, bx - ax))
         door, heading = entries[best]
-        return Way(self._amid(way), door.as_door(), heading)
+        return Way(self._centred(way), door.as_door(), heading)
 
-    def _amid(self, way: FloatArray) -> tuple[Point, ...]:
-        """The places of a way, each moved into the middle between what is left and right of it."""
+    def _centred(self, way: FloatArray) -> tuple[Point, ...]:
+        """Places along a way, each moved to the middle between the walls to its left and right."""
         places = np.array(paced(way))
         if len(places) < 3:
             return tuple(zip(*places.T.tolist(), strict=True))
@@ -98,34 +101,34 @@ class RoomGuide:
         across /= np.hypot(*across.T)[:, None]
         doors = [(*door.start, *door.end) for door in self._plan.doors if door.open]
         sides = np.vstack((self._plan.segments, np.reshape(doors, (-1, 4))))
-        left, right = (_room(sides, places, sign * across) for sign in (1.0, -1.0))
+        left, right = (_side_room(sides, places, sign * across) for sign in (1.0, -1.0))
         inner = np.s_[1:-1]
         places[inner] += 0.5 * (left - right)[inner, None] * across[inner]
         return tuple(zip(*places.T.tolist(), strict=True))
 
     @staticmethod
     def _ends_in(room: Region, point: Point) -> bool:
-        return bool(room.polygon.distance(shapely.Point(point)) < ABOUT)
+        return bool(room.polygon.distance(shapely.Point(point)) < OUTLINE_TOLERANCE)
 
 
-def _room(segments: FloatArray, places: FloatArray, directions: FloatArray) -> FloatArray:
-    """How far one can go from each place in its direction, at most `WIDE`, metres."""
+def _side_room(segments: FloatArray, places: FloatArray, directions: FloatArray) -> FloatArray:
+    """Free distance from each place in its direction, at most `MAX_SIDE_ROOM`, metres."""
     start, run = segments[:, :2], segments[:, 2:] - segments[:, :2]
-    free = np.full(len(places), WIDE)
+    free = np.full(len(places), MAX_SIDE_ROOM)
     for k, (place, (dx, dy)) in enumerate(zip(places, directions, strict=True)):
         x, y = (start - place).T
-        turned = dx * run[:, 1] - dy * run[:, 0]
+        across = dx * run[:, 1] - dy * run[:, 0]
         with np.errstate(divide="ignore", invalid="ignore"):
-            reach, share = (x * run[:, 1] - y * run[:, 0]) / turned, (x * dy - y * dx) / turned
+            reach, share = (x * run[:, 1] - y * run[:, 0]) / across, (x * dy - y * dx) / across
         met = reach[(reach > 0.0) & (share >= 0.0) & (share <= 1.0)]
-        free[k] = min(WIDE, met.min(initial=WIDE))
+        free[k] = min(MAX_SIDE_ROOM, met.min(initial=MAX_SIDE_ROOM))
     return free
 
 
 def _has_come_in(pose: Pose, entries: list[tuple[PlanDoor, float]]) -> bool:
-    """Whether one stands in a door and looks in, as who has just been sent through it."""
+    """Whether a robot stands in a door and looks in, as after a clause that led through it."""
     return any(
-        math.dist(pose[:2], door.midpoint) < IN_DOORWAY and math.cos(heading - pose[2]) > 0.0
+        math.dist(pose[:2], door.midpoint) < DOORWAY_RADIUS and math.cos(heading - pose[2]) > 0.0
         for door, heading in entries
     )
 
@@ -135,8 +138,8 @@ def _inward(door: PlanDoor, room: Region) -> tuple[bool, float]:
     (ax, ay), (bx, by) = door.start, door.end
     heading = math.atan2(by - ay, bx - ax) + math.pi / 2
     x, y = door.midpoint
-    dx, dy = BESIDE * math.cos(heading), BESIDE * math.sin(heading)
+    dx, dy = SIDE_OFFSET * math.cos(heading), SIDE_OFFSET * math.sin(heading)
     left = room.polygon.distance(shapely.Point(x + dx, y + dy))
     right = room.polygon.distance(shapely.Point(x - dx, y - dy))
-    leads = min(left, right) < ABOUT and abs(left - right) > BESIDE / 2
+    leads = min(left, right) < OUTLINE_TOLERANCE and abs(left - right) > SIDE_OFFSET / 2
     return leads, wrap_angle(heading if left < right else heading + math.pi)
