@@ -1,27 +1,53 @@
-"""Agents by name."""
+"""Makes agents: by name, by the folder of a trained one, or from a class of the user's own."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import TypeAlias
 
 from semnav_env.agents.base import Agent
+from semnav_env.agents.custom import agent_factory, checked_agent
 from semnav_env.agents.learned import LearnedAgent, pretrained_names
 from semnav_env.agents.oracle import OracleAgent
 from semnav_env.agents.scripted import ScriptedAgent
 
-_WRITTEN: dict[str, Callable[[], Agent]] = {"scripted": ScriptedAgent, "oracle": OracleAgent}
+AgentSource: TypeAlias = str | Callable[[], Agent]
+"""What an agent is made from, see `make_agent`."""
+
+_BUILT_IN: dict[str, Callable[[], Agent]] = {"scripted": ScriptedAgent, "oracle": OracleAgent}
 
 
-def make_agent(name: str) -> Agent:
-    """The agent of that name, or the trained one at that path.
+def make_agent(source: AgentSource) -> Agent:
+    """A new agent.
+
+    Args:
+        source: "scripted", "oracle" or a name of `pretrained_names`; the folder of a trained
+            agent; "package.module:Class"; or a class or function that is called without arguments.
 
     Raises:
-        ValueError: neither; says what there is.
+        ValueError: there is no such agent, or what was made is none; says what would be right.
     """
-    if name in _WRITTEN:
-        return _WRITTEN[name]()
-    if name in pretrained_names() or Path(name).exists():
-        return LearnedAgent.load(name)
-    names = ", ".join((*_WRITTEN, *pretrained_names()))
-    raise ValueError(f"no agent {name!r}; there are: {names}, or the path of a trained one")
+    if not isinstance(source, str):
+        if not callable(source):
+            raise ValueError(f"{source!r:.80} makes no agent; give its class, or a function")
+        return checked_agent(source())
+    if source in _BUILT_IN:
+        return _BUILT_IN[source]()
+    if source in pretrained_names() or Path(source).exists():
+        return LearnedAgent.load(source)
+    if ":" in source:
+        return _imported_agent(source)
+    names = ", ".join((*_BUILT_IN, *pretrained_names()))
+    more = "the folder of a trained one, or package.module:Class"
+    raise ValueError(f"no agent {source!r}; there are: {names}, {more}")
+
+
+def _imported_agent(location: str) -> Agent:
+    factory = agent_factory(location)
+    try:
+        agent = factory()
+    except Exception as error:
+        why = f"{type(error).__name__}: {error}"
+        raise ValueError(f"{location}() failed: {why}") from error
+    return checked_agent(agent)

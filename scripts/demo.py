@@ -16,7 +16,7 @@ from semnav_env.agents.registry import make_agent
 from semnav_env.commands import parse
 from semnav_env.dynamics import OFF, Dynamics
 from semnav_env.dynamics.social import for_json
-from semnav_env.env import CONTROL_HZ, SemNavEnv
+from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
@@ -36,7 +36,8 @@ class Arguments:
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         language: of the command: en or de (english, german).
         robot: wheelchair or spot.
-        agent: scripted, oracle, quick, office (trained ones), or the path of a trained agent.
+        agent: scripted, oracle, quick, office (trained ones), the folder of a trained agent, or
+            package.module:Class.
         pose: where it starts, x,y,heading in metres and radians; drawn from the seed if not given.
         seed: of everything that is drawn.
         dynamics: what else moves.
@@ -82,14 +83,14 @@ class Arguments:
         frames: list[NDArray[np.uint8]] = []
         info: dict[str, Any] = {}
         driven = tracked(
-            steps(env, agent, observation, start), lambda n: f"{n / CONTROL_HZ:.0f} s", lambda: None
+            steps(env, agent, observation, start), lambda _: f"{env.seconds:.0f} s", lambda: None
         )
         for number, step in enumerate(driven):
             info = step.info
             if filmed and (number % FRAME_EVERY == 0 or "is_success" in info):
                 frames.append(env.render())  # type: ignore[arg-type]
         env.close()
-        self._save(frames)
+        self._save(frames, env.metadata["render_fps"] / FRAME_EVERY)
         self._report(start, info, env.seconds, for_json(env.world.social()))
         return 0 if info["is_success"] else 1
 
@@ -104,11 +105,11 @@ class Arguments:
         if self.picture is not None:
             check_suffix(self.picture, (".png",))
 
-    def _save(self, frames: list[NDArray[np.uint8]]) -> None:
+    def _save(self, frames: list[NDArray[np.uint8]], rate: float) -> None:
         from semnav_env.rendering.video import save_png, save_video
 
         if self.save is not None:
-            save_video(self.save, frames, CONTROL_HZ / FRAME_EVERY)
+            save_video(self.save, frames, rate)
         if self.picture is not None:
             save_png(self.picture, frames[-1])
 

@@ -24,7 +24,8 @@ class Arguments:
     Attributes:
         split: a split (`semnav episodes list`), or a file of episodes.
         out: name of the dataset, as semnav/train-scripted-v0, or a new folder.
-        agent: scripted, oracle, or the path of a trained agent.
+        agent: scripted, oracle, quick, office (trained ones), the folder of a trained agent, or
+            package.module:Class.
         robot: wheelchair or spot.
         episodes: how many, evenly spaced; all if not given.
         failures: keep failed episodes as well.

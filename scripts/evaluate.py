@@ -51,7 +51,8 @@ class Arguments:
     Attributes:
         suite: heidelberg, office_cross, or "all"; a split (`semnav episodes list`), or a file of
             episodes.
-        agent: scripted, oracle, quick, office (trained ones), or the path of a trained agent.
+        agent: scripted, oracle, quick, office (trained ones), the folder of a trained agent, or
+            package.module:Class.
         robot: wheelchair or spot.
         seeds: how many start poses and noises per command of a suite.
         first_seed: of them.

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from semnav_env.agents.evaluation import SUITES, Trial, run_suite
-from semnav_env.agents.evaluation.runner import run_episode
+from semnav_env.agents.evaluation.runner import run_trial
 from semnav_env.agents.registry import make_agent
 from semnav_env.agents.scripted import ScriptedAgent
 from semnav_env.dynamics import Dynamics
@@ -78,9 +78,9 @@ def test_results_do_not_depend_on_the_number_of_workers() -> None:
 def test_an_agent_can_be_used_for_one_episode_after_another() -> None:
     agent = make_agent("scripted")
     env = SemNavEnv(observation=agent.observation)
-    first = run_episode(env, agent, HEIDELBERG[0], seed=0)
-    run_episode(env, agent, HEIDELBERG[1], seed=1)
-    assert run_episode(env, agent, HEIDELBERG[0], seed=0) == first
+    first = run_trial(env, agent, HEIDELBERG[0], seed=0)
+    run_trial(env, agent, HEIDELBERG[1], seed=1)
+    assert run_trial(env, agent, HEIDELBERG[0], seed=0) == first
 
 
 def test_an_episode_begins_where_no_added_box_stands() -> None:
@@ -88,7 +88,7 @@ def test_an_episode_begins_where_no_added_box_stands() -> None:
     env = SemNavEnv(observation="truth", dynamics=dynamics, max_seconds=0.5)
     env.reset(seed=8, options={"floor_plan": trial.floor_plan})
     assert placement_error(env.floor_plan, env.robot, trial.pose)  # where it was not asked for
-    run_episode(env, make_agent("oracle"), trial, seed=8)
+    run_trial(env, make_agent("oracle"), trial, seed=8)
     assert placement_error(env.floor_plan, env.robot, trial.pose) is None
 
 

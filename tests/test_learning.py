@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from semnav_env.agents.evaluation.runner import run_episode
+from semnav_env.agents.evaluation.runner import run_trial
 from semnav_env.agents.learned import LearnedAgent, pretrained_names
 from semnav_env.agents.learning.action_repeat import ActionRepeat
 from semnav_env.agents.learning.compact import COMPACT_SIZE, SECTORS, compact
@@ -120,7 +120,7 @@ def test_the_agents_that_come_along_can_be_loaded_by_name():
 def test_the_quick_agent_does_what_it_was_trained_for():
     trials = preset("quick").trials[:3]
     results = [
-        run_episode(SemNavEnv(observation="all"), LearnedAgent.load("quick"), trial, seed)
+        run_trial(SemNavEnv(observation="all"), LearnedAgent.load("quick"), trial, seed)
         for trial in trials
         for seed in (0, 1)
     ]

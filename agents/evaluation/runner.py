@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import multiprocessing
+import pickle
 import re
 import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from semnav_env.agents.base import Agent
 from semnav_env.agents.evaluation.drive import Drive, drive
 from semnav_env.agents.evaluation.results import Result, failure_line
 from semnav_env.agents.evaluation.suites import Trial
-from semnav_env.agents.registry import make_agent
+from semnav_env.agents.registry import AgentSource, make_agent
 from semnav_env.dynamics import OFF, Dynamics
-from semnav_env.env import CONTROL_HZ, SemNavEnv
+from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode, Expected
 from semnav_env.features.frames import Pose
 from semnav_env.maps import FloorPlan
@@ -40,29 +41,27 @@ class Extras:
 
 NO_EXTRAS = Extras()
 
-LONGEST = 300.0
-"""Frozen episodes may take so long, simulated seconds."""
+TRIAL_SECONDS, EPISODE_SECONDS = 120.0, 300.0
+"""Time limits of a trial and of a frozen episode, whose ways are longer; simulated seconds."""
 
-LONGEST_NAME = 90
-"""Characters of a command in the name of a picture."""
+MAX_NAME_LENGTH = 90
+"""Characters of a command in the name of a picture; file names end at 255 bytes."""
 
 
 @dataclass(frozen=True)
-class Job:
-    """One trial or frozen episode with one agent on one body, for some seeds."""
+class Setup:
+    """What all episodes of a suite share; see `run_suite`."""
 
-    trial: Trial | Episode
-    agent: str
-    robot: str
-    seeds: tuple[int, ...]
+    agent: AgentSource
+    robot: str | RobotSpec
     extras: Extras = NO_EXTRAS
     dynamics: Dynamics = OFF
 
 
 def run_suite(
     trials: Sequence[Trial | Episode],
-    agent: str,
-    robot: str,
+    agent: AgentSource,
+    robot: str | RobotSpec,
     seeds: Sequence[int] = (),
     workers: int = 1,
     extras: Extras = NO_EXTRAS,
@@ -72,48 +71,64 @@ def run_suite(
 
     Args:
         trials: what to run; an episode has one seed, its number.
-        agent: name of an agent, or the path of a trained one.
-        robot: name of a body.
+        agent: as `make_agent` takes it: a name, a folder, "package.module:Class", or a class or
+            function that makes an agent.
+        robot: a body or its name.
         seeds: each gives a trial's start pose, sensor noise and odometry drift.
         workers: processes; results do not depend on it.
         extras: what else to do with each episode.
         dynamics: what else moves.
+
+    Raises:
+        ValueError: there is no such agent, or with several workers one that other processes
+            cannot import.
     """
+    setup = Setup(agent, robot, extras, dynamics)
     jobs = [
-        Job(trial, agent, robot, (seed,), extras, dynamics)
+        (trial, seed)
         for trial in trials
         for seed in ((trial.number,) if isinstance(trial, Episode) else seeds)
     ]
     if workers == 1:
-        runner = Runner()
-        yield from (result for job in jobs for result in runner.run(job))
+        runner = SuiteRunner(setup)
+        yield from (runner.run(trial, seed) for trial, seed in jobs)
         return
-    with multiprocessing.get_context("spawn").Pool(workers, _start_worker) as pool:
-        for results in pool.imap(_work, jobs, chunksize=4):
-            yield from results
+    processes = multiprocessing.get_context("spawn")
+    with processes.Pool(workers, _start_worker, (_pickled(setup),)) as pool:
+        yield from pool.imap(_work, jobs, chunksize=4)
 
 
-class Runner:
-    """Runs jobs one after the other and keeps the environment from one to the next."""
+class SuiteRunner:
+    """Runs trials and frozen episodes one after the other, with one agent on one body."""
 
-    def __init__(self) -> None:
-        self._envs: dict[tuple[str, str, Dynamics], tuple[SemNavEnv, Any]] = {}
+    def __init__(self, setup: Setup) -> None:
+        self._setup = setup
+        self._agent = make_agent(setup.agent)
+        self._envs: dict[float, SemNavEnv] = {}
 
-    def run(self, job: Job) -> list[Result]:
-        """The results of a job, one per seed."""
-        key = (job.agent, job.robot, job.dynamics)
-        if key not in self._envs:
-            agent = make_agent(job.agent)
-            env = SemNavEnv(job.robot, observation=agent.observation, dynamics=job.dynamics)
-            self._envs[key] = env, agent
-        env, agent = self._envs[key]
-        if isinstance(job.trial, Episode):
-            return [run_frozen(env, agent, job.trial, job.extras)]
-        return [run_episode(env, agent, job.trial, seed, job.extras) for seed in job.seeds]
+    def run(self, trial: Trial | Episode, seed: int) -> Result:
+        """The result of a trial with that seed, or of a frozen episode."""
+        if isinstance(trial, Episode):
+            env = self._env(EPISODE_SECONDS)
+            return run_frozen(env, self._agent, trial, self._setup.extras)
+        env = self._env(TRIAL_SECONDS)
+        return run_trial(env, self._agent, trial, seed, self._setup.extras)
+
+    def _env(self, max_seconds: float) -> SemNavEnv:
+        """The environment with that limit, kept from one episode to the next."""
+        if max_seconds not in self._envs:
+            setup = self._setup
+            self._envs[max_seconds] = SemNavEnv(
+                setup.robot,
+                observation=self._agent.observation,
+                dynamics=setup.dynamics,
+                max_seconds=max_seconds,
+            )
+        return self._envs[max_seconds]
 
 
-def run_episode(
-    env: SemNavEnv, agent: Any, trial: Trial, seed: int, extras: Extras = NO_EXTRAS
+def run_trial(
+    env: SemNavEnv, agent: Agent, trial: Trial, seed: int, extras: Extras = NO_EXTRAS
 ) -> Result:
     """One episode from a start pose that the seed scatters."""
     drawn = env.plan_source.plan({"floor_plan": trial.floor_plan})  # furniture keeps off the pose
@@ -123,14 +138,12 @@ def run_episode(
     return conclude(driven, trial.command, seed, extras, group=trial.group)
 
 
-def run_frozen(env: SemNavEnv, agent: Any, episode: Episode, extras: Extras = NO_EXTRAS) -> Result:
-    """An episode that was written down, with its number as the seed and time for long ways."""
-    usual, env.max_steps = env.max_steps, round(LONGEST * CONTROL_HZ)
-    try:
-        with episode.named_in_errors():
-            driven = drive(env, agent, episode.number, {"episode": episode})
-    finally:
-        env.max_steps = usual
+def run_frozen(
+    env: SemNavEnv, agent: Agent, episode: Episode, extras: Extras = NO_EXTRAS
+) -> Result:
+    """One frozen episode, with its number as the seed."""
+    with episode.named_in_errors():
+        driven = drive(env, agent, episode.number, {"episode": episode})
     if episode.expected is Expected.INFEASIBLE:
         driven, extras = driven.as_infeasible(), replace(extras, recheck=False)
     told = episode.command, episode.number, extras
@@ -179,8 +192,8 @@ def conclude(
 def picture_name(driven: Drive, command: str, seed: int) -> str:
     """The file name of the picture of an episode; long commands are cut and told by a checksum."""
     words = re.sub("[^a-z0-9]+", "_", command.lower()).strip("_")
-    if len(words) > LONGEST_NAME:
-        words = f"{words[:LONGEST_NAME]}_{zlib.crc32(command.encode()):08x}"
+    if len(words) > MAX_NAME_LENGTH:
+        words = f"{words[:MAX_NAME_LENGTH]}_{zlib.crc32(command.encode()):08x}"
     return f"{driven.verifier.floor_plan.name}-{words}-{driven.robot.name}-seed{seed}.png"
 
 
@@ -196,12 +209,36 @@ def scattered(
             return x, y, heading
 
 
-_RUNNER: list[Runner] = []
+class _Worker:
+    """What a process of the pool keeps between jobs."""
+
+    pickled: bytes
+    runner: SuiteRunner | None = None
 
 
-def _start_worker() -> None:
-    _RUNNER.append(Runner())
+def _pickled(setup: Setup) -> bytes:
+    try:
+        return pickle.dumps(setup)
+    except (pickle.PicklingError, AttributeError, TypeError) as error:
+        raise ValueError(f"{_NOT_SHARED}: {error}") from None
 
 
-def _work(job: Job) -> list[Result]:
-    return _RUNNER[0].run(job)
+def _start_worker(pickled: bytes) -> None:
+    _Worker.pickled = pickled
+
+
+def _work(job: tuple[Trial | Episode, int]) -> Result:
+    """Run a job; the agent is unpickled here, where an error reaches the caller."""
+    if _Worker.runner is None:
+        try:
+            setup = pickle.loads(_Worker.pickled)
+        except (AttributeError, ImportError) as error:
+            raise ValueError(f"{_NOT_SHARED}: {error}") from None
+        _Worker.runner = SuiteRunner(setup)
+    return _Worker.runner.run(*job)
+
+
+_NOT_SHARED = (
+    "several workers need an agent that other processes can import: the class or function must "
+    "stand at the top of a module, not in a notebook or inside a function"
+)
