@@ -4,7 +4,7 @@ One layer of hidden units on the evidence x of `kernels.door_evidence`:
 
     confidence = 1 / (1 + exp(-(c + sum_j v_j s(b_j + w_j . x)))),  s(t) = t / (1 + |t|)
 
-It was trained on simulated scans of random offices; `semnav_env.evaluation.train_doors` makes the
+It was trained on simulated scans of random offices; `python -m studies train_doors` makes the
 file anew.
 """
 

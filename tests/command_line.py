@@ -5,9 +5,9 @@ import json
 from semnav_env.scripts import main as cli
 
 
-def run(capsys, *words):
-    """The exit code of `semnav` with these words, and what it printed and complained of."""
-    code = cli.main([str(word) for word in words])
+def run(capsys, *words, command=cli.main):
+    """The exit code of a command with these words, and what it printed and complained of."""
+    code = command([str(word) for word in words])
     captured = capsys.readouterr()
     return code, captured.out, captured.err
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from semnav_env.evaluation.cases import draw_cases
-from semnav_env.evaluation.comparison import compare
-from semnav_env.evaluation.records import Detection, Limits, Sighting, as_table
 from semnav_env.features import Wall
 from semnav_env.maps import load_floor_plan
+from studies.features.cases import draw_cases
+from studies.features.comparison import compare
+from studies.features.records import Detection, Limits, Sighting, as_table
 
 OFFICE = load_floor_plan("office_cross")
 WALL = Wall((0.0, -1.0), (4.0, -1.0), beams=100)

@@ -8,21 +8,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.evaluation.buildings import (
-    building_row,
-    find_buildings,
-    labelled,
-    look_around,
-)
-from semnav_env.evaluation.false_doorways import false_doorways
-from semnav_env.evaluation.map_doorways import map_row
-from semnav_env.evaluation.plan_openings import openings_of
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.scene import Door
 from semnav_env.maps.floor_plan import PlanDoor
 from semnav_env.maps.importers import read_occupancy
 from semnav_env.maps.importers.segments import plan_of_segments
-from semnav_env.scripts import main as cli
+from studies.__main__ import STUDIES
+from studies.buildings.buildings import (
+    building_row,
+    find_buildings,
+    labelled,
+    look_around,
+)
+from studies.buildings.false_doorways import false_doorways
+from studies.buildings.map_doorways import map_row
+from studies.buildings.plan_openings import openings_of
 from tests.drawn_maps import DOORS, FREE, PLACES, SOLID, narrowing, write_map
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
@@ -128,9 +128,9 @@ def test_door_and_detection_are_counted_once_in_each_scan(data):
 
 
 def test_the_command_measures_every_floor_and_draws_failures(data, capsys):
-    words = ["evaluate", "buildings", "--data", str(data), "--poses", "15", "--json"]
+    words = ["buildings", "--data", str(data), "--poses", "15", "--json"]
     blind = ["--settings.door-confidence-min", "1.0"]
-    assert cli.main([*words, *blind, "--out", str(data / "pages")]) == 0
+    assert STUDIES.main([*words, *blind, "--out", str(data / "pages")]) == 0
     records, mapped = json.loads(capsys.readouterr().out).values()
     (small,) = mapped
     assert (small["labelled open doors"], small["of them found"]) == (1, 1)
@@ -162,8 +162,8 @@ def test_doorways_count_as_found_where_straight_walls_would_narrow_them(tmp_path
 
 
 def test_bad_arguments_are_refused(data, capsys):
-    assert cli.main(["evaluate", "buildings", "--data", str(data), "--poses", "0"]) == 2
-    assert cli.main(["evaluate", "buildings", "--data", str(data / "amrl_floors")]) == 2
+    assert STUDIES.main(["buildings", "--data", str(data), "--poses", "0"]) == 2
+    assert STUDIES.main(["buildings", "--data", str(data / "amrl_floors")]) == 2
     assert "gdc_floors" in capsys.readouterr().err
 
 

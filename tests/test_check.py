@@ -23,6 +23,7 @@ from semnav_env.maps.plan_fault import PlanFault
 from semnav_env.maps.reach import reach
 from semnav_env.robots import SPOT, WHEELCHAIR
 from semnav_env.scripts.main import main
+from studies.__main__ import STUDIES
 
 
 def line(*points: tuple[float, float], material: Material = Material.WALL) -> Surface:
@@ -240,6 +241,6 @@ def test_the_commands_generate_and_measure_offices(tmp_path: Path, capsys) -> No
     )
     assert main(["map", "check", str(out)]) == 0
     options = ["--distributions", "small", "--count", "2", "--out", str(tmp_path / "offices.jsonl")]
-    assert main(["evaluate", "offices", *options]) == 0
+    assert STUDIES.main(["offices", *options]) == 0
     assert "100.0 %" in capsys.readouterr().out
     assert len((tmp_path / "offices.jsonl").read_text().splitlines()) == 2

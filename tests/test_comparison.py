@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.evaluation.comparison import compare_doors
-from semnav_env.evaluation.metrics import calibration, calibration_error, score, segmentation_rates
-from semnav_env.evaluation.overlap import Overlap, segmentation_rate
-from semnav_env.evaluation.records import Detection, Kind, Limits, as_table
 from semnav_env.features import Arc, Corner, CornerKind, CorridorProbe, Scene, Wall
+from studies.features.comparison import compare_doors
+from studies.features.metrics import calibration, calibration_error, score, segmentation_rates
+from studies.features.overlap import Overlap, segmentation_rate
+from studies.features.records import Detection, Kind, Limits, as_table
 from tests.evaluation_cases import WALL, cases, tables
 
 

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.evaluation.door_sightings import DoorCounts, Gate, View, judge, matches
-from semnav_env.evaluation.openings import LABELS, read_openings
 from semnav_env.features.frames import to_local
 from semnav_env.features.scene import Door
+from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
+from studies.doors.openings import LABELS, read_openings
 from tests.raycaster import polyline, scan_of
 
 WALLS = np.concatenate(

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.evaluation.door_sightings import matches
 from semnav_env.features import extract
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.scene import Door
+from studies.doors.door_sightings import matches
 from tests.raycaster import polygon, polyline, scan_of
 
 SIDE = 1.0

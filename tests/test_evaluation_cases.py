@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from shapely import LineString, Point
 
-from semnav_env.evaluation.clutter import cluttered
 from semnav_env.maps import Material, bundled_names, load_floor_plan
 from semnav_env.truth import TrueView
 from semnav_env.truth.shapes import fit_circle
+from studies.features.clutter import cluttered
 from tests.evaluation_cases import OFFICE, cases
 from tests.small_plans import empty_hall
 

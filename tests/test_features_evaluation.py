@@ -8,10 +8,12 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from semnav_env.evaluation.door_sightings import Gate
-from semnav_env.evaluation.metrics import score, segmentation_rates
-from semnav_env.evaluation.openings import read_openings
-from semnav_env.evaluation.real_doors import (
+from semnav_env.features import Door, ExtractorSettings, Scene
+from semnav_env.maps import bundled_names, load_floor_plan
+from studies.__main__ import STUDIES
+from studies.doors.door_sightings import Gate
+from studies.doors.openings import read_openings
+from studies.doors.real_doors import (
     FREIBURG,
     FREIBURG_LABELS,
     Glimpse,
@@ -20,12 +22,11 @@ from semnav_env.evaluation.real_doors import (
     passes,
     targets,
 )
-from semnav_env.evaluation.real_logs import find_logs, is_finite, log_row
-from semnav_env.evaluation.records import Kind
-from semnav_env.evaluation.sheets import Sheet
-from semnav_env.evaluation.study import DEFAULT, Study, all_strategies
-from semnav_env.features import Door, ExtractorSettings, Scene
-from semnav_env.maps import bundled_names, load_floor_plan
+from studies.features.metrics import score, segmentation_rates
+from studies.features.real_logs import find_logs, is_finite, log_row
+from studies.features.records import Kind
+from studies.features.study import DEFAULT, Study, all_strategies
+from studies.sheets import Sheet
 from tests.command_line import run
 from tests.evaluation_cases import WALL
 
@@ -67,7 +68,7 @@ def test_a_table_is_the_same_for_people_and_programs():
 def test_the_command_writes_tables_and_figures(capsys, tmp_path):
     out = tmp_path / "new" / "study"
     words = ("--plans", "villa_hall", "--poses", 3, "--sigma", 0.02, "--out", out, "--json")
-    code, text, _ = run(capsys, "evaluate", "features", *words)
+    code, text, _ = run(capsys, "features", *words, command=STUDIES.main)
     assert code == 0
     document = json.loads(text)
     assert document == json.loads((out / "features.json").read_text())
@@ -82,8 +83,10 @@ def test_the_command_writes_tables_and_figures(capsys, tmp_path):
 
 
 def test_the_command_prints_the_most_important_unless_all_is_wanted(capsys):
-    words = ("evaluate", "features", "--plans", "villa_hall", "--poses", 2, "--sigma", 0.02)
-    short, full = (run(capsys, *words, *more)[1] for more in ((), ("--full",)))
+    words = ("features", "--plans", "villa_hall", "--poses", 2, "--sigma", 0.02)
+    short, full = (
+        run(capsys, *words, *more, command=STUDIES.main)[1] for more in ((), ("--full",))
+    )
     assert len(short.splitlines()) < 15
     assert short.startswith("## Over all poses, sigma 20 mm\n")
     assert short.endswith("--full, or --out for a page with figures\n")
@@ -103,16 +106,10 @@ def test_the_command_prints_the_most_important_unless_all_is_wanted(capsys):
     ],
 )
 def test_bad_input_is_one_line_and_exit_code_two(capsys, words, complaint):
-    code, out, err = run(capsys, "evaluate", "features", *words)
+    code, out, err = run(capsys, "features", *words, command=STUDIES.main)
     assert (code, out) == (2, "")
     assert err.count("\n") == 1
     assert complaint in err
-
-
-def test_other_suites_are_still_reached(capsys):
-    code, _, err = run(capsys, "evaluate", "nonsense")
-    assert code == 2
-    assert "nonsense" in err
 
 
 def test_a_scene_with_a_number_that_is_none_is_noticed():

@@ -154,6 +154,11 @@ def test_only_the_lidar_makes_a_scan_from_a_floor_plan():
     }
 
 
+def test_what_is_not_installed_is_never_imported():
+    for package in ("studies", "examples", "tests"):
+        assert importers(package) == set(), package
+
+
 def test_every_package_is_listed_for_installation():
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
     folders = {(layer, path.parent) for layer in LAYERS for path in source_files(layer)}

@@ -3,11 +3,11 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.evaluation.cases import Case, Situation, draw_cases
-from semnav_env.evaluation.line_accuracy import segmentations, wall_accuracy
 from semnav_env.features import Door, ExtractorSettings, Scan, Scene, Wall
 from semnav_env.maps import load_floor_plan
-from semnav_env.scripts.evaluate_lines import Arguments
+from studies.features.cases import Case, Situation, draw_cases
+from studies.lines.command import Arguments
+from studies.lines.line_accuracy import segmentations, wall_accuracy
 
 SIGMA = 0.01
 

@@ -5,8 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.evaluation.line_baselines import end_point_fit, greedy_polylines
-from semnav_env.evaluation.line_quality import (
+from semnav_env.features import Scan, polylines
+from studies.lines.command import Arguments
+from studies.lines.line_baselines import end_point_fit, greedy_polylines
+from studies.lines.line_quality import (
     STREAM,
     compare,
     mean_quality,
@@ -14,8 +16,6 @@ from semnav_env.evaluation.line_quality import (
     published_scans,
     published_table,
 )
-from semnav_env.features import Scan, polylines
-from semnav_env.scripts.evaluate_lines import Arguments
 
 CARMEN = Path(__file__).resolve().parents[2] / "shared" / "data" / "carmen"
 ROOM = np.array([(2.0, -1.5), (2.0, 1.5), (-1.0, 1.5)])
@@ -117,7 +117,7 @@ def test_a_folder_without_logs_says_what_it_should_hold(tmp_path):
 @needs_logs
 def test_the_command_prints_the_means_of_every_log(tmp_path, capsys, monkeypatch):
     (tmp_path / "aces-corrected.log.gz").symlink_to(CARMEN / "aces-corrected.log.gz")
-    monkeypatch.setattr("semnav_env.scripts.evaluate_lines.VERTICES", (10,))
+    monkeypatch.setattr("studies.lines.command.VERTICES", (10,))
     assert Arguments(tmp_path, json=True).run() == 0
     out = json.loads(capsys.readouterr().out)
     assert (out["scans"], out["logs"]) == (20, ["aces"])

@@ -11,9 +11,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import box
 
-from semnav_env.evaluation.map_doors import findings, map_sheets, mapped
-from semnav_env.evaluation.openings import Opening, read_openings
-from semnav_env.evaluation.real_doors import FREIBURG, FREIBURG_LABELS
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.elements import Door
 from semnav_env.features.frames import compose, to_local, to_parent
@@ -23,6 +20,9 @@ from semnav_env.features.mapping.map_door import MapDoor
 from semnav_env.features.mapping.map_doors import MapDoors
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, Surface
+from studies.doors.map_doors import findings, map_sheets, mapped
+from studies.doors.openings import Opening, read_openings
+from studies.doors.real_doors import FREIBURG, FREIBURG_LABELS
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 

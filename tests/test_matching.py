@@ -13,16 +13,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import box
 
-from semnav_env.evaluation.drift import drift_of
-from semnav_env.evaluation.matching import (
-    COVERED,
-    PairSpec,
-    errors_of,
-    log_differences,
-    poses_on,
-    read_ways,
-    simulated_pairs,
-)
 from semnav_env.features import Scan
 from semnav_env.features.frames import compose, relative
 from semnav_env.features.mapping import MatchError, MatchSettings, match_scans
@@ -32,6 +22,16 @@ from semnav_env.lidar import Lidar
 from semnav_env.lidar.spec import TIM561
 from semnav_env.maps import FloorPlan, Surface, load_floor_plan
 from semnav_env.maps.importers import load_vector_map
+from studies.matching.drift import drift_of
+from studies.matching.matching import (
+    COVERED,
+    PairSpec,
+    errors_of,
+    log_differences,
+    poses_on,
+    read_ways,
+    simulated_pairs,
+)
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 AMRL = DATA / "amrl_floors"

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.evaluation.place_scans import called_corridor, place_sheets, read_place_labels
 from semnav_env.features import ExtractorSettings, Scene, Wall, extract
-from semnav_env.features.passage import PassageLimits, is_corridor, passages
-from semnav_env.scripts import main as cli
+from studies.__main__ import STUDIES
+from studies.places.passage import PassageLimits, is_corridor, passages
+from studies.places.place_scans import called_corridor, place_sheets, read_place_labels
 from tests.raycaster import polyline, scan_of
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data" / "clutter_slices"
@@ -89,8 +89,8 @@ def test_the_sheets_count_what_was_called_a_corridor(tmp_path, capsys):
     assert by_position.rows == [("a", 1, 1), ("b", 1, 0)]
     with pytest.raises(ValueError, match=r"no scan was taken in 'attic'; there are: hall, room"):
         list(place_sheets(labels, [True] * 3, "attic"))
-    words = ["evaluate", "places", "--data", str(tmp_path / "scans.npz"), "--corridor", "hall"]
-    assert cli.main(words) == 0
+    words = ["places", "--data", str(tmp_path / "scans.npz"), "--corridor", "hall"]
+    assert STUDIES.main(words) == 0
     assert "| hall | 3 | 2 | 2 | 1.000 | 1.000 | 1.000 |" in capsys.readouterr().out
 
 

@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import DTypeLike
 
-from semnav_env.evaluation.overlap import Overlap
 from semnav_env.features import CornerKind, ExtractorSettings, Scan, Scene, extract
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.strategies import BreakpointRule, Segmentation, strategy_names
+from studies.features.overlap import Overlap
 from tests.raycaster import FIELD_OF_VIEW, cast, scan_of
 from tests.strategies import Opening, Room, awkward_scans, openings, rooms
 

@@ -10,13 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from semnav_env.evaluation.segment_labels import NONE, found_lines, label, labelled_scans
-from semnav_env.evaluation.segmentation import detected_length, measure, segmentation_rate
 from semnav_env.features import ExtractorSettings
 from semnav_env.lidar import TIM561
 from semnav_env.maps import load_floor_plan
-from semnav_env.scripts.main import main
 from semnav_env.truth import TrueView
+from studies.__main__ import STUDIES
+from studies.segmentation.segment_labels import NONE, found_lines, label, labelled_scans
+from studies.segmentation.segmentation import detected_length, measure, segmentation_rate
 from tests.small_plans import closed, plan_of
 
 SETTINGS = ExtractorSettings()
@@ -104,9 +104,8 @@ def test_the_default_brings_back_97_percent_of_the_walls() -> None:
 
 def test_the_command_gives_a_rate_for_every_strategy(capsys: pytest.CaptureFixture[str]) -> None:
     plan = "--plans", "villa_hall"
-    assert (
-        main(["evaluate", "segmentation", *plan, "--poses", "2", "--sigma", "0.02", "--json"]) == 0
-    )
+    words = ["segmentation", *plan, "--poses", "2", "--sigma", "0.02", "--json"]
+    assert STUDIES.main(words) == 0
     rows = json.loads(capsys.readouterr().out)
     assert {row["strategy"] for row in rows} >= {
         "default",

@@ -8,7 +8,6 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.agents.evaluation.unsaid import follow, unsaid_trials
 from semnav_env.commands import Leave, parse
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
@@ -16,9 +15,10 @@ from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import GroundingError, ground
 from semnav_env.grounding.surroundings import doors_around, doors_of_the_room
 from semnav_env.maps import load_floor_plan
-from semnav_env.scripts.main import main
 from semnav_env.tasks.implicit import with_implicit_steps
 from semnav_env.verifier import plan_goals
+from studies.__main__ import STUDIES
+from studies.unsaid.unsaid import follow, unsaid_trials
 
 PLAN = load_floor_plan("office_cross")
 WEST: Pose = (1.3, 9.1, 0.0)
@@ -129,7 +129,7 @@ def test_more_is_understood_with_the_steps_than_without() -> None:
 
 
 def test_the_ablation_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["evaluate", "unsaid", "--trials", "3", "--json"]) == 0
+    assert STUDIES.main(["unsaid", "--trials", "3", "--json"]) == 0
     rows = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert set(rows) == {"with implicit steps", "without"}
     assert rows["without"]["commands"] == 3

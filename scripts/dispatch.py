@@ -1,0 +1,111 @@
+"""A command with sub-commands: finds the one that is asked for, and returns an exit code.
+
+Exit codes: 0 done; 1 not achieved; 2 bad input, with one line on stderr that names what is wrong
+and what would be right; 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module, metadata
+
+BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
+
+
+@dataclass(frozen=True)
+class CommandTable:
+    """A command and its sub-commands.
+
+    Attributes:
+        prog: how the command is called.
+        about: one sentence on it.
+        commands: name of a sub-command: (module, help). The module's `Arguments` have
+            `run() -> int`.
+    """
+
+    prog: str
+    about: str
+    commands: Mapping[str, tuple[str, str]]
+
+    def main(self, argv: Sequence[str] | None = None) -> int:
+        """Run with these arguments, by default those of the process.
+
+        `--debug` anywhere, or SEMNAV_DEBUG=1 in the environment, shows where an error comes from.
+
+        Returns:
+            The exit code.
+        """
+        words = list(sys.argv[1:] if argv is None else argv)
+        debug = "--debug" in words or os.environ.get("SEMNAV_DEBUG", "0") not in ("", "0")
+        words = [word for word in words if word != "--debug"]
+        try:
+            return self._run(words)
+        except BrokenPipeError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return BROKEN_PIPE
+        except (KeyboardInterrupt, SystemError) as stop:
+            if isinstance(stop, SystemError) and not isinstance(stop.__cause__, KeyboardInterrupt):
+                raise  # otherwise Ctrl-C came while a compiled kernel ran
+            print(_with_notes(f"{self.prog}: interrupted", stop), file=sys.stderr)
+            return INTERRUPTED
+        except (ValueError, OSError, ImportError) as error:
+            if debug:
+                raise
+            print(_with_notes(f"{self.prog}: {in_one_line(error)}", error), file=sys.stderr)
+            return BAD_INPUT
+
+    def _run(self, words: list[str]) -> int:
+        known = ", ".join(self.commands)
+        if not words:
+            raise ValueError(f"no command given; there are: {known} ({self.prog} --help)")
+        name, *rest = words
+        if name in ("-h", "--help"):
+            print(self._help())
+            return 0
+        if name == "--version":
+            print(f"semnav {metadata.version('semnav-env')}")
+            return 0
+        if name not in self.commands:
+            near = difflib.get_close_matches(name, self.commands, n=1)
+            hint = f"did you mean {near[0]!r}? " if near else ""
+            raise ValueError(f"no command {name!r}; {hint}there are: {known}")
+        from semnav_env.scripts.arguments import Help, parse
+
+        module = import_module(self.commands[name][0])
+        try:
+            command = parse(module.Arguments, rest, prog=f"{self.prog} {name}")
+        except Help:
+            return 0
+        return command.run()
+
+    def _help(self) -> str:
+        width = max(map(len, self.commands)) + 2
+        lines = "\n".join(f"  {name:<{width}}{help}" for name, (_, help) in self.commands.items())
+        return (
+            f"usage: {self.prog} COMMAND ...\n\n{self.about}\n\ncommands:\n{lines}\n\n"
+            f"`{self.prog} COMMAND --help` tells a command's options; `--debug` shows where an\n"
+            "error comes from; `--version` prints the version.\n"
+            "exit codes: 0 done, 1 not achieved, 2 bad input"
+        )
+
+
+def in_one_line(error: Exception) -> str:
+    """What an error says, in one line that a user understands."""
+    if isinstance(error, FileExistsError):
+        return f"{os.fspath(error.filename)!r} is a file, not a folder"
+    if isinstance(error, OSError) and error.strerror:
+        where = f" {os.fspath(error.filename)!r}" if error.filename else ""
+        return f"cannot open{where}: {error.strerror}"
+    if isinstance(error, ModuleNotFoundError) and not str(error.name).startswith("semnav_env"):
+        return f"{error.name} is not installed; `semnav doctor` says what to install"
+    lines = str(error).strip().splitlines()
+    return lines[0] if lines else type(error).__name__
+
+
+def _with_notes(said: str, error: BaseException) -> str:
+    """With what an error was told on its way up, such as where the work so far is."""
+    return "; ".join([said, *getattr(error, "__notes__", ())])

@@ -1,1 +1,0 @@
-"""How well the senses do: measured against floor plans and against labelled logs."""

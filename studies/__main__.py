@@ -1,0 +1,24 @@
+"""`python -m studies`: measures, and trains the scorer of doors."""
+
+from __future__ import annotations
+
+from semnav_env.scripts.dispatch import CommandTable
+
+STUDIES = CommandTable(
+    "python -m studies",
+    "Measurements of the package; `python -m studies.figures --help` lists the pictures.",
+    {
+        "buildings": ("studies.buildings.command", "doors in scans of real floors"),
+        "features": ("studies.features.command", "the feature extractor against truth"),
+        "lines": ("studies.lines.command", "lines on real scans, walls on simulated ones"),
+        "matching": ("studies.matching.command", "how exactly scans are matched"),
+        "offices": ("studies.offices", "check generated offices, and time them"),
+        "places": ("studies.places.command", "corridors told from other places"),
+        "segmentation": ("studies.segmentation.command", "how walls are cut into pieces"),
+        "train_doors": ("studies.door_scorer.train_doors", "train the scorer of doors"),
+        "unsaid": ("studies.unsaid.command", "what implicit steps are good for"),
+    },
+)
+
+if __name__ == "__main__":
+    raise SystemExit(STUDIES.main())

@@ -1,0 +1,1 @@
+"""Doors in simulated scans of real floors."""

@@ -1,0 +1,1 @@
+"""Doors that were found, compared with plans and with labels."""

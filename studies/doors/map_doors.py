@@ -1,0 +1,159 @@
+"""Doors of a map that was built from a whole log, against labelled openings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import islice
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from semnav_env.features import Door, ExtractorSettings, extract
+from semnav_env.features.frames import FloatArray
+from semnav_env.features.mapping import LineMap
+from semnav_env.features.readers import open_log
+from studies.doors.door_sightings import MATCH, jambs_apart
+from studies.doors.openings import Opening
+from studies.sheets import Cell, Sheet
+
+EXACT = 0.05
+"""A door of the map is exact if both jambs are within this of those labelled, metres."""
+
+_IN_WALL = 0.3
+"""A door this near to the line of a side's doors stands in that wall of the corridor, metres."""
+
+_ALONG = math.radians(20.0)
+"""... if it is turned against the wall by no more."""
+
+
+def mapped(path: Path, settings: ExtractorSettings, every: int = 1) -> Iterator[LineMap]:
+    """The map of every Nth scan of a log after each of them, one growing object.
+
+    Raises:
+        ValueError: the log tells no poses.
+        OSError: it cannot be opened.
+    """
+    line_map = LineMap()
+    with open_log(path) as log:
+        for record in islice(log, 0, None, every):
+            if record.pose is None:
+                raise ValueError(f"{path} tells no poses; give a log with corrected ones")
+            line_map.add(extract(record.scan, settings), record.scan, record.pose)
+            yield line_map
+
+
+class Finding(NamedTuple):
+    """A labelled opening with the door of the map that it is, or one of them alone.
+
+    Attributes:
+        opening: None for a door where nothing is labelled.
+        door: None for an opening that was not found.
+        off: between their jambs, at most, metres; infinite for one alone.
+    """
+
+    opening: Opening | None
+    door: Door | None
+    off: float
+
+
+def findings(doors: Sequence[Door], openings: Sequence[Opening]) -> list[Finding]:
+    """The openings, each with the door nearest to it within `MATCH`, then the other doors."""
+    found: list[Finding] = []
+    for opening in openings:
+        nearest = min(doors, key=lambda door: _apart(door, opening), default=None)
+        off = math.inf if nearest is None else _apart(nearest, opening)
+        found.append(Finding(opening, nearest, off) if off <= MATCH else _missed(opening))
+    rest = [door for door in doors if all(door is not each.door for each in found)]
+    return found + [Finding(None, door, math.inf) for door in rest]
+
+
+def map_sheets(doors: Sequence[Door], openings: Sequence[Opening]) -> list[Sheet]:
+    """How many of the openings are doors of the map, and each of both."""
+    found = findings(doors, openings)
+    walls = [wall for group in ("north", "south") if (wall := _wall(group, openings)) is not None]
+    groups = [
+        ("north, certain", [f for f in found if f.opening and _is(f.opening, "north")]),
+        ("north, all", [f for f in found if f.opening and f.opening.group == "north"]),
+        ("all certain", [f for f in found if f.opening and f.opening.certain]),
+        ("all undecided", [f for f in found if f.opening and not f.opening.certain]),
+    ]
+    extra = [f.door for f in found if f.opening is None and f.door]
+    standing = sum(any(_stands_in(door, wall) for wall in walls) for door in extra)
+    rows: list[tuple[Cell, ...]] = [(name, *_summary(group)) for name, group in groups]
+    rows.append(("not labelled", math.nan, len(extra), math.nan, math.nan))
+    rows.append(("of them in the corridor's walls", math.nan, standing, math.nan, math.nan))
+    columns = "openings", "number", "in the map", "both jambs within 5 cm", "worst jamb, cm"
+    each = [_row(finding) for finding in found]
+    return [
+        Sheet("Doors in the map of the whole log, freiburg-079", columns, rows),
+        Sheet("Doors in that map one by one", _EACH, each),
+    ]
+
+
+def _summary(group: Sequence[Finding]) -> tuple[Cell, ...]:
+    off = [finding.off for finding in group if finding.door]
+    worst = 100.0 * max(off, default=math.nan)
+    return len(group), len(off), sum(each <= EXACT for each in off), worst
+
+
+_EACH = (
+    *("opening", "group", "certain", "x, m", "y, m", "width, m", "width in the map, m"),
+    *("worst jamb, cm", "sightings", "confidence"),
+)
+
+
+def _row(finding: Finding) -> tuple[Cell, ...]:
+    opening, door, off = finding
+    label: tuple[Cell, ...] = ("-", "-", "-")
+    told: tuple[Cell, ...] = (math.nan,) * 4
+    if opening is not None:
+        label = str(opening.door.name), opening.group, "yes" if opening.certain else "no"
+    if door is not None:
+        worst = 100.0 * off if opening else math.nan
+        told = door.width, worst, door.sightings, door.confidence
+    width = opening.door.width if opening else math.nan
+    return *label, *_place(finding), width, *told
+
+
+def _place(finding: Finding) -> tuple[float, float]:
+    shown = finding.opening.door if finding.opening else finding.door
+    return shown.midpoint if shown else (math.nan, math.nan)
+
+
+def _missed(opening: Opening) -> Finding:
+    return Finding(opening, None, math.inf)
+
+
+def _apart(door: Door, opening: Opening) -> float:
+    return jambs_apart(door, opening.door.start, opening.door.end)
+
+
+def _is(opening: Opening, group: str) -> bool:
+    return opening.group == group and opening.certain
+
+
+def _wall(group: str, openings: Sequence[Opening]) -> tuple[FloatArray, FloatArray] | None:
+    """The wall that a side's certain doors stand in, from its first jamb to its last."""
+    doors = [opening.door for opening in openings if _is(opening, group)]
+    jambs = np.array([point for door in doors for point in (door.start, door.end)])
+    if len(doors) < 2:
+        return None
+    middle = jambs.mean(axis=0)
+    along = np.linalg.svd(jambs - middle)[2][0]
+    places = (jambs - middle) @ along
+    return middle + places.min() * along, middle + places.max() * along
+
+
+def _stands_in(door: Door, wall: tuple[FloatArray, FloatArray]) -> bool:
+    start, end = wall
+    length = float(np.hypot(*(end - start)))
+    along = (end - start) / length
+    place = np.array(door.midpoint) - start
+    chord = (np.array(door.end) - door.start) / door.width
+    return bool(
+        -_IN_WALL <= place @ along <= length + _IN_WALL
+        and abs(along[0] * place[1] - along[1] * place[0]) <= _IN_WALL
+        and abs(chord @ along) >= math.cos(_ALONG)
+    )

@@ -1,0 +1,30 @@
+"""`python -m studies.figures`: draws a picture of the documentation, or prints its numbers."""
+
+import tyro
+
+from studies.figures import (
+    arcs,
+    buildings,
+    drift,
+    features_tables,
+    language,
+    lines,
+    logs,
+    mapping,
+    offices,
+    real_floor,
+    routes,
+    rules,
+    situations,
+)
+
+FIGURES = (
+    *(arcs, buildings, drift, features_tables, language, lines, logs, mapping, offices),
+    *(real_floor, routes, rules, situations),
+)
+
+if __name__ == "__main__":
+    names = {module.__name__.rpartition(".")[2]: module.main for module in FIGURES}
+    tyro.extras.subcommand_cli_from_dict(
+        names, prog="python -m studies.figures", config=(tyro.conf.PositionalRequiredArgs,)
+    )

@@ -1,0 +1,78 @@
+"""Runs the scripted agent on imported floors: how often it gets there, and a film of one run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from semnav_env.agents.base import steps
+from semnav_env.agents.registry import make_agent
+from semnav_env.commands import Approach, Command, DoorReference, GoToDoor, Side
+from semnav_env.env import SemNavEnv
+from semnav_env.grounding import GroundingError
+from semnav_env.maps import FloorPlan
+from semnav_env.maps.importers import import_map
+from semnav_env.maps.placement import sample_pose
+from semnav_env.rendering.video import save_video
+from semnav_env.robots import WHEELCHAIR
+from semnav_env.verifier import plan_goals
+from studies.figures import IMAGES
+
+FLOORS = ("2", "3ne")
+STARTS, FARTHEST, EACH = 60, 12.0, 2
+FILM = "3ne", "go to room 3.512", (-14, -5.04, 3.1)
+FRAME_EVERY, SHARE = 10, 0.5
+
+
+def tasks(plan: FloorPlan) -> list[tuple[Command, tuple[float, float, float]]]:
+    """Commands by ordinals from random starts, at most `EACH` for a door."""
+    rng = np.random.default_rng(0)
+    found: dict[str | None, list[Any]] = {}
+    for _ in range(STARTS):
+        start = sample_pose(plan, WHEELCHAIR, rng)
+        for ordinal, side in ((1, Side.LEFT), (2, Side.LEFT), (1, Side.RIGHT), (2, Side.RIGHT)):
+            command = Command((GoToDoor(DoorReference(ordinal, side), Approach.THROUGH),))
+            try:
+                (goal,) = plan_goals(plan, command, start)
+            except GroundingError:
+                continue
+            away = np.hypot(goal.pose[0] - start[0], goal.pose[1] - start[1])
+            known = found.setdefault(goal.door and goal.door.name, [])
+            if away < FARTHEST and len(known) < EACH:
+                known.append((command, start))
+    return [task for known in found.values() for task in known]
+
+
+def drive(env: SemNavEnv, agent: Any, seed: int, options: dict[str, Any]) -> tuple[bool, list[Any]]:
+    """Whether it got there, and the frames if the environment draws any."""
+    frames = []
+    started = env.reset(seed=seed, options=options)
+    for number, step in enumerate(steps(env, agent, *started), 1):
+        over = step.terminated or step.truncated
+        if env.render_mode and (over or number % FRAME_EVERY == 0):
+            frames.append(env.render())
+    return step.info["is_success"], frames
+
+
+def main(data: Path) -> None:
+    """Draw real_floor.gif, and count the commands that the scripted agent carries out.
+
+    Args:
+        data: folder that holds gdc_floors.
+    """
+    floors, agent = data / "gdc_floors", make_agent("scripted")
+    plans = {name: import_map(floors / name / f"{name}.yaml").plan for name in FLOORS}
+    name, command, start = FILM
+    env = SemNavEnv(floor_plan=plans[name], observation=agent.observation, render_mode="rgb_array")
+    there, frames = drive(env, agent, 0, {"command": command, "pose": start})
+    print(f"film: {'done' if there else 'not done'}")
+    save_video(IMAGES / "real_floor.gif", frames, 15 / FRAME_EVERY, SHARE)
+    for name, plan in plans.items():
+        env = SemNavEnv(floor_plan=plan, observation=agent.observation)
+        runs = [
+            drive(env, agent, k, {"command": command, "pose": start})[0]
+            for k, (command, start) in enumerate(tasks(plan))
+        ]
+        print(f"{name}: {sum(runs)} of {len(runs)} commands carried out")

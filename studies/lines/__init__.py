@@ -1,0 +1,1 @@
+"""How well lines explain real scans, and how true simulated walls are."""

@@ -1,0 +1,1 @@
+"""Corridors told from other places by single scans."""

@@ -1,0 +1,1 @@
+"""How much of the walls each strategy brings back in one piece."""

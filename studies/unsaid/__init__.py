@@ -1,0 +1,1 @@
+"""What doing what goes without saying is good for."""
