@@ -13,9 +13,9 @@ from semnav_env.features import ExtractorSettings, Scan, extract
 from semnav_env.features.extract import beam_directions
 from semnav_env.features.kernels.scratch import allocate_scratch
 from semnav_env.features.kernels.segmentation import group_points
-from semnav_env.features.reference.breakpoints import threshold
-from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.strategies import BreakpointRule, strategy_names
+from tests.numpy_oracle.breakpoints import threshold
+from tests.numpy_oracle.sweep import Sweep
 from tests.raycaster import heidelberg, scan_of
 from tests.strategies import Opening, awkward_scans, openings
 

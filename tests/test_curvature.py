@@ -12,7 +12,7 @@ from semnav_env.features import CornerKind, ExtractorSettings, Scan, extract
 from semnav_env.features.frames import points_to_parent
 from semnav_env.features.kernels.curvature import LEAST_TURN, cut_where_it_turns
 from semnav_env.features.kernels.scratch import allocate_scratch
-from semnav_env.features.reference import extract_reference
+from tests.numpy_oracle import extract_reference
 from tests.raycaster import polyline, scan_of
 from tests.strategies import Opening, Room, awkward_scans, openings, rooms
 

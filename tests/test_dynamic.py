@@ -11,7 +11,7 @@ from semnav_env.features import ExtractorSettings, Scan, extract
 from semnav_env.features.frames import points_to_parent
 from semnav_env.features.kernels.dynamic import PIECE_PRICE, partition
 from semnav_env.features.kernels.scratch import allocate_scratch
-from semnav_env.features.reference import extract_reference
+from tests.numpy_oracle import extract_reference
 from tests.raycaster import heidelberg, scan_of
 from tests.strategies import Room, awkward_scans, rooms
 

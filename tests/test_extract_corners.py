@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from semnav_env.features import CornerKind, extract
 from semnav_env.features.frames import Point
-from semnav_env.features.reference.corners import corner_kind
+from tests.numpy_oracle.corners import corner_kind
 from tests.raycaster import polyline, scan_of
 
 quick = settings(max_examples=60, deadline=None)

@@ -16,8 +16,8 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.filters import filter_ranges
 from semnav_env.features.kernels.ring import beams_of_turn
 from semnav_env.features.kernels.scratch import allocate_scratch
-from semnav_env.features.reference.filters import filtered
-from semnav_env.features.reference.sweep import Sweep
+from tests.numpy_oracle.filters import filtered
+from tests.numpy_oracle.sweep import Sweep
 from tests.raycaster import polyline, scan_of
 from tests.strategies import Opening, Room, awkward_scans, openings, rooms
 

@@ -159,6 +159,15 @@ def test_what_is_not_installed_is_never_imported():
         assert importers(package) == set(), package
 
 
+def test_the_oracle_and_the_truth_import_no_kernel():
+    folders = (ROOT / "tests" / "numpy_oracle", ROOT / "semnav_env" / "truth")
+    kernels = ("semnav_env.features.kernels", "semnav_env.features.extract", "numba")
+    for path in (path for folder in folders for path in folder.glob("*.py")):
+        module = Module(path.stem, "", path, ast.parse(path.read_text()))
+        names = {f"{name}.{member}" for name, member in imported(module)}
+        assert not [name for name in names if name.startswith(kernels)], path
+
+
 def test_every_package_is_listed_for_installation():
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
     folders = {(layer, path.parent) for layer in LAYERS for path in source_files(layer)}

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.features import ExtractorSettings, Scan, Scene, extract
-from semnav_env.features.reference import extract_reference
+from tests.numpy_oracle import extract_reference
 from tests.raycaster import heidelberg, scan_of
 from tests.strategies import Opening, Room, awkward_scans, openings, rooms
 

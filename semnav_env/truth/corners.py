@@ -1,20 +1,12 @@
-"""Corners between walls in view, and the corridors that the extractor would make of them."""
+"""Corners between walls in view."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from semnav_env.features.frames import Point
-from semnav_env.features.reference.corners import FoundCorner
-from semnav_env.features.reference.corridors import find_corridors
-from semnav_env.features.reference.sweep import Sweep
-from semnav_env.features.reference.walls import Piece
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Arc, Corner, CornerKind, CorridorProbe, Wall
-from semnav_env.features.settings import ExtractorSettings
+from semnav_env.features.scene import Arc, Corner, CornerKind, Wall
 from semnav_env.truth.runs import WallRun
 
 
@@ -60,32 +52,3 @@ def _meeting(a: Wall | Arc, b: Wall | Arc, least_turn: float) -> Joint | None:
     if abs(turn) < least_turn:
         return None
     return Joint(b.start, CornerKind.OUTER if turn > 0.0 else CornerKind.INNER, a, b)
-
-
-def true_corridors(
-    scan: Scan, walls: list[Wall], joints: list[Joint], settings: ExtractorSettings
-) -> tuple[CorridorProbe, ...]:
-    """The extractor's corridors (its NumPy reference) of the walls that it would take for walls.
-
-    Args:
-        scan: without errors.
-        walls: in view.
-        joints: of these walls.
-        settings: which walls are long and dense enough, and what a corridor is.
-    """
-    pieces = {
-        (wall.start, wall.end): Piece([], np.array((wall.start, wall.end)))
-        for wall in walls
-        if wall.length >= settings.wall_length and wall.beams >= settings.wall_beams
-    }
-
-    def piece(wall: Wall | None) -> Piece | None:
-        return None if wall is None else pieces.get((wall.start, wall.end))
-
-    corners = [
-        FoundCorner(joint.point, joint.kind, piece(joint.ending), piece(joint.starting))
-        for joint in joints
-        if all(piece(wall) for wall in (joint.ending, joint.starting) if wall)
-    ]
-    sweep = Sweep.of(scan, settings)
-    return tuple(find_corridors(sweep, list(pieces.values()), corners, settings))

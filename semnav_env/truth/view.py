@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.features.extract import DEFAULT_SETTINGS
 from semnav_env.features.frames import FloatArray, Pose, compose, points_to_local
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Arc, Scene, Wall
@@ -14,11 +13,14 @@ from semnav_env.features.settings import ExtractorSettings
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.lidar.spec import LidarSpec, lidar_spec
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.truth.corners import find_joints, true_corridors
+from semnav_env.truth.corners import find_joints
+from semnav_env.truth.corridors import true_corridors
 from semnav_env.truth.doors import open_doors, see_door
 from semnav_env.truth.runs import cut_into_runs, seam
 from semnav_env.truth.shapes import Shapes
 from semnav_env.truth.sweep import NOTHING, Outline, at_range, crossings, sweep
+
+DEFAULT_SETTINGS = ExtractorSettings()
 
 
 def true_scene(

@@ -9,15 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.features.door_scorer import SCORER_FILE
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.doors import LONGEST_SPACING
-from semnav_env.features.reference.door_evidence import Gap, Jamb, evidence_of, is_open
-from semnav_env.features.reference.door_leaf import find_leaf
-from semnav_env.features.reference.sweep import Sweep
-from semnav_env.features.reference.walls import Piece
 from semnav_env.features.scene import Door
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.constants import LONGEST_SPACING, SCORER_FILE
+from tests.numpy_oracle.door_evidence import Gap, Jamb, evidence_of, is_open
+from tests.numpy_oracle.door_leaf import find_leaf
+from tests.numpy_oracle.sweep import Sweep
+from tests.numpy_oracle.walls import Piece
 
 
 def find_doors(sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings) -> list[Door]:

@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 
 from semnav_env.features.elements import Arc
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels import round_runs
-from semnav_env.features.kernels.arcs import FINEST, NEAR
-from semnav_env.features.reference.circles import Circle, EdgeRay, algebraic_circle, refined
-from semnav_env.features.reference.sweep import Sweep
-from semnav_env.features.reference.walls import Piece
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.circles import Circle, EdgeRay, algebraic_circle, refined
+from tests.numpy_oracle.constants import ARC_RUNS, CIRCLE_FIT
+from tests.numpy_oracle.sweep import Sweep
+from tests.numpy_oracle.walls import Piece
 
 
 def find_arcs(
@@ -83,7 +82,7 @@ class _Search:
         )
         lengths = [self.pieces[k].length for k in run]
         expected = sum(c**2 * half for c, half in zip(lengths, halves, strict=True))
-        least = round_runs.LEAST_BOW * expected * abs(extent) / sum(lengths)
+        least = ARC_RUNS.least_bow * expected * abs(extent) / sum(lengths)
         return (bow if extent > 0.0 else -bow) >= least
 
     def explained(self, first: int, last: int) -> list[Arc]:
@@ -106,7 +105,7 @@ class _Search:
         """The arc through the pieces start to end if it beats them, and its farthest point."""
         first, last = self.spans[start][0], self.spans[end][1]
         circle = algebraic_circle(self.points[first : last + 1])
-        on = np.abs(circle.beyond(self.points)) <= NEAR * self.settings.sigma
+        on = np.abs(circle.beyond(self.points)) <= CIRCLE_FIT.near * self.settings.sigma
         start, first = self._grown(on, start, first, -1)
         end, last = self._grown(on, end, last, 1)
         points = self.points[first : last + 1]
@@ -168,11 +167,11 @@ class _Search:
         return total
 
     def _is_solid(self, k: int) -> bool:
-        return len(self.pieces[k].beams) >= round_runs.SOLID
+        return len(self.pieces[k].beams) >= ARC_RUNS.solid
 
     def _is_lonely(self, k: int) -> bool:
         piece = self.pieces[k]
-        uneven = len(piece.beams) * (round_runs.UNEVEN * self.settings.sigma) ** 2
+        uneven = len(piece.beams) * (ARC_RUNS.uneven * self.settings.sigma) ** 2
         return bool(
             len(piece.beams) >= self.settings.arc_beams
             and piece.scatter >= uneven
@@ -184,9 +183,9 @@ class _Search:
 def _turn_sine(a: Piece, b: Piece, settings: ExtractorSettings) -> float:
     sine = float(a.along[0] * b.along[1] - a.along[1] * b.along[0])
     longer, mean = max(a.length, b.length), (a.length + b.length) / 2
-    most = round_runs.CHORD_SAGITTA * settings.split_distance * mean
+    most = ARC_RUNS.chord_sagitta * settings.split_distance * mean
     meet = np.linalg.norm(b.start - a.end) <= settings.merge_gap
-    fits = longer**2 * abs(sine) <= most and a.along @ b.along >= round_runs.MOST_TURN
+    fits = longer**2 * abs(sine) <= most and a.along @ b.along >= ARC_RUNS.most_turn
     return sine if fits and meet else 0.0
 
 
@@ -205,7 +204,7 @@ def _arc(circle: Circle, points: FloatArray) -> Arc:
 
 def _is_arc(arc: Arc, straight: float, lines: int, settings: ExtractorSettings) -> bool:
     """Round enough, and better than lines by Schwarz's criterion."""
-    n, finest = arc.beams, (FINEST * settings.sigma) ** 2
+    n, finest = arc.beams, (CIRCLE_FIT.finest * settings.sigma) ** 2
     with np.errstate(divide="ignore", invalid="ignore"):
         gain = n * np.log((straight / n + finest) / np.float64(arc.residual**2 + finest))
     return bool(

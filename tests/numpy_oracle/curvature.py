@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.curvature import DEVIATIONS, LEAST_TURN
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.constants import CURVATURE
 
 
 def curvature_peaks(points: FloatArray, settings: ExtractorSettings) -> list[int]:
@@ -48,7 +48,7 @@ class _Bend:
         if min(a, b) < slack:
             return cls(i, behind, ahead, 0.0, 1.0)
         noise = settings.sigma * math.sqrt(1 / a**2 + 1 / b**2 + (1 / a + 1 / b) ** 2)
-        least = max(LEAST_TURN, min(DEVIATIONS * noise, math.pi))
+        least = max(CURVATURE.least_turn, min(CURVATURE.deviations * noise, math.pi))
         cosine = float(arms[0] @ arms[1]) / (a * b)
         return cls(i, behind, ahead, 1.0 + cosine, 1.0 - math.cos(least))
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.features.kernels.ring import FEWEST_BEAMS
-from semnav_env.features.reference.sweep import Sweep
-from semnav_env.features.reference.walls import Piece
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.constants import FEWEST_BEAMS
+from tests.numpy_oracle.sweep import Sweep
+from tests.numpy_oracle.walls import Piece
 
 
 def beams_of_turn(sweep: Sweep, settings: ExtractorSettings) -> int:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels import door_evidence as kernel
-from semnav_env.features.reference.sweep import Sweep
-from semnav_env.features.reference.walls import Piece, is_wall
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.constants import EVIDENCE
+from tests.numpy_oracle.sweep import Sweep
+from tests.numpy_oracle.walls import Piece, is_wall
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +64,7 @@ class Gap:
             across = sweep.ranges[beams] * slant - self.distance
             beyond = across / slant
         missing = ~sweep.returned[beams]
-        far = kernel.DEEPEST
+        far = EVIDENCE.deepest
         return np.where(missing, far, beyond), np.where(missing, far, across)
 
 
@@ -86,7 +86,7 @@ def is_open(gap: Gap, sweep: Sweep, settings: ExtractorSettings) -> bool:
 def evidence_of(
     gap: Gap, sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings
 ) -> dict[str, float]:
-    """Everything in `kernels.door_evidence.EVIDENCE`, by name."""
+    """Everything in the scorer's list of inputs, by name."""
     beyond, across = gap.beyond(sweep, gap.beams)
     jumps = np.clip(beyond[[0, -1]], -0.5, 1.0)
     width = gap.width - 0.5 * (gap.start_spacing + gap.end_spacing)
@@ -100,18 +100,18 @@ def evidence_of(
         **_more_or_less("misfit", [misfit for misfit, _ in walls]),
         "clear": float(np.mean(beyond >= settings.door_depth)),
         "deep": float(np.mean(across >= settings.door_recess)),
-        "front": float(np.mean(beyond < -kernel.FRONT)),
-        "depth": float(np.mean(np.clip(across, 0.0, kernel.DEEPEST))),
+        "front": float(np.mean(beyond < -EVIDENCE.front)),
+        "depth": float(np.mean(np.clip(across, 0.0, EVIDENCE.deepest))),
         "beams": math.log(len(beyond)),
-        "narrow": max(kernel.NARROW - width, 0.0),
-        "wide": max(width - kernel.WIDE, 0.0),
+        "narrow": max(EVIDENCE.narrow - width, 0.0),
+        "wide": max(width - EVIDENCE.wide, 0.0),
         "incidence": gap.distance / away,
         "range": away,
         **_more_or_less("jump", jumps.tolist()),
         "spacing": gap.start_spacing + gap.end_spacing,
         **_more_or_less("wall", [length for _, length in walls]),
         "skew": 2.0 * abs(float(main @ gap.along) * float(_cross(main, gap.along))),
-        "longest": min(longest.length if longest is not None else 0.0, kernel.LONGEST_WALL),
+        "longest": min(longest.length if longest is not None else 0.0, EVIDENCE.longest_wall),
     }
 
 
@@ -122,19 +122,19 @@ def _more_or_less(name: str, sides: list[float]) -> dict[str, float]:
 def _missing_wall(gap: Gap, step: int, sweep: Sweep) -> float:
     """Metres of the chord's line beside a jamb that beams pass, so that no wall is there."""
     jamb, spacing = (gap.start, gap.start_spacing) if step < 0 else (gap.end, gap.end_spacing)
-    stride = step * max(int(kernel.FINEST / spacing), 1)
+    stride = step * max(int(EVIDENCE.finest / spacing), 1)
     beam, missing, reached = jamb.beam, 0.0, 0.0
-    while 0 <= beam < len(sweep.ranges) and reached < kernel.BESIDE:
+    while 0 <= beam < len(sweep.ranges) and reached < EVIDENCE.beside:
         slant = float(_cross(sweep.directions[beam], gap.along))
-        if slant <= kernel.FLATTEST:
+        if slant <= EVIDENCE.flattest:
             break
         line = gap.distance / slant * sweep.directions[beam]
         place = step * float((line - jamb.point) @ gap.along)
         if place > reached:
             across = sweep.ranges[beam] * slant - gap.distance
-            band = kernel.BAND + kernel.BAND_SLOPE * place
+            band = EVIDENCE.band + EVIDENCE.band_slope * place
             if not sweep.returned[beam] or across > band:
-                missing += min(place, kernel.BESIDE) - reached
+                missing += min(place, EVIDENCE.beside) - reached
             reached = place
         beam += stride
         beam += sweep.turn if beam < 0 else 0
@@ -146,8 +146,8 @@ def _best_wall(
 ) -> tuple[float, float]:
     """Misfit and length of the wall that best supports a jamb; see `wall_misfit`."""
     near, far = (gap.start, gap.end) if step < 0 else (gap.end, gap.start)
-    best, length = kernel.NO_WALL, 0.0
-    for k in range(near.piece, near.piece + kernel.SUPPORT_PIECES * step, step):
+    best, length = EVIDENCE.no_wall, 0.0
+    for k in range(near.piece, near.piece + EVIDENCE.support_pieces * step, step):
         if not 0 <= k < len(pieces):
             break
         wall = pieces[k]
@@ -160,7 +160,7 @@ def _best_wall(
             _misfit(wall, far.point, slack, settings), _misfit(wall, near.point, 0.0, settings)
         )
         if misfit < best:
-            best, length = misfit, min(wall.length, kernel.LONGEST_SUPPORT)
+            best, length = misfit, min(wall.length, EVIDENCE.longest_support)
     return best, length
 
 

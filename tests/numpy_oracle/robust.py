@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.features.kernels.robust import BIWEIGHT, STEPS
-from semnav_env.features.reference.sweep import Sweep
-from semnav_env.features.reference.walls import Piece
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.constants import ROBUST
+from tests.numpy_oracle.sweep import Sweep
+from tests.numpy_oracle.walls import Piece
 
 
 def refit_robustly(sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings) -> list[Piece]:
@@ -27,9 +27,9 @@ def _refitted(sweep: Sweep, piece: Piece, settings: ExtractorSettings) -> Piece:
     between = np.arange(piece.beams[0], piece.beams[-1] + 1)
     beams = between[sweep.returned[between]].tolist()
     points = sweep.points(beams)
-    for _ in range(STEPS):
+    for _ in range(ROBUST.steps):
         deviation = min(settings.sigma, math.sqrt(piece.scatter / piece.count))
-        farthest = BIWEIGHT * max(deviation, 1e-3 * settings.split_distance)
+        farthest = ROBUST.biweight * max(deviation, 1e-3 * settings.split_distance)
         offsets = np.array([piece.offset(point) for point in points])
         weights = np.maximum(1.0 - (offsets / farthest) ** 2, 0.0) ** 2
         if np.count_nonzero(weights) < settings.wall_beams:

@@ -28,11 +28,11 @@ def _constant(before: float, after: float, angle: float, s: ExtractorSettings) -
 
 
 def _borges_aldon(before: float, after: float, angle: float, s: ExtractorSettings) -> float:
-    return before * _incidence(angle, s) + 3.0 * s.sigma
+    return before * incidence_factor(angle, s.breakpoint_angle) + 3.0 * s.sigma
 
 
 def _certad(before: float, after: float, angle: float, s: ExtractorSettings) -> float:
-    return min(before, after) * _incidence(angle, s) + 3.0 * s.sigma
+    return min(before, after) * incidence_factor(angle, s.breakpoint_angle) + 3.0 * s.sigma
 
 
 def _dietmayer(before: float, after: float, angle: float, s: ExtractorSettings) -> float:
@@ -57,14 +57,14 @@ def _lee(before: float, after: float, angle: float, s: ExtractorSettings) -> flo
 
 def _weerakoon(before: float, after: float, angle: float, s: ExtractorSettings) -> float:
     near = min(before, after) * max(1.0 - 3.0 * s.sigma, 0.0)
-    return near * _incidence(angle, s) + 3.0 * s.sigma * max(before, after)
+    return near * incidence_factor(angle, s.breakpoint_angle) + 3.0 * s.sigma * max(before, after)
 
 
-def _incidence(angle: float, s: ExtractorSettings) -> float:
+def incidence_factor(angle: float, breakpoint_angle: float) -> float:
     """sin(da) / sin(lambda - da), with lambda at least twice the angle between the beams."""
     if angle >= math.pi / 4:
         return 0.0
-    return math.sin(angle) / math.sin(max(s.breakpoint_angle, 2.0 * angle) - angle)
+    return math.sin(angle) / math.sin(max(breakpoint_angle, 2.0 * angle) - angle)
 
 
 _THRESHOLDS: dict[str, Threshold] = {

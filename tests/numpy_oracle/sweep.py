@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.reference.breakpoints import threshold
 from semnav_env.features.scan import Scan
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.breakpoints import threshold
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,11 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.features.kernels.breakpoints import incidence_factor
-from semnav_env.features.kernels.filters import MOST_VEILED, ROUNDING
-from semnav_env.features.reference.breakpoints import threshold
-from semnav_env.features.reference.sweep import Sweep
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.breakpoints import incidence_factor, threshold
+from tests.numpy_oracle.constants import MOST_VEILED, ROUNDING
+from tests.numpy_oracle.sweep import Sweep
 
 At = Callable[[int], float]
 """The range of a beam; NaN if it has no return."""

@@ -5,26 +5,26 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from semnav_env.features.kernels.walls import point_variance
-from semnav_env.features.reference.arcs import find_arcs
-from semnav_env.features.reference.corners import find_corners
-from semnav_env.features.reference.corridors import find_corridors
-from semnav_env.features.reference.doors import find_doors
-from semnav_env.features.reference.filters import filtered
-from semnav_env.features.reference.merging import merge_pieces
-from semnav_env.features.reference.ring import (
+from semnav_env.features.scan import Scan
+from semnav_env.features.scene import Corner, Scene, Wall
+from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.arcs import find_arcs
+from tests.numpy_oracle.constants import PRIOR_POINTS
+from tests.numpy_oracle.corners import find_corners
+from tests.numpy_oracle.corridors import find_corridors
+from tests.numpy_oracle.doors import find_doors
+from tests.numpy_oracle.filters import filtered
+from tests.numpy_oracle.merging import merge_pieces
+from tests.numpy_oracle.ring import (
     beams_of_turn,
     close_seam,
     find_seam,
     repeat_pieces,
     unroll,
 )
-from semnav_env.features.reference.robust import refit_robustly
-from semnav_env.features.reference.sweep import Sweep
-from semnav_env.features.reference.walls import Piece, find_pieces, is_wall
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Corner, Scene, Wall
-from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.robust import refit_robustly
+from tests.numpy_oracle.sweep import Sweep
+from tests.numpy_oracle.walls import Piece, find_pieces, is_wall
 
 _PER_BEAM = ("ranges", "directions", "returned")
 
@@ -75,7 +75,8 @@ def _pieces(sweep: Sweep, settings: ExtractorSettings) -> list[Piece]:
 
 
 def _wall(piece: Piece, settings: ExtractorSettings) -> Wall:
-    variance = point_variance(piece.scatter, piece.count, settings.sigma)
+    prior = PRIOR_POINTS * settings.sigma**2
+    variance = (piece.scatter + prior) / (piece.count - 2 + PRIOR_POINTS)
     return Wall(
         start=(float(piece.start[0]), float(piece.start[1])),
         end=(float(piece.end[0]), float(piece.end[1])),

@@ -7,12 +7,12 @@ import math
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.corridor_probes import END_ON
-from semnav_env.features.reference.corners import FoundCorner
-from semnav_env.features.reference.sweep import Sweep
-from semnav_env.features.reference.walls import Piece
 from semnav_env.features.scene import CornerKind, CorridorProbe
 from semnav_env.features.settings import ExtractorSettings
+from tests.numpy_oracle.constants import END_ON
+from tests.numpy_oracle.corners import FoundCorner
+from tests.numpy_oracle.sweep import Sweep
+from tests.numpy_oracle.walls import Piece
 
 
 def find_corridors(
