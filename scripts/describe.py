@@ -15,6 +15,7 @@ from semnav_env.commands import Approach, paraphrases, to_program
 from semnav_env.commands.language import language_of
 from semnav_env.features.frames import Point
 from semnav_env.features.plot import check_suffix
+from semnav_env.grounding.goal import door_of
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
@@ -76,7 +77,7 @@ class Arguments:
 
             self.plot.parent.mkdir(parents=True, exist_ok=True)
             save_routes(floor_plan, [(route, said)], self.plot)
-        door = plan_goals(floor_plan, command, start)[-1].door
+        door = door_of(plan_goals(floor_plan, command, start)[-1])
         if self.json:
             outcome = {
                 "command": said,

@@ -16,6 +16,7 @@ from semnav_env.commands import (
     GoToDoor,
     parse,
 )
+from semnav_env.grounding.goal import door_of
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
@@ -62,7 +63,7 @@ class Arguments:
                 "kind": goal.kind.name.lower(),
                 "understood": goal.because,
                 "pose": [round(value, 3) for value in goal.pose],
-                "door": goal.door.name if goal.door is not None else None,
+                "door": door.name if (door := door_of(goal)) is not None else None,
             }
             for goal in goals
         ]

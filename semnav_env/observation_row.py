@@ -14,7 +14,7 @@ from semnav_env.features.frames import FloatArray, Pose, points_to_local
 from semnav_env.features.kernels.door_memory import door_counts
 from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
 from semnav_env.features.kernels.scratch import Features
-from semnav_env.grounding.goal import Goal
+from semnav_env.grounding.goal import Goal, door_of
 from semnav_env.observations import (
     KINDS,
     N_CORNERS,
@@ -154,4 +154,5 @@ _NO_DOOR = (0.0, 0.0, 0.0, 0.0)
 
 def door_ends(goal: Goal) -> tuple[float, float, float, float]:
     """The goal's door as four numbers; zeros if it has none."""
-    return _NO_DOOR if goal.door is None else (*goal.door.start, *goal.door.end)
+    door = door_of(goal)
+    return _NO_DOOR if door is None else (*door.start, *door.end)

@@ -16,6 +16,7 @@ from semnav_env.features.kernels.scratch import allocate_features, allocate_scra
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.goal import door_of
 from semnav_env.grounding.ways import KnownWays, Way
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.observation_row import door_ends, write_felt, write_state
@@ -139,7 +140,7 @@ class Perception:
             write_felt(self.row, self.felt.ends, pose)
         self._think(pose, math.hypot(velocity[0], velocity[1]), key[2])
         follower = self.follower
-        goal = follower.goal.towards(pose)
+        goal = follower.target(pose)
         write_state(
             self.row,
             follower.active,
@@ -148,7 +149,7 @@ class Perception:
             goal.kind.value,  # numba is slow to recognise an enum
             goal.pose,
             door_ends(goal),
-            goal.door is not None,
+            door_of(goal) is not None,
         )
 
     def _think(self, pose: Pose, speed: float, step: int) -> None:

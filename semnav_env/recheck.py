@@ -20,7 +20,7 @@ from shapely.affinity import affine_transform
 from semnav_env.features.corridor import Junction, SideOpening
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.frames import Point as Position
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal, wait_of
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.metrics.recording import Recording
 
@@ -95,7 +95,7 @@ def _first_failure(
     """The first failure behind `after`, before a goal is met or in that very step."""
     wrong_door = path.crosses_any(_forbidden(floor_plan, goal))
     wrong_turn = path.enters(_wrong_places(goal))
-    too_still = path.standing > LONGEST_STAND + goal.wait + path.period / 2
+    too_still = path.standing > LONGEST_STAND + wait_of(goal) + path.period / 2
     if met is not None:
         wrong_turn[met] = False  # to arrive is never a wrong turn
         too_still[met] &= not final
@@ -131,24 +131,32 @@ class _Path:
 
     def meets(self, goal: Goal, since: int) -> Mask:
         """At which steps a goal is met that holds since some row, whatever was before."""
-        recording = self._recording
-        if goal.kind is GoalKind.SEEK:
-            return np.zeros(len(self._points), dtype=bool)
-        if goal.kind is GoalKind.STOP:
-            slow = recording.speeds < AT_REST
-            slow[: since + 1] = False
-            return np.asarray(slow & (_lasting(slow) * self.period >= goal.wait - 1e-6))
-        if goal.kind is GoalKind.PASS and goal.door is not None:
-            jambs = goal.door.start, goal.door.end
-            beyond = _left_of(np.array([goal.pose[:2]]), jambs)
-            return np.asarray(self.crosses(jambs) & (_left_of(recording.path, jambs) == beyond))
+        match goal:
+            case SeekGoal():
+                return np.zeros(len(self._points), dtype=bool)
+            case StopGoal():
+                return self._stands(goal, since)
+            case PassGoal(door=door):
+                jambs = door.start, door.end
+                beyond = _left_of(np.array([goal.pose[:2]]), jambs)
+                inside = _left_of(self._recording.path, jambs) == beyond
+                return np.asarray(self.crosses(jambs) & inside)
+            case ReachGoal():
+                return self._arrives(goal)
+
+    def _stands(self, goal: StopGoal, since: int) -> Mask:
+        slow = self._recording.speeds < AT_REST
+        slow[: since + 1] = False
+        return np.asarray(slow & (_lasting(slow) * self.period >= goal.wait - 1e-6))
+
+    def _arrives(self, goal: ReachGoal) -> Mask:
         if goal.places:
             reach = goal.distance_tolerance + ROUNDING
             there = _placed(goal.pose, shapely.box(-reach, -BESIDE_WAY, reach, BESIDE_WAY))
             return _later(shapely.covers(there, self._points)[1:])
         away = shapely.distance(self._points, Point(goal.pose[:2]))
         near = away <= goal.distance_tolerance + ROUNDING
-        turned = np.angle(np.exp(1j * (recording.poses[:, 2] - goal.pose[2])))
+        turned = np.angle(np.exp(1j * (self._recording.poses[:, 2] - goal.pose[2])))
         aligned = np.abs(turned) <= goal.heading_tolerance + ROUNDING
         facing = aligned | (goal.heading_tolerance >= np.pi)
         return _later((near & facing)[1:])
@@ -170,7 +178,7 @@ def _left_of(path: FloatArray, door: Jambs) -> Mask:
 
 def _forbidden(floor_plan: FloorPlan, goal: Goal) -> list[Jambs]:
     """The doors that must not be crossed: not the goal's, nor on a known way, nor too wide."""
-    own = goal.door.name if goal.kind is GoalKind.PASS and goal.door is not None else None
+    own = goal.door.name if isinstance(goal, PassGoal) else None
     way = LineString(goal.places) if len(goal.places) > 1 else LineString()
     doors = [door for door in floor_plan.doors if door.name != own and not door.is_opening]
     jambs = [(door.start, door.end) for door in doors]
@@ -188,14 +196,14 @@ def _wrong_places(goal: Goal) -> list[Polygon]:
         for opening in junction.openings
         if opening is not named and opening.far > ARM_AHEAD
     ]
-    if goal.junction is not None:
+    if isinstance(goal, ReachGoal) and goal.junction is not None:
         boxes.append(shapely.box(goal.junction.far + BEHIND_JUNCTION, -FAR, FAR, FAR))
     return [_placed(frame, box) for box in boxes]
 
 
 def _named_arm(goal: Goal) -> SideOpening | None:
     """The arm of the goal's junction that the goal lies in."""
-    if goal.corridor is None or goal.junction is None:
+    if not isinstance(goal, ReachGoal) or goal.corridor is None or goal.junction is None:
         return None
     frame, there = goal.corridor.frame, Point(goal.pose[:2])
     junction: Junction = goal.junction

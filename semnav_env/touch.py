@@ -9,7 +9,7 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point, Pose, compose, to_local, to_parent
 from semnav_env.features.scene import Door, PlainWalls, Scene, ends_of
-from semnav_env.grounding.goal import first_crossed
+from semnav_env.grounding.crossing import first_crossed
 from semnav_env.lidar.spec import LidarSpec
 
 PIECE, GROWN = 0.2, 0.05

@@ -8,6 +8,7 @@ from semnav_env.commands import Clause, parse
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
 from semnav_env.grounding import Goal, ground
+from semnav_env.grounding.goal import door_of
 from tests.hand_made import corridor
 
 START: Pose = (0.0, 0.0, 0.0)
@@ -26,5 +27,6 @@ def goal_of(text: str, scene: Scene, begin: Pose = START, after_corridor: bool =
 
 
 def middle(goal: Goal) -> float:
-    assert goal.door is not None
-    return goal.door.midpoint[0]
+    door = door_of(goal)
+    assert door is not None
+    return door.midpoint[0]

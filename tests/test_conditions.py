@@ -24,7 +24,7 @@ from semnav_env.commands.command import Link, links_of
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
-from semnav_env.grounding import GoalKind
+from semnav_env.grounding import PassGoal, SeekGoal, StopGoal
 from semnav_env.grounding.follower import Follower
 from semnav_env.maps import load_floor_plan
 from semnav_env.verifier import plan_goals
@@ -85,17 +85,17 @@ def test_it_is_looked_for_until_the_end_of_the_hallway_and_then_decided() -> Non
     text = "if you see a third door on the left, enter it, otherwise stop"
     follower = following(text, complete=False)
     assert follower.active == 0
-    assert follower.goal.kind is GoalKind.SEEK
+    assert isinstance(follower.goal, SeekGoal)
     follower.advance(lambda: DOORS, (14.0, 0.0, 0.0), 0.5)
     follower.look(DOORS, (14.0, 0.0, 0.0))
     assert follower.active == 2
-    assert follower.goal.kind is GoalKind.STOP
+    assert isinstance(follower.goal, StopGoal)
 
 
 def test_the_plan_decides_in_the_same_way() -> None:
     text = "if there is a {} door on the right, enter it, otherwise turn around"
     (entered,) = plan_goals(PLAN, parse(text.format("second")), WEST)
-    assert entered.door is not None
+    assert isinstance(entered, PassGoal)
     assert entered.door.name == "west_south_2"
     (turned,) = plan_goals(PLAN, parse(text.format("ninth")), WEST)
     assert turned.because == "turn around here"

@@ -31,7 +31,7 @@ from semnav_env.episodes.random_clauses import CommandTopic
 from semnav_env.episodes.wording import worded
 from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose, to_local
-from semnav_env.grounding import Goal, GoalKind
+from semnav_env.grounding import Goal, ReachGoal
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import is_clear, placement_error
 from semnav_env.recheck import recheck
@@ -82,7 +82,7 @@ def test_every_body_can_face_the_door_that_it_is_told_to_go_to() -> None:
     site = Site(plan, "heidelberg_hallway")
     for number in range(0, 40, 2):
         for goal in goals_of(generate_episode(site, SPLITS["test_real"], number), site):
-            if goal.kind is GoalKind.REACH and goal.distance_tolerance < 1.0:
+            if isinstance(goal, ReachGoal) and goal.distance_tolerance < 1.0:
                 assert placement_error(plan, BODY, goal.pose) is None
 
 
@@ -91,7 +91,7 @@ def test_every_body_can_stand_where_a_turn_or_a_way_down_a_hallway_ends() -> Non
     for episode in load_episodes("test_real"):
         site = Site(episode.plan(), episode.floor_plan)
         for goal in goals_of(episode, site):
-            if goal.kind is GoalKind.REACH and goal.corridor is not None:
+            if isinstance(goal, ReachGoal) and goal.corridor is not None:
                 assert placement_error(site.plan, BODY, goal.pose) is None, episode.id
 
 

@@ -13,8 +13,9 @@ from shapely import LineString, Point
 from semnav_env.commands import parse
 from semnav_env.features.frames import Pose, compose
 from semnav_env.features.scene import Door, Scene
+from semnav_env.grounding.crossing import first_crossed
 from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal import Goal, GoalKind, first_crossed
+from semnav_env.grounding.goal import PassGoal, ReachGoal, SeekGoal, StopGoal
 from tests.hand_made import SIDE_ARMS, X_JUNCTION, corridor
 
 START: Pose = (0.0, 0.0, 0.0)
@@ -66,11 +67,11 @@ def test_an_inexact_door_is_crossed_beside_its_jambs_but_only_well_behind() -> N
 def test_clauses_follow_one_another() -> None:
     follower = following("go to the first door on the left, turn around and stop")
     at_door = follower.goal.pose
-    assert follower.goal.kind is GoalKind.REACH
+    assert isinstance(follower.goal, ReachGoal)
     assert drive(follower, at_door) == [True]
     assert follower.goal.pose[2] == pytest.approx(-QUARTER)
     assert drive(follower, (*at_door[:2], -QUARTER)) == [True]
-    assert follower.goal.kind is GoalKind.STOP
+    assert isinstance(follower.goal, StopGoal)
     assert drive(follower, at_door, speed=0.2) == [False]
     assert drive(follower, at_door, speed=0.0) == [True]
     assert follower.done
@@ -92,7 +93,7 @@ def test_half_the_tolerance_is_enough_for_a_careful_robot_only() -> None:
 def test_what_a_careful_robot_calls_reached_is_reached(
     distance: float, direction: float, turn: float, share: float
 ) -> None:
-    goal = Goal(GoalKind.REACH, (1.0, 2.0, 3.0), None, 1.6, 0.5)
+    goal = ReachGoal((1.0, 2.0, 3.0), 1.6, 0.5)
     x, y = 1.0 + distance * math.cos(direction), 2.0 + distance * math.sin(direction)
     pose = (x, y, math.remainder(3.0 + turn, math.tau))
     careful, plain = goal.reached_by(pose, share), goal.reached_by(pose)
@@ -138,7 +139,7 @@ def test_go_down_the_hallway_is_a_clause_of_its_own_only_where_nothing_says_how_
 def test_a_clause_that_cannot_be_carried_out_is_named_and_never_done() -> None:
     follower = following("go through the second door on the right")
     assert follower.impossible == "no second door on the right: the hallway ended after 1"
-    assert follower.goal.kind is GoalKind.STOP
+    assert isinstance(follower.goal, StopGoal)
     assert drive(follower, START, speed=0.0) == [False]
     assert not follower.done
 
@@ -147,19 +148,19 @@ def test_a_door_that_turns_up_makes_the_clause_possible_again() -> None:
     follower = following("go through the second door on the right")
     follower.look(corridor(right=(4.0, 7.0)), START)
     assert follower.impossible is None
-    assert follower.goal.kind is GoalKind.PASS
+    assert isinstance(follower.goal, PassGoal)
 
 
 def test_what_was_looked_at_stays_so_when_the_robot_comes_back() -> None:
     follower = Follower(parse("go through the last door on the left"))
     follower.start(SCENE, START)
-    assert follower.goal.kind is GoalKind.SEEK
+    assert isinstance(follower.goal, SeekGoal)
     drive(follower, (6.0, 0.0, 0.0), (12.6, 0.0, 0.0))
     follower.look(SCENE, (12.6, 0.0, 0.0))
-    assert follower.goal.kind is GoalKind.PASS
+    assert isinstance(follower.goal, PassGoal)
     drive(follower, (8.0, 0.0, math.pi))
     follower.look(SCENE, (8.0, 0.0, math.pi))
-    assert follower.goal.kind is GoalKind.PASS
+    assert isinstance(follower.goal, PassGoal)
 
 
 points = st.tuples(st.floats(-3, 3), st.floats(-3, 3))
@@ -185,7 +186,7 @@ def test_a_door_is_crossed_where_the_step_meets_it(
 def test_a_way_through_and_back_crosses_outward_only_once(
     before: tuple[float, float], after: tuple[float, float]
 ) -> None:
-    goal = Goal(GoalKind.PASS, (0.0, 0.9, QUARTER), Door((-0.5, 0.0), (0.5, 0.0)))
+    goal = PassGoal((0.0, 0.9, QUARTER), Door((-0.5, 0.0), (0.5, 0.0)))
     there = goal.crossed_between((*before, 0.0), (*after, 0.0))
     back = goal.crossed_between((*after, 0.0), (*before, 0.0))
     assert not (there and back)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from semnav_env.features.frames import Pose, compose, wrap_angle
 from semnav_env.features.scene import Scene
-from semnav_env.grounding import GoalKind, GroundingError
+from semnav_env.grounding import GroundingError, ReachGoal, StopGoal
 from tests.grounded import DOORS, QUARTER, goal_of, middle
 from tests.hand_made import L_LEFT, L_RIGHT, ROOM, SIDE_ARMS, T_JUNCTION, X_JUNCTION, corridor
 
@@ -19,7 +19,8 @@ def test_through_ends_behind_the_door_and_to_before_it() -> None:
     through = goal_of("go through the first door on the right", DOORS)
     to = goal_of("go to the first door on the right", DOORS)
     assert through.pose == pytest.approx((5.0, -1.9, -QUARTER))
-    assert (to.kind, to.pose) == (GoalKind.REACH, pytest.approx((5.0, -0.1, -QUARTER)))
+    assert isinstance(to, ReachGoal)
+    assert to.pose == pytest.approx((5.0, -0.1, -QUARTER))
     assert through.onward == pytest.approx((5.0, -1.0, -QUARTER))
 
 
@@ -43,7 +44,7 @@ def test_in_a_room_the_door_ahead_is_in_the_wall_one_looks_at() -> None:
 )
 def test_a_turn_ends_a_metre_inside_the_arm(text: str, scene: Scene, mouth: Pose) -> None:
     goal = goal_of(text, scene)
-    assert goal.kind is GoalKind.REACH
+    assert isinstance(goal, ReachGoal)
     assert goal.onward == pytest.approx(mouth, abs=0.06)
     assert goal.pose == pytest.approx(compose(mouth, (1.0, 0.0, 0.0)), abs=0.06)
 
@@ -104,7 +105,7 @@ def test_out_of_a_doorway_one_turns_in_the_hallway_and_does_not_count_that_door(
 )
 def test_how_far_the_hallway_is_followed(text: str, scene: Scene, pose: Pose) -> None:
     goal = goal_of(text, scene)
-    assert goal.kind is GoalKind.REACH
+    assert isinstance(goal, ReachGoal)
     assert goal.pose[:2] == pytest.approx(pose[:2], abs=0.06)
     assert abs(wrap_angle(goal.pose[2] - pose[2])) < 1e-6
 
@@ -154,4 +155,4 @@ def test_mirroring_the_scene_mirrors_the_goal(side: str, nth: str, x: Pose) -> N
 
 
 def test_stop_is_here() -> None:
-    assert goal_of("stop", Scene(), (1.0, 2.0, 3.0)).kind is GoalKind.STOP
+    assert isinstance(goal_of("stop", Scene(), (1.0, 2.0, 3.0)), StopGoal)

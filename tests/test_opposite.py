@@ -14,7 +14,7 @@ from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose, compose
 from semnav_env.features.scene import Door, Scene
-from semnav_env.grounding import Goal, GoalKind, GroundingError
+from semnav_env.grounding import Goal, GroundingError, PassGoal, ReachGoal, SeekGoal
 from semnav_env.grounding.follower import Follower
 from tests.hand_made import DOOR_WIDTH, ROOM, corridor
 from tests.test_wider_grounding import last_goal
@@ -71,14 +71,14 @@ def test_doors_are_opposite_if_and_only_if_they_share_some_of_the_way_across(
         assert found == "no door opposite: none faces that door"
     else:
         assert isinstance(found, Goal)
-        assert found.door is not None
+        assert isinstance(found, PassGoal)
         assert found.door.midpoint == pytest.approx((5.0 + shift, 1.0 if there == "left" else -1.0))
 
 
 @pytest.mark.parametrize("between", ["", "wait for 5 seconds, "])
 def test_waiting_before_a_door_changes_nothing(between: str) -> None:
     goal = last_goal(TO_FIRST.replace(" and ", f", {between}"), FACING)
-    assert goal.door is not None
+    assert isinstance(goal, PassGoal)
     assert goal.door.midpoint == (3.0, -1.0)
 
 
@@ -119,7 +119,7 @@ def test_who_has_not_seen_what_is_behind_turns_to_look(text: str) -> None:
     rest = ", stop" if text.startswith("if") else ""
     follower = look(f"{text} the door behind you{rest}", seen_ahead(BEHIND, 7.5), (8.0, 0.0, 0.0))
     assert follower.active == 0
-    assert follower.goal.kind is GoalKind.REACH
+    assert isinstance(follower.goal, ReachGoal)
     assert follower.goal.pose == pytest.approx((8.0, 0.0, math.pi))
     assert follower.goal.because == "looking for the first door behind you"
     assert not follower.goal.reached_by((*follower.goal.pose[:2], 3.0))
@@ -129,11 +129,11 @@ def test_who_has_turned_and_sees_none_goes_that_way_and_looks_on() -> None:
     begin, pose = (8.0, 0.0, 0.0), (8.0, 0.0, 3.0)
     text = "go through the third door behind you"
     follower = look(text, seen_ahead(BEHIND, 3.0), pose, begin)
-    assert follower.goal.kind is GoalKind.SEEK
+    assert isinstance(follower.goal, SeekGoal)
     assert follower.goal.pose[0] == pytest.approx(4.0, abs=0.05)
     follower.advance(lambda: BEHIND, (5.0, 0.0, 3.1), 0.5)
     follower.look(BEHIND, (5.0, 0.0, 3.1))
-    assert follower.goal.kind is GoalKind.PASS
+    assert isinstance(follower.goal, PassGoal)
     assert follower.goal.door == BEHIND.doors[0]
 
 
@@ -150,17 +150,17 @@ def test_who_has_not_seen_what_is_opposite_turns_to_look() -> None:
     follower = Follower(parse(text))
     follower.start(Scene(half.walls, FACING.doors[:1]), (0.0, 0.0, 0.0))
     follower.skip_to_next(Scene(half.walls, FACING.doors[:1]))
-    assert follower.goal.kind is GoalKind.REACH
+    assert isinstance(follower.goal, ReachGoal)
     assert follower.goal.pose == pytest.approx((3.0, 0.1, -QUARTER))
     follower.look(FACING, compose(before, (0.0, 0.0, 3.0)))
-    assert follower.goal.kind is GoalKind.PASS
-    assert follower.goal.door is not None
+    assert isinstance(follower.goal, PassGoal)
+    assert isinstance(follower.goal, PassGoal)
     assert follower.goal.door.midpoint == (3.0, -1.0)
 
 
 def test_a_robot_that_has_seen_nothing_yet_waits_before_it_says_that_none_is_opposite() -> None:
     follower = look("go through the door opposite", Scene(), (7.0, 0.0, 0.0))
-    assert follower.goal.kind is GoalKind.SEEK
+    assert isinstance(follower.goal, SeekGoal)
     follower.look(BEHIND, (7.0, 0.0, 0.0))
     assert follower.impossible == "no door opposite: none faces this place"
 
@@ -194,7 +194,7 @@ def test_who_sees_a_gap_beside_it_turns_there_before_it_says_that_no_door_is_opp
     unknown = Scene(FACING.walls)  # the gaps are seen, but not yet taken for doors
     begin: Pose = (6.0, 0.0, 0.0)
     follower = look("go through the door opposite", unknown, begin)
-    assert follower.goal.kind is GoalKind.REACH
+    assert isinstance(follower.goal, ReachGoal)
     assert follower.goal.pose == pytest.approx((6.0, 0.0, -QUARTER))
     follower.look(unknown, (6.0, 0.0, -1.2))
     assert follower.impossible == "no door opposite: none faces this place"
@@ -239,7 +239,7 @@ def test_who_stands_in_a_doorway_knows_at_once_that_no_second_door_is_behind() -
 def test_no_condition_on_more_than_one_door_opposite_is_met(nth: str) -> None:
     text = f"go to the first door on the left, if there is a {nth} door opposite, stop, otherwise "
     goal = last_goal(text + "turn left by 90 degrees", FACING)
-    assert goal.kind is GoalKind.REACH
+    assert isinstance(goal, ReachGoal)
 
 
 @given(st.floats(-4.0, 4.0))

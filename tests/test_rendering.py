@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from semnav_env.features.scene import Corner, CornerKind, CorridorProbe, Scene, Wall
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.maps.floor_plan import Material, Surface
 from semnav_env.rendering import Frame, Viewer
 from semnav_env.rendering.legend import LEGEND_HEIGHT, ROW, legend_entries
@@ -65,6 +65,7 @@ def test_the_body_is_drawn_where_the_robot_is(viewer: Viewer, robot: object) -> 
     assert not there[:, MAP_WIDTH + 10 :].any()
 
 
+PLACE = (4.5, -1.0, -1.57)
 FEATURES = {
     "wall": {"scene": Scene(walls=(Wall((0.0, 0.0), (4.0, 0.0)),))},
     "door": {"scene": Scene(doors=(DOOR,))},
@@ -80,9 +81,11 @@ FEATURES = {
     "contact": {"in_contact": True},
     "status": {"status": ("t = 1.0 s",)},
     **{kind.name: {"scene": Scene(corners=(Corner((6.0, 1.0), kind),))} for kind in CornerKind},
-    **{f"goal {kind.name}": {"goal": Goal(kind, (4.5, -1.0, -1.57))} for kind in GoalKind},
-    "goal PASS": {"goal": Goal(GoalKind.PASS, (4.5, -1.0, -1.57), DOOR)},
-    "goal REACH a door": {"goal": Goal(GoalKind.REACH, (4.5, -1.0, -1.57), DOOR)},
+    "seek": {"goal": SeekGoal(PLACE, "a door")},
+    "reach": {"goal": ReachGoal(PLACE, 1.0)},
+    "pass a door": {"goal": PassGoal(PLACE, DOOR)},
+    "reach a door": {"goal": ReachGoal(PLACE, 1.0, door=DOOR)},
+    "stop": {"goal": StopGoal(PLACE)},
 }
 
 
@@ -170,7 +173,7 @@ def test_things_far_outside_the_plan_draw(viewer: Viewer) -> None:
         PLAIN,
         pose=(1e9, -1e9, 1.0),
         route=np.array([(0.0, 0.0), (1e12, 1e12)]),
-        goal=Goal(GoalKind.REACH, (-1e7, 0.0, 0.0)),
+        goal=ReachGoal((-1e7, 0.0, 0.0), 1.0),
     )
     assert viewer.draw(far).shape == (720, 960, 3)
 

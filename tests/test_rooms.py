@@ -29,8 +29,9 @@ from semnav_env.commands.rooms import plain_name, spoken_names
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose, compose, to_local, wrap_angle
 from semnav_env.features.scene import Door, Scene
-from semnav_env.grounding import GoalKind, GroundingError, ground
+from semnav_env.grounding import GroundingError, PassGoal, ReachGoal, SeekGoal, ground
 from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.known_way import next_on_way
 from semnav_env.grounding.ways import PACE, Trail, Way, paced
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
@@ -140,10 +141,10 @@ def test_who_has_gone_through_the_door_of_a_room_is_in_it_and_who_has_left_by_it
     second = GoToDoor(DoorReference(2, Side.RIGHT))
     room = GoToRoom("room_west_south_2")
     through, there = plan_goals(PLAN, Command((second, room)), WEST)
-    assert there.kind is GoalKind.REACH
+    assert isinstance(there, ReachGoal)
     assert there.reached_by(through.pose)
     back = plan_goals(PLAN, Command((second, Leave(), room)), WEST)[-1]
-    assert back.kind is GoalKind.PASS
+    assert isinstance(back, PassGoal)
     assert back.door == through.door
 
 
@@ -166,7 +167,7 @@ def test_the_seen_door_is_passed_however_inexact_the_told_one(
     way = Way(paced(((0.0, 0.0), middle[:2])), door, middle[2])
     (clause,) = parse('go to room "kitchen"').clauses
     goal = ground(clause, DOORS, (0.0, 0.0, 0.0), (x - 1.0, 0.0, 0.0), way=way)
-    assert goal.kind is GoalKind.PASS
+    assert isinstance(goal, PassGoal)
     assert goal.door == seen
     assert goal.pose[2] == pytest.approx(math.pi / 2, abs=1e-9)
     unseen = ground(clause, Scene((), ()), (0.0, 0.0, 0.0), way=way)
@@ -259,8 +260,8 @@ def test_a_way_is_driven_place_by_place_and_beside_it_where_odometry_drifts() ->
     (clause,) = parse("go back to the start").clauses
     goal = ground(clause, DOORS, (0.0, 0.0, 0.0), way=way)
     for x in np.arange(0.0, 19.0, 0.5):
-        towards = goal.towards((float(x), 0.8, 0.0))
-        assert towards.kind is GoalKind.SEEK
+        towards = next_on_way(goal, (float(x), 0.8, 0.0))
+        assert isinstance(towards, SeekGoal)
         ahead, beside = to_local((float(x), 0.8, 0.0), towards.pose[:2])
         assert beside == pytest.approx(0.0, abs=1e-9)
         assert 0.0 < ahead < 3 * PACE
@@ -274,7 +275,7 @@ def test_a_way_that_bends_a_little_leads_to_no_place_beside_it() -> None:
     (clause,) = parse("go back to the start").clauses
     goal = ground(clause, DOORS, (0.0, 0.0, 0.0), way=way)
     for beside in (-0.4, 0.0, 0.4):
-        towards = goal.towards((0.2, beside, 0.0))
+        towards = next_on_way(goal, (0.2, beside, 0.0))
         assert math.dist(towards.pose[:2], (3.0, 0.0)) == pytest.approx(abs(beside), abs=1e-6)
 
 

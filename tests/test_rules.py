@@ -16,6 +16,7 @@ from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Point, Pose, compose, relative, to_parent
 from semnav_env.grounding import GroundingError
 from semnav_env.grounding.doors import STAND_OFF
+from semnav_env.grounding.goal import door_of
 from semnav_env.lidar import Lidar
 from semnav_env.perception import Perception
 from semnav_env.robots import WHEELCHAIR
@@ -33,8 +34,9 @@ def test_a_command_means_what_the_table_says(row: Row) -> None:
         return
     goal = plan_goals(plan, command, row.begin)[-1]
     if isinstance(row.expected, str):
-        assert goal.door is not None
-        assert goal.door.name == row.expected
+        door = door_of(goal)
+        assert door is not None
+        assert door.name == row.expected
     else:
         assert math.dist(goal.pose[:2], row.expected) < 0.15
 
@@ -76,9 +78,9 @@ def made_out(row: Row) -> list[Point]:
     doors = []
     for step, pose in enumerate(way(row)):
         perception.sense(pose, relative(row.begin, pose), (0.75, 0.0, 0.0), (0, 0, step))
-        goal = perception.follower.goal
-        if perception.follower.active == len(command.clauses) - 1 and goal.door is not None:
-            doors.append(to_parent(row.begin, goal.door.midpoint))
+        door = door_of(perception.follower.goal)
+        if perception.follower.active == len(command.clauses) - 1 and door is not None:
+            doors.append(to_parent(row.begin, door.midpoint))
     return doors
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from semnav_env.features.scene import Scene, Wall
-from semnav_env.grounding import GoalKind, GroundingError, ground
+from semnav_env.grounding import GroundingError, PassGoal, ReachGoal, SeekGoal, ground
 from tests.grounded import DOORS, START, clause, middle
 from tests.hand_made import L_LEFT, corridor
 
@@ -19,7 +19,7 @@ def test_what_is_not_seen_yet_is_looked_for_along_the_hallway() -> None:
         "follow the hallway until the corner",
     ):
         goal = ground(clause(text), near, START, (1.0, 0.3, 0.4))
-        assert goal.kind is GoalKind.SEEK
+        assert isinstance(goal, SeekGoal)
         assert goal.pose == pytest.approx((5.0, 0.0, 0.0), abs=0.01)
         assert goal.because.startswith("looking for the")
 
@@ -42,13 +42,13 @@ def test_while_a_stretch_before_the_door_is_unseen_one_looks_there_first(
 
 def test_the_last_door_is_known_only_at_the_end() -> None:
     last = clause("go through the last door on the left")
-    assert ground(last, DOORS, START, (9.0, 0.0, 0.0)).kind is GoalKind.SEEK
+    assert isinstance(ground(last, DOORS, START, (9.0, 0.0, 0.0)), SeekGoal)
     assert middle(ground(last, DOORS, START, (12.6, 0.0, 0.0))) == pytest.approx(9.0)
 
 
 def test_a_perceived_door_is_missing_only_when_the_end_has_been_seen() -> None:
     third = clause("go through the third door on the right")
-    assert ground(third, DOORS, START, (9.0, 0.0, 0.0)).kind is GoalKind.SEEK
+    assert isinstance(ground(third, DOORS, START, (9.0, 0.0, 0.0)), SeekGoal)
     with pytest.raises(GroundingError, match=r"no third door on the right: .* ended after 2"):
         ground(third, DOORS, START, (12.6, 0.0, 0.0))
 
@@ -61,8 +61,8 @@ def test_looking_goes_on_to_a_place_from_which_the_end_counts_as_seen() -> None:
 
 def test_at_the_end_a_robot_takes_a_corner_for_the_intersection_it_was_told_of() -> None:
     turn = clause("turn left at the intersection")
-    assert ground(turn, L_LEFT, START, (9.0, 0.0, 0.0)).kind is GoalKind.SEEK
-    assert ground(turn, L_LEFT, START, (12.6, 0.0, 0.0)).kind is GoalKind.REACH
+    assert isinstance(ground(turn, L_LEFT, START, (9.0, 0.0, 0.0)), SeekGoal)
+    assert isinstance(ground(turn, L_LEFT, START, (12.6, 0.0, 0.0)), ReachGoal)
 
 
 def test_a_door_is_taken_once_the_robot_has_come_as_near_as_it_can_to_what_may_hide_another() -> (
@@ -75,11 +75,11 @@ def test_a_door_is_taken_once_the_robot_has_come_as_near_as_it_can_to_what_may_h
     gappy = Scene((*walls, cut), scene.doors)
     said = clause("go through the second door")
     goals = {
-        x: ground(said, gappy, START, pose=(x, 0.0, 0.0)).kind for x in (7.0, 12.0, 12.7, 13.2)
+        x: type(ground(said, gappy, START, pose=(x, 0.0, 0.0))) for x in (7.0, 12.0, 12.7, 13.2)
     }
     assert goals == {
-        7.0: GoalKind.SEEK,
-        12.0: GoalKind.SEEK,
-        12.7: GoalKind.PASS,
-        13.2: GoalKind.PASS,
+        7.0: SeekGoal,
+        12.0: SeekGoal,
+        12.7: PassGoal,
+        13.2: PassGoal,
     }

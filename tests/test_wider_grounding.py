@@ -9,8 +9,9 @@ import pytest
 from semnav_env.commands import parse
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
-from semnav_env.grounding import Goal, GoalKind, GroundingError, ground
+from semnav_env.grounding import Goal, GroundingError, PassGoal, SeekGoal, ground
 from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.goal import door_of
 from tests.hand_made import L_LEFT, SIDE_ARMS, T_JUNCTION, X_JUNCTION, corridor
 
 START: Pose = (0.0, 0.0, 0.0)
@@ -35,8 +36,8 @@ def last_goal(text: str, scene: Scene, start: Pose = START) -> Goal:
     return goals_of(text, scene, start)[-1]
 
 
-def door_of(text: str, scene: Scene = DOORS) -> tuple[float, float]:
-    door = last_goal(text, scene).door
+def door_in(text: str, scene: Scene = DOORS) -> tuple[float, float]:
+    door = door_of(last_goal(text, scene))
     assert door is not None
     return door.midpoint
 
@@ -55,28 +56,28 @@ def door_of(text: str, scene: Scene = DOORS) -> tuple[float, float]:
     ],
 )
 def test_counting_from_the_end_and_from_farther_on(text: str, x: float, y: float) -> None:
-    assert door_of(text) == pytest.approx((x, y))
+    assert door_in(text) == pytest.approx((x, y))
 
 
 def test_until_a_door_it_still_counts_and_past_it_no_longer() -> None:
     take = "take the first door on the left"
-    assert door_of(f"go down the hallway until the first door on the left and {take}")[0] == 2.0
-    assert door_of(f"go past the first door on the left and {take}")[0] == 5.0
+    assert door_in(f"go down the hallway until the first door on the left and {take}")[0] == 2.0
+    assert door_in(f"go past the first door on the left and {take}")[0] == 5.0
 
 
 def test_the_other_door_is_the_only_one() -> None:
     one = corridor(left=(6.0,))
-    assert door_of("take the other door", one) == pytest.approx((6.0, 1.0))
+    assert door_in("take the other door", one) == pytest.approx((6.0, 1.0))
     with pytest.raises(GroundingError, match="the other door on the left: there are 3; say which"):
-        door_of("take the other door on the left")
+        door_in("take the other door on the left")
     with pytest.raises(GroundingError, match="no other door on the right: the hallway has none"):
-        door_of("take the other door on the right", one)
+        door_in("take the other door on the right", one)
 
 
 def test_the_last_doors_are_looked_for_until_the_end_has_been_seen() -> None:
     (clause,) = parse("take the second-to-last door on the left").clauses
-    assert ground(clause, DOORS, START, (4.0, 0.0, 0.0)).kind is GoalKind.SEEK
-    assert ground(clause, DOORS, START, (12.6, 0.0, 0.0)).kind is GoalKind.PASS
+    assert isinstance(ground(clause, DOORS, START, (4.0, 0.0, 0.0)), SeekGoal)
+    assert isinstance(ground(clause, DOORS, START, (12.6, 0.0, 0.0)), PassGoal)
 
 
 @pytest.mark.parametrize(("text", "along"), [("go 3 m", 3.0), ("go five steps", 3.5)])
@@ -129,7 +130,7 @@ def test_one_cannot_go_past_the_end() -> None:
 @pytest.mark.parametrize("between", ["", "turn around, "])
 def test_one_leaves_a_room_by_the_door_one_came_by(between: str) -> None:
     entered, *_, left = goals_of(f"take the first door on the left, {between}leave the room", DOORS)
-    assert left.kind is GoalKind.PASS
+    assert isinstance(left, PassGoal)
     assert left.door == entered.door
     assert left.pose[2] == pytest.approx(-QUARTER, abs=0.05)
     assert left.pose[1] < 1.0 < entered.pose[1]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from semnav_env.grounding.goal import Goal
+from semnav_env.grounding.goal import Goal, door_of
 from semnav_env.metrics import Metrics
 from semnav_env.verifier import Verdict, Verifier
 
@@ -38,5 +38,6 @@ def _what_happened(verifier: Verifier) -> str:
 
 
 def _instead(goal: Goal) -> str:
-    door = f" ({goal.door.name})" if goal.door is not None and goal.door.name else ""
+    wanted = door_of(goal)
+    door = f" ({wanted.name})" if wanted is not None and wanted.name else ""
     return f"wanted: {goal.because}{door}"

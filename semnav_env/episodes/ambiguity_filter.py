@@ -18,6 +18,7 @@ from semnav_env.features.frames import Pose
 from semnav_env.features.scene import PlainWalls, Scene
 from semnav_env.grounding import Goal, GroundingError, UnclearError, ground
 from semnav_env.grounding.conditions import is_met
+from semnav_env.grounding.goal import door_of
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.situation import Situation
 from semnav_env.maps import FloorPlan
@@ -93,12 +94,12 @@ class AmbiguityFilter:
 
     def is_behind_a_closed_one(self, first: GoToDoor, begin: Pose) -> bool:
         """Whether the first open door comes right after the first door, which is closed."""
-        doors = [goal.door for goal in self._first_two(first, begin)]
+        doors = [door_of(goal) for goal in self._first_two(first, begin)]
         shut = {door.name for door in self._plan.doors if not door.open}
         if len(doors) < 2 or doors[0] is None or doors[0].name not in shut:
             return False
         try:
-            return doors[1] == ground(first, self._plan.scene, begin, complete=True).door
+            return doors[1] == door_of(ground(first, self._plan.scene, begin, complete=True))
         except GroundingError:
             return False
 

@@ -161,7 +161,7 @@ class Drafter:
         if not clauses:
             return self.start
         goal = self._followed(clauses).goal
-        return goal.onward or goal.pose
+        return goal.next_begin
 
     def _followed(self, clauses: tuple[Clause, ...]) -> Follower:
         """A follower at the last of some clauses; kept, for those that may come next."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -22,7 +21,7 @@ from semnav_env.episodes.splits import SEED, Split
 from semnav_env.episodes.walk import carries_out
 from semnav_env.episodes.wording import worded
 from semnav_env.features.frames import FloatArray, Point, Pose
-from semnav_env.grounding import Goal, GoalKind
+from semnav_env.grounding import Goal, ReachGoal
 from semnav_env.grounding.surroundings import doors_around
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
@@ -257,8 +256,7 @@ def _has_room(plan: FloorPlan, goal: Goal) -> bool:
 
     It may lie so near to a wall, or in a corner, that nobody could turn or stop right there.
     """
-    posed = goal.heading_tolerance < math.pi or goal.corridor is not None
-    stands = goal.kind is GoalKind.REACH and posed
+    stands = isinstance(goal, ReachGoal) and (goal.fixes_heading or goal.corridor is not None)
     return not stands or placement_error(plan, BODY, goal.pose) is None
 
 

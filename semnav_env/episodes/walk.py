@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from semnav_env.features.frames import Pose, to_parent
-from semnav_env.grounding import Goal, GoalKind
+from semnav_env.grounding import Goal, PassGoal, ReachGoal, StopGoal
 from semnav_env.routes.route import Route
 from semnav_env.verifier import Motion, Verifier, place
 
@@ -33,7 +32,7 @@ def carries_out(verifier: Verifier) -> bool:
         goal, active = verifier.follower.goal, verifier.follower.active
         for x, y, heading in _leg(verifier, pose, goal):
             pose = x, y, heading
-            speed = 0.0 if goal.kind is GoalKind.STOP else 1.0
+            speed = 0.0 if isinstance(goal, StopGoal) else 1.0
             verifier.update(Motion(pose, speed, 0.0, in_contact=False, seconds=PERIOD))
             if verifier.over or verifier.follower.active != active:
                 break
@@ -41,12 +40,12 @@ def carries_out(verifier: Verifier) -> bool:
 
 
 def _leg(verifier: Verifier, pose: Pose, goal: Goal) -> Iterator[Pose]:
-    if goal.kind is GoalKind.STOP:
+    if isinstance(goal, StopGoal):
         yield from (pose,) * (round(goal.wait / PERIOD) + 2)
         return
     way = verifier.geodesic.to(place(goal)).way(pose[:2])
-    facing = None if goal.heading_tolerance >= math.pi else goal.pose[2]
-    if goal.kind is GoalKind.PASS:
+    facing = goal.pose[2] if isinstance(goal, ReachGoal) and goal.fixes_heading else None
+    if isinstance(goal, PassGoal):
         behind = to_parent((*place(goal), goal.pose[2]), (BEHIND, 0.0))
-        way, facing = np.vstack((way, behind)), None
+        way = np.vstack((way, behind))
     yield from Route(pose, way, facing).poses.tolist()

@@ -22,7 +22,7 @@ def is_met(condition: IfThere, situation: Situation) -> bool | Goal:
     situation = situation.towards(condition.what)
     if isinstance(condition.what, DoorReference) and condition.what.side is Side.OPPOSITE:
         found = doors_opposite(condition.what, situation)
-        if isinstance(found, Goal):
+        if not isinstance(found, dict):
             return found
         return (bool(found) and condition.what.ordinal in OF_ONE) is not condition.absent
     (count, more), wanted = _count(condition.what, situation), condition.what.ordinal

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from semnav_env.commands.clauses import Approach, GoToDoor
 from semnav_env.commands.references import Side
 from semnav_env.features.corridor import doorway_at
 from semnav_env.features.frames import compose, wrap_angle
 from semnav_env.grounding.doors import OUT_OF_DOORWAY, STAND_OFF, CountedDoor, find_door
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal
 from semnav_env.grounding.situation import Situation, UnclearError, turned
 from semnav_env.grounding.surroundings import (
     doors_around,
@@ -23,15 +22,15 @@ from semnav_env.grounding.surroundings import (
 def ground_door(clause: GoToDoor, situation: Situation) -> Goal:
     """The goal of "go through the second door on the right"."""
     found = find_door(clause.door, situation)
-    if isinstance(found, Goal):
+    if not isinstance(found, CountedDoor):
         return found
-    if clause.approach is Approach.TO:
-        goal = Goal(GoalKind.REACH, found.pose(-STAND_OFF), found.door, 0.7, 0.6)
-    else:
-        goal = Goal(GoalKind.PASS, found.pose(STAND_OFF), found.door, onward=found.pose(0.0))
     across = found.side in (Side.BEHIND, Side.OPPOSITE)  # not along the corridor
-    corridor = None if across else situation.corridor
-    return replace(goal, because=str(clause.door), corridor=corridor)
+    corridor, because = None if across else situation.corridor, str(clause.door)
+    if clause.approach is Approach.TO:
+        there = found.pose(-STAND_OFF)
+        return ReachGoal(there, 0.7, 0.6, because, found.door, corridor=corridor)
+    line = found.pose(0.0)
+    return PassGoal(found.pose(STAND_OFF), found.door, because, corridor=corridor, onward=line)
 
 
 def ground_leave(situation: Situation) -> Goal:
@@ -61,4 +60,4 @@ def ground_leave(situation: Situation) -> Goal:
     outward = wrap_angle(inward[2] + math.pi)
     line = CountedDoor(door, 0.0, Side.BEHIND, outward)
     because = "leave the room"
-    return Goal(GoalKind.PASS, line.pose(STAND_OFF), door, because=because, onward=line.pose(0.0))
+    return PassGoal(line.pose(STAND_OFF), door, because, onward=line.pose(0.0))

@@ -86,7 +86,7 @@ def find_door(reference: DoorReference, situation: Situation) -> CountedDoor | G
     """
     if reference.side is Side.OPPOSITE:
         found = find_opposite(reference, situation)
-        if isinstance(found, Goal):
+        if not isinstance(found, tuple):
             return found
         door, outward = found
         return CountedDoor(door, 0.0, Side.OPPOSITE, outward)

@@ -11,8 +11,9 @@ from semnav_env.commands.command import reference_of
 from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.conditions import after, hangs_on_condition, in_context, is_met
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.grounding.ground import goal_of
+from semnav_env.grounding.known_way import next_on_way
 from semnav_env.grounding.situation import GroundingError, Situation, is_behind, looks_along, turned
 from semnav_env.grounding.ways import Guide, KnownWays, Trail, Way
 
@@ -52,7 +53,7 @@ class Follower:
     guide: Guide = field(default_factory=lambda: KnownWays({}), repr=False)
     active: int = field(default=0, init=False)
     begin: Pose = field(default=(0.0, 0.0, 0.0), init=False)
-    goal: Goal = field(default=Goal(GoalKind.STOP, (0.0, 0.0, 0.0)), init=False)
+    goal: Goal = field(default=StopGoal((0.0, 0.0, 0.0)), init=False)
     impossible: str | None = field(default=None, init=False)
     skipped: frozenset[int] = field(default=frozenset(), init=False)
     _last: Pose = field(default=(0.0, 0.0, 0.0), init=False)
@@ -103,22 +104,26 @@ class Follower:
             self._begin_next(scene(), pose)
         return completed
 
+    def target(self, pose: Pose) -> Goal:
+        """What a robot at a pose should head for now: the goal, or the next place on the way."""
+        return next_on_way(self.goal, pose)
+
     def look(self, scene: Scene, pose: Pose) -> None:
         """Ground the active clause anew, on what is known by now."""
         if self.done:
-            self.goal = Goal(GoalKind.STOP, pose, because="done")
+            self.goal = StopGoal(pose, "done")
             return
         try:
             goal = self._ground(scene, pose)
             self.impossible = None
-            if isinstance(goal, Goal):
-                self.goal = goal
-            else:
+            if isinstance(goal, bool):
                 self._go_on(after(self.command.clauses, self.active, goal))
                 self._begin_clause(scene, self.begin, pose)
+            else:
+                self.goal = goal
         except GroundingError as error:
             self.impossible = str(error)
-            self.goal = Goal(GoalKind.STOP, pose, because=self.impossible)
+            self.goal = StopGoal(pose, self.impossible)
 
     def _ground(self, scene: Scene, pose: Pose) -> Goal | bool:
         """The goal of the active clause, or whether its condition is met."""
@@ -133,15 +138,19 @@ class Follower:
 
     def skip_to_next(self, scene: Scene) -> None:
         """Take the active clause for done."""
-        self._begin_next(scene, self.goal.onward or self.goal.pose)
+        self._begin_next(scene, self.goal.next_begin)
 
     def _begin_next(self, scene: Scene, pose: Pose) -> None:
         """Begin where the clause before leads, so that counting does not depend on the driving."""
-        if self.goal.kind is not GoalKind.STOP:
-            led_to = self.goal.door if self.goal.kind is GoalKind.REACH else None
-            self._beside = self.goal.beside or led_to
+        match self.goal:
+            case ReachGoal(beside=beside, door=door):
+                self._beside = beside or door
+            case PassGoal() | SeekGoal():
+                self._beside = None
+            case StopGoal():
+                pass  # it stays where the clause before led to
         self._go_on(after(self.command.clauses, self.active))
-        self._begin_clause(scene, self.goal.onward or self.goal.pose, pose)
+        self._begin_clause(scene, self.goal.next_begin, pose)
 
     def _go_on(self, index: int) -> None:
         """Make that clause the active one; what lies between is skipped."""
@@ -188,10 +197,12 @@ class Follower:
         return passed or self._is_only_a_direction(self.active - 1)
 
     def _completed(self, pose: Pose) -> bool:
-        if self.goal.kind is GoalKind.PASS:
-            return self.goal.crossed_between(self._last, pose, self.jamb_margin)
-        if self.goal.kind is GoalKind.REACH:
-            return self.goal.reached_by(pose, self.care)
-        if self.goal.kind is GoalKind.STOP:
-            return self.impossible is None and self._still > self.goal.wait
-        return False
+        match self.goal:
+            case PassGoal() as goal:
+                return goal.crossed_between(self._last, pose, self.jamb_margin)
+            case ReachGoal() as goal:
+                return goal.reached_by(pose, self.care)
+            case StopGoal(wait=wait):
+                return self.impossible is None and self._still > wait
+            case SeekGoal():
+                return False

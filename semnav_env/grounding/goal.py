@@ -3,33 +3,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, field
 from enum import IntEnum
-
-from numba import njit
+from typing import ClassVar, TypeAlias
 
 from semnav_env.features.corridor import Corridor, Junction
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
+from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
 from semnav_env.features.scene import Door
-
-PLACES_AHEAD = 2
-"""A robot on a way that it knows heads for so many places farther on."""
+from semnav_env.grounding.crossing import crossing_share
 
 BESIDE = 1.5
 """So far beside the end of such a way is still there, metres."""
 
-STRAIGHT = 0.6
-"""A way that turns by less leads straight on, radians."""
-
 
 class GoalKind(IntEnum):
-    """What reaching a goal means.
-
-    SEEK: the referent has not been seen yet; drive towards `pose` and keep looking.
-    REACH: be at `pose`, within the tolerances.
-    PASS: cross `door`; `pose` lies behind it, heading away from it.
-    STOP: stand still.
-    """
+    """The number by which an observation tells what reaching a goal means."""
 
     SEEK = 0
     REACH = 1
@@ -38,59 +26,72 @@ class GoalKind(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Goal:
-    """A place to be, in the frame of the scene it was grounded on.
+class BaseGoal:
+    """What all goals have; everything is in the frame of the scene that was grounded on.
 
     Attributes:
-        kind: what reaching it means.
         pose: where the robot's centre should come to be, (x, y, heading).
-        door: the doorway to cross or to stand before; its `name` only on a true scene.
-        distance_tolerance: how far from `pose` still counts as there, metres.
-        heading_tolerance: how far off its heading, radians; pi where the heading is free.
-        because: what was understood, for the picture and the log.
         corridor: the corridor in which the referent was found.
-        junction: the junction at which to turn.
         onward: where the next clause begins; None for `pose`. The middle of the doorway that was
             crossed, or the mouth of the arm that was turned into.
         places: of the way there, from its begin on, if it is known; (x, y) in metres.
-        wait: how long to stand still, seconds; of a STOP.
-        beside: the door beside which it ends, of "until the second door".
     """
 
-    kind: GoalKind
+    kind: ClassVar[GoalKind]
     pose: Pose
-    door: Door | None = None
-    distance_tolerance: float = math.inf
-    heading_tolerance: float = math.pi
-    because: str = ""
+    _: KW_ONLY
     corridor: Corridor | None = field(default=None, compare=False, repr=False)
-    junction: Junction | None = field(default=None, compare=False, repr=False)
     onward: Pose | None = None
     places: tuple[Point, ...] = field(default=(), compare=False, repr=False)
-    wait: float = 0.0
+
+    @property
+    def next_begin(self) -> Pose:
+        """Where the next clause begins."""
+        return self.onward or self.pose
+
+
+@dataclass(frozen=True, slots=True)
+class SeekGoal(BaseGoal):
+    """Drive towards `pose` and keep looking: the referent has not been seen yet.
+
+    Attributes:
+        what: is being looked for, in words.
+    """
+
+    kind: ClassVar[GoalKind] = GoalKind.SEEK
+    what: str
+
+    @property
+    def because(self) -> str:
+        """What was understood, for the picture and the log."""
+        return f"looking for {self.what}"
+
+
+@dataclass(frozen=True, slots=True)
+class ReachGoal(BaseGoal):
+    """Be at `pose`, within the tolerances.
+
+    Attributes:
+        distance_tolerance: how far from `pose` still counts as there, metres.
+        heading_tolerance: how far off its heading, radians; pi where the heading is free.
+        because: what was understood, for the picture and the log.
+        door: the doorway to stand before; its `name` only on a true scene.
+        junction: the junction at which to turn.
+        beside: the door beside which the goal lies, of "until the second door".
+    """
+
+    kind: ClassVar[GoalKind] = GoalKind.REACH
+    distance_tolerance: float
+    heading_tolerance: float = math.pi
+    because: str = ""
+    door: Door | None = None
+    junction: Junction | None = field(default=None, compare=False, repr=False)
     beside: Door | None = field(default=None, compare=False, repr=False)
 
-    def towards(self, pose: Pose) -> Goal:
-        """The goal, or while the way there is long the next place on it."""
-        if not self.places:
-            return self
-        apart = [math.dist(place, pose[:2]) for place in self.places]
-        here = apart.index(min(apart))
-        ahead = here + PLACES_AHEAD
-        there = self._on_way(ahead)
-        if ahead >= len(self.places) - 1:
-            if self.kind is GoalKind.PASS:
-                return self
-            there = self.pose
-        if abs(wrap_angle(self._on_way(here)[2] - there[2])) < STRAIGHT:
-            there = _as_far_beside(there, to_local(self._on_way(here), pose[:2])[1])
-        return replace(self, kind=GoalKind.SEEK, pose=there, door=None)
-
-    def _on_way(self, index: int) -> Pose:
-        """A place of the known way, or the one before the last, and the way's direction there."""
-        index = min(index, len(self.places) - 2)
-        (x, y), (bx, by) = self.places[index : index + 2]
-        return x, y, math.atan2(by - y, bx - x)
+    @property
+    def fixes_heading(self) -> bool:
+        """Whether the robot must face a direction there."""
+        return self.heading_tolerance < math.pi
 
     def reached_by(self, pose: Pose, share: float = 1.0) -> bool:
         """Whether `pose` lies within the tolerances, or within a `share` of them.
@@ -101,13 +102,27 @@ class Goal:
             along, beside = to_local(self.pose, pose[:2])
             return abs(along) <= share * self.distance_tolerance and abs(beside) <= BESIDE
         distance = math.hypot(pose[0] - self.pose[0], pose[1] - self.pose[1])
-        turn = abs(wrap_angle(pose[2] - self.pose[2]))
+        error = abs(wrap_angle(pose[2] - self.pose[2]))
         return distance <= share * self.distance_tolerance and (
-            self.heading_tolerance >= math.pi or turn <= share * self.heading_tolerance
+            not self.fixes_heading or error <= share * self.heading_tolerance
         )
 
+
+@dataclass(frozen=True, slots=True)
+class PassGoal(BaseGoal):
+    """Cross a doorway; `pose` lies behind it, heading away from it.
+
+    Attributes:
+        door: the doorway; its `name` only on a true scene.
+        because: what was understood, for the picture and the log.
+    """
+
+    kind: ClassVar[GoalKind] = GoalKind.PASS
+    door: Door
+    because: str = ""
+
     def crossed_between(self, before: Pose, after: Pose, margin: float = 0.0) -> bool:
-        """Whether the way from `before` to `after` leads forward through the goal's door.
+        """Whether the way from `before` to `after` leads forward through the door.
 
         Args:
             before: a pose of the robot's centre.
@@ -115,8 +130,6 @@ class Goal:
             margin: how far beside the jambs still counts, and how far behind them the way must
                 lead, metres; for a door that is not known exactly.
         """
-        if self.door is None:
-            return False
         (ax, ay), (bx, by) = self.door.start, self.door.end
         dx, dy = after[0] - before[0], after[1] - before[1]
         reach = abs(bx - ax) + abs(by - ay) + abs(dx) + abs(dy) + 2.0 * margin
@@ -124,41 +137,39 @@ class Goal:
             return False  # too far away, as nearly always
         c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         line = ax + margin * c, ay + margin * s, bx + margin * c, by + margin * s
-        share = _crossing(*line, *before[:2], *after[:2])
+        share = crossing_share(*line, *before[:2], *after[:2])
         forward = dx * c + dy * s > 0
         slack = margin / self.door.width
         return forward and -slack <= share <= 1 + slack
 
 
-def _as_far_beside(there: Pose, beside: float) -> Pose:
-    """The place beside one on a straight way, as far to its side as the robot is from it here.
+@dataclass(frozen=True, slots=True)
+class StopGoal(BaseGoal):
+    """Stand still.
 
-    So a corridor is driven down where it is, however far odometry has drifted to a side.
+    Attributes:
+        because: what was understood, for the picture and the log.
+        wait: for how long, seconds.
     """
-    x, y = to_parent(there, (0.0, beside if abs(beside) < BESIDE else 0.0))
-    return x, y, there[2]
+
+    kind: ClassVar[GoalKind] = GoalKind.STOP
+    because: str = ""
+    wait: float = 0.0
 
 
-@njit(cache=True)
-def first_crossed(doors: FloatArray, x1: float, y1: float, x2: float, y2: float) -> int:
-    """The index of the first of `doors`, shape (n, 4), that a step crosses; -1 if none."""
-    for i in range(len(doors)):
-        share = _crossing(doors[i, 0], doors[i, 1], doors[i, 2], doors[i, 3], x1, y1, x2, y2)
-        if 0.0 <= share <= 1.0:
-            return i
-    return -1
+Goal: TypeAlias = SeekGoal | ReachGoal | PassGoal | StopGoal
+"""Where a clause leads."""
 
 
-@njit(cache=True)
-def _crossing(
-    ax: float, ay: float, bx: float, by: float, x1: float, y1: float, x2: float, y2: float
-) -> float:
-    """Where the step from 1 to 2 crosses the line a-b, as a share of a-b; NaN if it does not."""
-    dx, dy = bx - ax, by - ay
-    before = dx * (y1 - ay) - dy * (x1 - ax)
-    after = dx * (y2 - ay) - dy * (x2 - ax)
-    if (before > 0.0) == (after > 0.0):
-        return math.nan
-    share = before / (before - after)
-    x, y = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
-    return ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)
+def door_of(goal: Goal) -> Door | None:
+    """The doorway that a goal is to cross, or to stand before."""
+    match goal:
+        case PassGoal(door=door) | ReachGoal(door=door):
+            return door
+        case SeekGoal() | StopGoal():
+            return None
+
+
+def wait_of(goal: Goal) -> float:
+    """How long the robot is to stand still at a goal, seconds."""
+    return goal.wait if isinstance(goal, StopGoal) else 0.0

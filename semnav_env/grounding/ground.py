@@ -17,7 +17,7 @@ from semnav_env.commands.command import reference_of
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.door_goals import ground_door, ground_leave
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, StopGoal
 from semnav_env.grounding.junctions import ground_follow, ground_turn
 from semnav_env.grounding.rooms import ground_way
 from semnav_env.grounding.situation import GroundingError, Situation
@@ -47,7 +47,7 @@ def ground(
         way: to the room that the clause names, or back, in the scene's frame.
 
     Returns:
-        The goal in the scene's frame. Its kind is SEEK while the referent is not seen yet.
+        The goal in the scene's frame. A `SeekGoal` while the referent is not seen yet.
 
     Raises:
         GroundingError: the referent cannot be there; the message says what is.
@@ -78,5 +78,5 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
             raise GroundingError(f"{clause}: a condition leads nowhere by itself")
         case Stop():
             wait = float(clause.seconds)
-            return Goal(GoalKind.STOP, situation.begin, because=str(clause), wait=wait)
+            return StopGoal(situation.begin, str(clause), wait)
     raise TypeError(f"{clause!r} is no clause")

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from semnav_env.commands.clauses import Follow, Turn, Turning
 from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference, Side
 from semnav_env.features.corridor import Corridor, Junction, corridor_at, doorway_at
 from semnav_env.features.frames import Pose, compose, to_parent
-from semnav_env.grounding.doors import OUT_OF_DOORWAY, doors_along, find_door
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.features.scene import Door
+from semnav_env.grounding.doors import OUT_OF_DOORWAY, CountedDoor, doors_along, find_door
+from semnav_env.grounding.goal import Goal, ReachGoal, SeekGoal
 from semnav_env.grounding.situation import (
     END_MARGIN,
     GroundingError,
@@ -52,11 +52,10 @@ def ground_turn(clause: Turn, situation: Situation) -> Goal:
     if clause.turning is Turning.AROUND:
         return _turn_around(clause, situation)
     junction = _find_junction(clause.at, clause.turning, situation)
-    if isinstance(junction, Goal):
+    if not isinstance(junction, Junction):
         return junction
     mouth = _mouth(junction, clause.turning, situation)
-    return Goal(
-        GoalKind.REACH,
+    return ReachGoal(
         compose(mouth, (ARM_DEPTH, 0.0, 0.0)),
         distance_tolerance=1.6,
         heading_tolerance=0.5,
@@ -79,7 +78,7 @@ def ground_follow(clause: Follow, situation: Situation) -> Goal:
             return situation.seek("the end of the hallway")
         return _go_on(situation, end, "the end of the hallway")
     junction = _find_junction(until, None, situation)
-    if isinstance(junction, Goal):
+    if not isinstance(junction, Junction):
         return junction
     if clause.past and not junction.ahead and situation.complete:
         raise GroundingError(f"the hallway does not go on behind {until}")
@@ -97,13 +96,13 @@ def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) 
     if until.side is Side.OPPOSITE:
         raise UnclearError(f"{clause}: it lies across; say to go to it, or through it")
     door = find_door(until, situation)
-    if isinstance(door, Goal):
+    if not isinstance(door, CountedDoor):
         return door
     if situation.back and door.door == own_doorway(situation.scene, turned(situation.begin)):
         raise UnclearError(f"{clause}: one stands in that doorway; say to go through it")
     beside = JUST_BEHIND if clause.past else -JUST_BEFORE
     along = min(door.along + beside, situation.corridor.end - END_MARGIN)
-    return replace(_go_on(situation, along, _past(clause)), beside=door.door)
+    return _go_on(situation, along, _past(clause), door.door)
 
 
 def _past(clause: Follow) -> str:
@@ -124,12 +123,12 @@ def _distance_along(distance: Distance, situation: Situation) -> float:
     return min(distance.metres, most)
 
 
-def _go_on(situation: Situation, along: float, where: str) -> Goal:
-    return Goal(
-        GoalKind.REACH,
+def _go_on(situation: Situation, along: float, where: str, beside: Door | None = None) -> Goal:
+    return ReachGoal(
         situation.corridor.place(along),
         distance_tolerance=1.0,
         because=f"go on to {where}",
+        beside=beside,
         corridor=situation.corridor,
     )
 
@@ -141,8 +140,7 @@ def _turn_here(turning: Turning, situation: Situation) -> Goal:
     pose = compose(situation.begin, (out, 0.0, QUARTERS[turning] * math.pi / 2))
     leaves_door = doorway is not None or _faces_a_door(situation)
     past = PAST_DOORWAY if leaves_door and turning is not Turning.AROUND else 0.0
-    return Goal(
-        GoalKind.REACH,
+    return ReachGoal(
         pose,
         distance_tolerance=1.5,
         heading_tolerance=0.5,
@@ -160,8 +158,7 @@ def _faces_a_door(situation: Situation) -> bool:
 def _turn_by(turning: Turning, degrees: int, situation: Situation) -> Goal:
     """Turn by an angle where the clause began; what counts is where one looks in the end."""
     angle = math.radians(degrees)
-    return Goal(
-        GoalKind.REACH,
+    return ReachGoal(
         compose(situation.begin, (0.0, 0.0, math.copysign(angle, QUARTERS[turning]))),
         distance_tolerance=1.5,
         heading_tolerance=min(0.5, max(0.2, angle / 2)),
@@ -171,10 +168,9 @@ def _turn_by(turning: Turning, degrees: int, situation: Situation) -> Goal:
 
 def _turn_around(clause: Turn, situation: Situation) -> Goal:
     there = ground_follow(Follow(clause.at), situation)
-    if there.kind is GoalKind.SEEK:
+    if isinstance(there, SeekGoal):
         return there
-    return Goal(
-        GoalKind.REACH,
+    return ReachGoal(
         compose(there.pose, (0.0, 0.0, math.pi)),
         distance_tolerance=1.5,
         heading_tolerance=0.5,

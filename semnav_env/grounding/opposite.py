@@ -9,7 +9,7 @@ from semnav_env.commands.references import LAST, OTHER, DoorReference, Side
 from semnav_env.features.frames import Pose, compose, to_local
 from semnav_env.features.kernels.probing import BODY_WIDTH
 from semnav_env.features.scene import Door
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, SeekGoal
 from semnav_env.grounding.situation import GroundingError, Situation, UnclearError
 from semnav_env.grounding.surroundings import (
     doors_across,
@@ -91,11 +91,11 @@ class Look:
     def goal(self, situation: Situation, what: object) -> Goal:
         """Turn there; or come out of the doorway to look."""
         if not situation.scene.walls:
-            return Goal(GoalKind.SEEK, situation.begin, because=f"looking for {what}")
+            return SeekGoal(situation.begin, str(what))
         if not situation.looks_along(self.pose[2]):
             return situation.turn_to(self.pose[2], what)
         out = compose(self.pose, (STEP_OUT, 0.0, 0.0))
-        return Goal(GoalKind.SEEK, out, because=f"looking for {what}")
+        return SeekGoal(out, str(what))
 
 
 def find_opposite(reference: DoorReference, situation: Situation) -> tuple[Door, float] | Goal:
@@ -108,7 +108,7 @@ def find_opposite(reference: DoorReference, situation: Situation) -> tuple[Door,
     if reference.ordinal not in OF_ONE:
         raise GroundingError(f"no {str(reference).removeprefix('the ')}: at most one is opposite")
     found = doors_opposite(reference, situation)
-    if isinstance(found, Goal):
+    if not isinstance(found, dict):
         return found
     if len(found) > 1:
         sides = " and ".join(sorted(look.side for look in found))

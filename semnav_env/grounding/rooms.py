@@ -7,7 +7,7 @@ import math
 from semnav_env.commands.clauses import GoBack, GoToRoom
 from semnav_env.commands.references import Side
 from semnav_env.grounding.doors import STAND_OFF, CountedDoor
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal
 from semnav_env.grounding.situation import GroundingError, Situation
 from semnav_env.grounding.surroundings import heading_through
 from semnav_env.grounding.ways import door_near
@@ -28,8 +28,7 @@ def ground_way(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
     if way.door is None:
         (ax, ay), (bx, by) = way.places[-2:]
         arriving = math.atan2(by - ay, bx - ax)
-        return Goal(
-            GoalKind.REACH,
+        return ReachGoal(
             (bx, by, arriving),
             distance_tolerance=1.0,
             because=str(clause),
@@ -38,8 +37,7 @@ def ground_way(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
         )
     door = door_near(situation.scene, way, situation.pose) or way.door
     line = CountedDoor(door, 0.0, Side.AHEAD, heading_through(door, way.heading))
-    return Goal(
-        GoalKind.PASS,
+    return PassGoal(
         line.pose(STAND_OFF),
         door,
         because=str(clause),

@@ -10,7 +10,7 @@ from semnav_env.commands.references import DoorReference, Side
 from semnav_env.features.corridor import Corridor, corridor_at
 from semnav_env.features.frames import Pose, compose
 from semnav_env.features.scene import Door, Scene
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, ReachGoal, SeekGoal
 from semnav_env.grounding.ways import Way
 
 LOOK_AHEAD = 4.0
@@ -89,7 +89,7 @@ class Situation:
     def turn_to(self, heading: float, what: object) -> Goal:
         """Turn on the spot to look for something; never done, for it is no end in itself."""
         pose = (*self.begin[:2], heading)
-        return Goal(GoalKind.REACH, pose, None, 0.0, 0.0, f"looking for {what}")
+        return ReachGoal(pose, 0.0, 0.0, f"looking for {what}")
 
     def seek(self, what: object, at_most: float = math.inf) -> Goal:
         """Go on along the corridor and keep looking for something; first turn to where it may be.
@@ -102,7 +102,7 @@ class Situation:
             return self.turn_to(self.begin[2], what)
         along = min(self.progress + LOOK_AHEAD, self._farthest(at_most))
         pose = self.corridor.place(along)
-        return Goal(GoalKind.SEEK, pose, because=f"looking for {what}", corridor=self.corridor)
+        return SeekGoal(pose, str(what), corridor=self.corridor)
 
     def has_come(self, at_most: float) -> bool:
         """Whether the robot has gone as far as `seek` would lead it."""

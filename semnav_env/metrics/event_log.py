@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Point, wrap_angle
-from semnav_env.grounding.goal import first_crossed
+from semnav_env.grounding.crossing import first_crossed
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.metrics.events import (
     Arm,

@@ -8,7 +8,7 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, path_length
 from semnav_env.grounding.follower import STANDSTILL
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.maps.geodesic import WaysTo
 from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
 from semnav_env.metrics.paths import THRESHOLD, cls, ndtw, resampled, soft_spl, spl
@@ -82,14 +82,18 @@ def geodesic_distances(ways: WaysTo, points: FloatArray) -> FloatArray:
 def ever_met(goal: Goal, recording: Recording) -> bool:
     """Whether a goal was met at any time, whatever happened before."""
     poses = [(x, y, heading) for x, y, heading in recording.poses.tolist()]
-    if goal.kind is GoalKind.PASS:
-        return any(goal.crossed_between(before, after) for before, after in pairwise(poses))
-    if goal.kind is GoalKind.STOP:
-        return stood_there(goal, recording)
-    return any(map(goal.reached_by, poses[1:]))
+    match goal:
+        case PassGoal():
+            return any(goal.crossed_between(before, after) for before, after in pairwise(poses))
+        case StopGoal():
+            return stood_there(goal, recording)
+        case ReachGoal():
+            return any(map(goal.reached_by, poses[1:]))
+        case SeekGoal():
+            return False
 
 
-def stood_there(goal: Goal, recording: Recording) -> bool:
+def stood_there(goal: StopGoal, recording: Recording) -> bool:
     """Whether the robot stood still within `NEAR` of a goal for as long as the goal says."""
     away = np.hypot(*(recording.path[1:] - goal.pose[:2]).T)
     stands = (recording.speeds[1:] < STANDSTILL) & (away < NEAR)

@@ -8,7 +8,7 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.scene import Door, Scene
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, PassGoal, SeekGoal, StopGoal, door_of
 from semnav_env.rendering import marks, palette
 from semnav_env.rendering.body import draw_body
 from semnav_env.rendering.camera import Camera, Viewport
@@ -25,8 +25,7 @@ def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
         _draw_beams(canvas, camera, frame)
         for wall in frame.scene.walls:
             marks.wall_seen(canvas, camera.pixels([wall.start, wall.end]))
-        if frame.goal is not None and frame.goal.door is not None:
-            door = frame.goal.door
+        if frame.goal is not None and (door := door_of(frame.goal)) is not None:
             canvas.stroke(camera.pixels([door.start, door.end]), palette.GOAL_DOORWAY, 24.0)
     for hinge_x, hinge_y, tip_x, tip_y in frame.leaves:
         marks.leaf(canvas, camera.pixels([(hinge_x, hinge_y), (tip_x, tip_y)]), camera.scale)
@@ -101,16 +100,16 @@ def _badge_place(camera: Camera, door: Door) -> Point:
 def _draw_goal(canvas: Canvas, camera: Camera, goal: Goal, robot: Point) -> None:
     foot = camera.pixel(goal.pose[:2])
     heading = math.cos(goal.pose[2]), -math.sin(goal.pose[2])
-    if goal.kind is GoalKind.STOP:
+    if isinstance(goal, StopGoal):
         marks.stop_sign(canvas, foot)
         return
     start, reach = foot, 34.0
-    if goal.kind is GoalKind.PASS and goal.door is not None:
+    if isinstance(goal, PassGoal):
         start = camera.pixel(goal.door.midpoint)
     canvas.dashes([camera.pixel(robot), start], palette.GOAL, 1.0, dash=2.0, gap=5.0)
     tip = foot[0] + reach * heading[0], foot[1] + reach * heading[1]
     marks.arrow(canvas, start, tip, palette.GOAL)
-    if goal.kind is GoalKind.SEEK:
+    if isinstance(goal, SeekGoal):
         canvas.discs([foot], 11.0, palette.WHITE)
         canvas.ring(foot, 10.0, palette.GOAL, 2.0)
         canvas.text(foot, "?", palette.GOAL, 14.0, bold=True, centred=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -11,10 +12,10 @@ from semnav_env.commands.command import reference_of
 from semnav_env.commands.references import DoorReference
 from semnav_env.features.extract import to_scene
 from semnav_env.features.frames import Point, Pose, compose, points_to_parent, relative
-from semnav_env.features.scene import Scene
+from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.doors import doors_along
 from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal import Goal
+from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.perception import Perception
 from semnav_env.rendering.frame import Frame
@@ -125,8 +126,13 @@ def door_numbers(scene: Scene, follower: Follower) -> dict[int, int]:
 
 
 def _moved(goal: Goal, frame: Pose) -> Goal:
-    door = Scene(doors=(goal.door,)).placed(frame).doors[0] if goal.door is not None else None
-    return Goal(goal.kind, compose(frame, goal.pose), door, because=goal.because)
+    """The goal as the picture shows it, in the parent of its frame."""
+    pose = compose(frame, goal.pose)
+    match goal:
+        case PassGoal(door=door) | ReachGoal(door=Door() as door):
+            return replace(goal, pose=pose, door=Scene(doors=(door,)).placed(frame).doors[0])
+        case _:
+            return replace(goal, pose=pose)
 
 
 _SETTLED = (Verdict.DONE, Verdict.SKIPPED, Verdict.PENDING)

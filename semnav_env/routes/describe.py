@@ -13,7 +13,8 @@ import numpy as np
 from semnav_env.commands import MAX_CLAUSES, Approach, Clause, Command, Follow, Turn, Turning
 from semnav_env.commands.command import may_count_on
 from semnav_env.features.frames import Pose, path_length, wrap_angle
-from semnav_env.grounding import Goal, GoalKind, GroundingError
+from semnav_env.grounding import Goal, GroundingError, PassGoal, ReachGoal
+from semnav_env.grounding.goal import door_of
 from semnav_env.grounding.ground import goal_of
 from semnav_env.grounding.situation import Situation
 from semnav_env.maps.floor_plan import FloorPlan
@@ -145,12 +146,13 @@ class _Search:
 
     def _done(self, goal: Goal, index: int, stop: int, door: str | None) -> int | None:
         """At which pose of the route a goal is attained, before or by crossing the next door."""
-        if goal.kind is GoalKind.PASS:
-            named = goal.door is not None and goal.door.name == door
-            return stop if named and self._crosses(goal, stop) else None
+        if isinstance(goal, PassGoal):
+            return stop if goal.door.name == door and self._crosses(goal, stop) else None
+        if not isinstance(goal, ReachGoal):
+            return None
         x, y, heading = (self._poses[index + 1 : stop] - goal.pose).T
         there = np.hypot(x, y) <= goal.distance_tolerance
-        if goal.heading_tolerance < math.pi:
+        if goal.fixes_heading:
             there &= np.cos(heading) >= math.cos(goal.heading_tolerance)
         return index + 1 + int(np.argmax(there)) if there.any() else None
 
@@ -163,7 +165,7 @@ class _Search:
         """Of the route between two poses, metres."""
         return path_length(self._poses[start : stop + 1, :2])
 
-    def _crosses(self, goal: Goal, stop: int) -> bool:
+    def _crosses(self, goal: PassGoal, stop: int) -> bool:
         before, after = (tuple(pose.tolist()) for pose in self._poses[stop - 1 : stop + 1])
         return goal.crossed_between(before, after)
 
@@ -172,7 +174,7 @@ class _Search:
     ) -> PartialDescription:
         anew = 2 if told.clauses and may_count_on(told.clauses[-1], clause) else 0
         words = told.words + words_of(clause) + anew
-        further = PartialDescription((*told.clauses, clause), goal.onward or goal.pose, done, words)
+        further = PartialDescription((*told.clauses, clause), goal.next_begin, done, words)
         if done > self._farthest.index:
             self._farthest = further
         return further
@@ -181,9 +183,10 @@ class _Search:
         """Whether a goal is where the route leads."""
         if self._destination is not None:
             name, approach = self._destination
-            kind = GoalKind.PASS if approach is Approach.THROUGH else GoalKind.REACH
-            door = goal.door is not None and goal.door.name == name
-            return door and goal.kind is kind and self._is_late(done)
+            kind = PassGoal if approach is Approach.THROUGH else ReachGoal
+            door = door_of(goal)
+            is_it = isinstance(goal, kind) and door is not None and door.name == name
+            return is_it and self._is_late(done)
         near = math.dist(place(goal), self._poses[-1, :2]) <= AT_END
         return near and self._faces(goal) and self._is_late(done)
 

@@ -9,8 +9,8 @@ import shapely
 
 from semnav_env.commands import Approach, Command
 from semnav_env.features.frames import FloatArray, path_length, to_parent
+from semnav_env.grounding.crossing import first_crossed
 from semnav_env.grounding.doors import STAND_OFF
-from semnav_env.grounding.goal import first_crossed
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.route import Route, RouteError

@@ -23,7 +23,7 @@ from semnav_env.commands import (
 )
 from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose, to_local, wrap_angle
-from semnav_env.grounding import Goal, GoalKind, GroundingError
+from semnav_env.grounding import Goal, GroundingError, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import is_clear, placement_error, sample_pose
 from semnav_env.robots import RobotSpec
@@ -114,7 +114,7 @@ def sample_feasible(
 
 def _has_space(floor_plan: FloorPlan, goal: Goal) -> bool:
     """Whether no desk stands where a robot is told to be: at the end of a lounge, say."""
-    return goal.kind is not GoalKind.REACH or is_clear(floor_plan, goal.pose[:2], SPACE)
+    return not isinstance(goal, ReachGoal) or is_clear(floor_plan, goal.pose[:2], SPACE)
 
 
 def _draw(rng: np.random.Generator, most_clauses: int) -> Command:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from semnav_env.commands.clauses import Clause, Turn
 from semnav_env.features.corridor import SideOpening
 from semnav_env.features.frames import Pose, to_local
-from semnav_env.grounding.goal import Goal
+from semnav_env.grounding.goal import Goal, ReachGoal
 
 ASTRAY = 1.2
 """A wrong turn is taken when the robot is this far inside an arm it should not be in, metres."""
@@ -21,16 +21,17 @@ def went_astray(clause: Clause, goal: Goal, pose: Pose) -> bool:
     """
     if goal.corridor is None:
         return False
+    wanted = goal.junction if isinstance(goal, ReachGoal) else None
     along, offset = to_local(goal.corridor.frame, (pose[0], pose[1]))
     for junction in goal.corridor.junctions if abs(offset) > ASTRAY else ():
         for opening in (junction.left, junction.right):
             if opening is None or not opening.near < along < opening.far:
                 continue
             depth = (offset if opening.left else -offset) - opening.offset
-            named = goal.junction is junction and _names(clause, opening)
+            named = wanted is junction and _names(clause, opening)
             if depth > ASTRAY and opening.far > 0.5 and not named:
                 return True
-    return goal.junction is not None and along > goal.junction.far + 2 * ASTRAY
+    return wanted is not None and along > wanted.far + 2 * ASTRAY
 
 
 def _names(clause: Clause, opening: SideOpening) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from semnav_env.commands import Command
 from semnav_env.features.frames import Point, Pose
 from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal import Goal, GoalKind
+from semnav_env.grounding.goal import Goal, PassGoal, SeekGoal
 from semnav_env.grounding.situation import GroundingError
 from semnav_env.grounding.ways import Guide
 from semnav_env.maps.floor_plan import FloorPlan
@@ -52,13 +52,10 @@ def check_grounded(follower: Follower) -> None:
     """
     if follower.impossible is not None:
         raise GroundingError(follower.impossible)
-    if follower.goal.kind is GoalKind.SEEK:
-        what = follower.goal.because.removeprefix("looking for ")
-        raise GroundingError(f"{what}: the floor plan shows none there")
+    if isinstance(follower.goal, SeekGoal):
+        raise GroundingError(f"{follower.goal.what}: the floor plan shows none there")
 
 
 def place(goal: Goal) -> Point:
     """The point that a goal leads to: the middle of the doorway to cross, else its pose."""
-    if goal.kind is GoalKind.PASS and goal.door is not None:
-        return goal.door.midpoint
-    return goal.pose[:2]
+    return goal.door.midpoint if isinstance(goal, PassGoal) else goal.pose[:2]

@@ -12,8 +12,9 @@ import numpy as np
 from semnav_env.commands import Command, encode
 from semnav_env.features.frames import FloatArray, Pose, path_length
 from semnav_env.features.scene import Scene
+from semnav_env.grounding.crossing import first_crossed
 from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal import Goal, GoalKind, first_crossed
+from semnav_env.grounding.goal import Goal, PassGoal, wait_of
 from semnav_env.grounding.situation import GroundingError
 from semnav_env.grounding.ways import KnownWays
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor
@@ -110,7 +111,7 @@ class Verifier:
         still = speed < STILL and abs(turn_rate) < STILL
         self._still = self._still + seconds if still else 0.0
         goal = self.follower.goal
-        allowed = STILL_FOR + goal.wait
+        allowed = STILL_FOR + wait_of(goal)
         completed = self.follower.advance(self._scene, pose, speed, seconds)
         if completed:
             self._met.append(goal)
@@ -216,7 +217,7 @@ def _may_cross(goal: Goal, crossed: PlanDoor) -> bool:
     """
     if crossed.is_opening:
         return True
-    if goal.kind is GoalKind.PASS and goal.door is not None and goal.door.name == crossed.name:
+    if isinstance(goal, PassGoal) and goal.door.name == crossed.name:
         return True
     line = np.array([(*crossed.start, *crossed.end)])
     return any(first_crossed(line, *a, *b) == 0 for a, b in pairwise(goal.places))

@@ -12,6 +12,7 @@ from semnav_env.agents.registry import make_agent
 from semnav_env.commands import Approach, Command, DoorReference, GoToDoor, Side
 from semnav_env.env import SemNavEnv
 from semnav_env.grounding import GroundingError
+from semnav_env.grounding.goal import door_of
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.importers import import_map
 from semnav_env.maps.placement import sample_pose
@@ -39,7 +40,8 @@ def tasks(plan: FloorPlan) -> list[tuple[Command, tuple[float, float, float]]]:
             except GroundingError:
                 continue
             away = np.hypot(goal.pose[0] - start[0], goal.pose[1] - start[1])
-            known = found.setdefault(goal.door and goal.door.name, [])
+            door = door_of(goal)
+            known = found.setdefault(door and door.name, [])
             if away < FARTHEST and len(known) < EACH:
                 known.append((command, start))
     return [task for known in found.values() for task in known]

@@ -11,7 +11,7 @@ from semnav_env.commands.references import Side
 from semnav_env.features.corridor import Corridor
 from semnav_env.features.frames import Point, Pose, compose
 from semnav_env.features.scene import Scene
-from semnav_env.grounding import Goal, GoalKind
+from semnav_env.grounding import Goal, GoalKind, PassGoal, ReachGoal
 from semnav_env.grounding.doors import doors_along
 
 COLOURS = {Side.LEFT: "tab:blue", Side.RIGHT: "tab:orange", Side.AHEAD: "tab:purple"}
@@ -65,18 +65,18 @@ def draw_robot(ax: Axes, pose: Pose) -> None:
 
 def draw_goal(ax: Axes, goal: Goal) -> None:
     """The goal with its tolerances: the verifier's, and within it the robot's own."""
-    if math.isfinite(goal.distance_tolerance):
+    if isinstance(goal, ReachGoal):
         for share in (1.0, 0.5):
             _draw_tolerance(ax, goal, share)
-    if goal.kind is GoalKind.PASS and goal.door is not None:
+    if isinstance(goal, PassGoal):
         ax.plot(*zip(goal.door.start, goal.door.end, strict=True), color="tab:purple", lw=6.0)
     draw_mark(ax, goal.pose, goal.kind)
 
 
-def _draw_tolerance(ax: Axes, goal: Goal, share: float) -> None:
+def _draw_tolerance(ax: Axes, goal: ReachGoal, share: float) -> None:
     style = {"color": "tab:purple", "alpha": 0.12}
     ax.add_patch(Circle(goal.pose[:2], share * goal.distance_tolerance, **style))
-    if goal.heading_tolerance < math.pi:
+    if goal.fixes_heading:
         spread = math.degrees(share * goal.heading_tolerance)
         middle = math.degrees(goal.pose[2])
         ax.add_patch(Wedge(goal.pose[:2], 0.9, middle - spread, middle + spread, **style))
