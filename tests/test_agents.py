@@ -40,7 +40,7 @@ def test_the_scripted_agent_finds_its_way_around_a_bend(trial: Trial) -> None:
     assert result.success
 
 
-def test_the_scripted_agent_takes_no_short_cut_through_the_next_room() -> None:
+def test_scripted_agent_never_cuts_through_a_neighbouring_room() -> None:
     """The half-open leaf of that door makes the way through the room before it the wider one."""
     [trial] = [
         t for t in SUITES["office_cross"] if t.command == "enter the second door on the left"

@@ -38,7 +38,7 @@ def only(arcs: tuple[Arc, ...]) -> Arc:
 
 @settings(max_examples=40, deadline=None)
 @given(st.floats(1.5, 4.0), bearings, radii)
-def test_a_column_without_noise_comes_back_to_half_a_beam_spacing(
+def test_noise_free_columns_are_exact_to_half_a_beam_spacing(
     distance: float, bearing: float, radius: float
 ) -> None:
     centre, _ = column(distance, bearing, radius)
@@ -53,7 +53,7 @@ def test_a_column_without_noise_comes_back_to_half_a_beam_spacing(
 
 
 @pytest.mark.parametrize("diameter", [0.3, 0.4, 0.6, 1.0])
-def test_radii_of_columns_within_four_metres_are_right_to_three_percent(diameter: float) -> None:
+def test_radii_within_four_metres_are_right_to_three_percent(diameter: float) -> None:
     rng = np.random.default_rng(7)
     errors = []
     for seed in range(150):
@@ -106,7 +106,7 @@ def test_flat_walls_are_no_arcs(room: Room, sigma: float, seed: int) -> None:
     assert extract(scan_of(room.segments, room.pose, sigma=sigma, rng=rng)).arcs == ()
 
 
-def test_noise_makes_an_arc_of_flat_walls_in_less_than_one_scan_of_a_hundred() -> None:
+def test_noise_bends_flat_walls_in_under_one_percent_of_scans() -> None:
     rng = np.random.default_rng(3)
     walls = polyline((0.0, 0.0), (5.0, 0.0), (5.0, 4.0), (0.0, 4.0), (0.0, 0.0))
     poses = rng.uniform((0.5, 0.5, -3.0), (4.5, 3.5, 3.0), (300, 3))
@@ -187,7 +187,7 @@ def test_every_limit_of_an_arc_is_kept(limit: dict[str, float]) -> None:
     assert extract(scan, ExtractorSettings(**limit)).arcs == ()  # type: ignore[arg-type]
 
 
-def test_an_edge_hidden_by_something_nearer_says_nothing_of_the_width() -> None:
+def test_a_hidden_edge_does_not_constrain_the_width() -> None:
     screen = polyline((1.0, -0.6), (1.0, 0.0))
     whole, half = (
         only(extract(seen(((2.5, 0.0), 0.5), segments=segments)).arcs)

@@ -79,11 +79,12 @@ def test_a_gap_between_the_ends_of_two_walls_is_an_opening(gap):
 
 
 @pytest.mark.parametrize(("gap", "shift"), [(0.5, 0.0), (2.2, 0.0), (1.0, 0.5)])
-def test_what_is_too_narrow_too_wide_or_not_opposite_is_none(gap, shift):
+def test_gaps_too_narrow_too_wide_or_shifted_are_no_openings(gap, shift):
+    """The two walls of a passage are too near, too far apart or shifted."""
     assert openings_of(parted(gap, shift=shift)) == ()
 
 
-def test_what_has_something_before_it_is_no_opening():
+def test_a_blocked_gap_is_no_opening():
     plan = parted(1.0)
     cupboard = [*plan.segments.tolist(), (0.3, -2.0, 0.3, 2.0)]
     assert openings_of(plan_of_segments(cupboard, Path("niche.json"), "test").plan) == ()
@@ -140,7 +141,8 @@ def test_the_command_measures_every_floor_and_draws_failures(data, capsys):
     assert (data / "pages" / "gdc_floors_small_missed.png").stat().st_size > 0
 
 
-def test_a_doorway_is_false_if_one_gets_around_it_with_all_of_them_sealed(tmp_path):
+def test_a_doorway_with_a_way_around_it_is_false(tmp_path):
+    """A doorway is false if, with all doorways sealed, a way leads around it."""
     grey = np.full((60, 100), FREE)
     grey[[0, -1], :] = grey[:, [0, -1]] = SOLID
     grey[:20, 50] = grey[40:, 50] = SOLID  # an opening of 2 m
@@ -155,7 +157,7 @@ def test_a_doorway_is_false_if_one_gets_around_it_with_all_of_them_sealed(tmp_pa
     assert false_doorways(halves[:1], (), pixels) == halves[:1]
 
 
-def test_doorways_count_as_found_where_straight_walls_would_narrow_them(tmp_path):
+def test_doorways_count_where_straight_walls_narrow_them(tmp_path):
     building = labelled(narrowing(tmp_path))
     row = map_row("narrow", building, building.pixels)
     assert row[:-1] == ("narrow", 1, 1, 1.0, 1, 0, 0, 0.0)

@@ -81,7 +81,7 @@ def test_a_disc_as_wide_as_a_robot_reaches_all_open_doors(name: str, robot: Any)
 
 
 @every_plan
-def test_a_robot_drives_two_metres_straight_in_through_every_open_door(name: str) -> None:
+def test_every_open_door_is_free_for_two_metres_behind_it(name: str) -> None:
     plan = load_floor_plan(name)
     walls = solid(plan)
     for door in plan.doors:
@@ -126,9 +126,10 @@ def test_a_plan_that_breaks_a_rule_gets_one_finding() -> None:
 
 
 @pytest.mark.parametrize("name", [*bundled_names(), "office:large:3"])
-def test_a_picture_names_every_room_and_door_and_no_name_lies_on_another(
+def test_pictures_name_all_rooms_and_doors_without_overlap(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """No name lies on another one."""
     drawn: list[Figure] = []
     monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: drawn.append(figure))
     plan = load_floor_plan(name)

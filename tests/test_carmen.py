@@ -147,7 +147,7 @@ def test_any_bytes_give_scans_or_a_clear_error(folder, data):
 
 
 @given(st.floats(0.01, 0.999))
-def test_a_truncated_gz_log_gives_what_is_readable_then_one_error(folder, part):
+def test_a_truncated_gz_log_is_read_to_the_cut_then_refused(folder, part):
     scans = [flaser(np.random.default_rng(i).uniform(0, 50, 180)) for i in range(60)]
     whole = written(folder, scans, compress=True).read_bytes()
     path = folder / "cut.gz"
@@ -181,7 +181,7 @@ def test_a_damaged_gz_log_is_an_error_and_not_silence(folder):
         (b"FLASER 180 1 2\n", "no laser scan.*fewer fields"),
     ],
 )
-def test_what_is_not_a_log_says_what_would_be(folder, data, message):
+def test_a_file_that_is_no_log_is_refused_with_what_is_right(folder, data, message):
     path = folder / "other"
     path.write_bytes(data)
     with pytest.raises(LogError, match=message):

@@ -59,7 +59,7 @@ def test_nothing_is_wrong_with_a_room_at_a_corridor() -> None:
     assert found(room_at_a_corridor()) == []
 
 
-def test_a_door_narrower_than_the_wheelchair_is_found_but_spot_passes() -> None:
+def test_a_narrow_door_is_a_fault_for_the_wheelchair_only() -> None:
     plan = room_at_a_corridor(0.62)
     assert found(plan) == [
         "door: this open door leaves 0.62 m; a wheelchair (1.1 m x 0.65 m) needs more",
@@ -79,7 +79,7 @@ def test_a_room_the_robot_must_back_out_of_counts_as_reached() -> None:
     assert found(room_at_a_corridor(0.9, *shelves)) == []
 
 
-def test_a_turn_for_which_there_is_no_space_is_found_though_a_disc_would_pass() -> None:
+def test_a_turn_without_space_is_found_where_a_disc_would_pass() -> None:
     """A passage 0.8 m wide with a square bend in it: a body 1.1 m long cannot turn there."""
     right, above = cabinet(4.45, 2.01, 5.99, 2.8), cabinet(2.01, 3.6, 5.1, 5.99)
     plan = room_at_a_corridor(0.9, cabinet(2.01, 2.01, 3.55, 3.59), right, above)
@@ -199,9 +199,10 @@ def test_the_faults_stand_below_the_axis_whose_label_stays_black(
 
 
 @pytest.mark.parametrize("count", [1, 40])
-def test_faults_however_many_take_nothing_from_the_plan_and_lie_on_nothing(
+def test_many_faults_neither_shrink_the_plan_nor_overlap(
     count: int, drawn: list[Figure], tmp_path: Path
 ) -> None:
+    """The plan keeps its size, and no mark or number lies on another."""
     plan = room_at_a_corridor(0.62)
     west, south, east, north = plan.boundary.bounds
     corners = ((west, south), (east, north), (west + 0.1, north), (east, south))

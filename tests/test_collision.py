@@ -36,7 +36,7 @@ def depth_outside(robot, pose, points):
 
 @given(clouds, poses, robots)
 @settings(max_examples=200)
-def test_a_pose_is_clear_exactly_if_shapely_finds_no_point_in_the_footprint(points, pose, robot):
+def test_clear_poses_are_those_that_shapely_finds_clear(points, pose, robot):
     body = footprint(robot, pose)
     distance = shapely.distance(shapely.points(points), body.boundary) if len(points) else []
     if np.any(np.asarray(distance) < EDGE):

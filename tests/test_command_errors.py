@@ -94,9 +94,7 @@ def test_a_word_closer_to_left_is_never_answered_with_right(word: str, other: st
 @pytest.mark.parametrize(
     "text", ["go to the second {}", "stop at {}", "go to the {} window", "stop {}", "go down {}"]
 )
-def test_the_other_side_is_never_mentioned_for_a_side_in_the_wrong_place(
-    text: str, side: str
-) -> None:
+def test_a_misplaced_side_never_suggests_the_other_side(text: str, side: str) -> None:
     error = error_of(text.format(side))
     assert error.suggestion is None
     assert {"left": "right", "right": "left"}[side] not in error.summary
@@ -143,7 +141,7 @@ def test_an_empty_command_is_answered_with_an_example(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", [None, 3, b"turn left", ["turn left"], float("nan")])
-def test_what_is_no_text_is_refused(text: object) -> None:
+def test_a_command_that_is_no_text_is_refused(text: object) -> None:
     assert "a command is a text (str), not" in str(error_of(text))
 
 
@@ -217,7 +215,7 @@ def test_any_order_of_known_words_is_understood_or_refused(words: list[str]) -> 
 
 
 @given(commands, st.characters(), st.data())
-def test_a_command_with_a_changed_character_is_understood_or_refused(
+def test_a_changed_character_is_understood_or_refused(
     command: Command, character: str, data: st.DataObject
 ) -> None:
     text = str(command)

@@ -56,7 +56,7 @@ def following(text: str, scene: Scene = DOORS, complete: bool = True) -> Followe
         ("if you see the end of the hallway, stop, otherwise turn left", 1, "stop"),
     ],
 )
-def test_what_is_there_decides(text: str, active: int, because: str) -> None:
+def test_a_condition_is_decided_by_what_is_there(text: str, active: int, because: str) -> None:
     follower = following(text)
     assert follower.active == active
     assert because in follower.goal.because
@@ -68,7 +68,8 @@ def test_a_turn_that_hangs_on_a_place_is_made_there() -> None:
     assert following("if there is no corner, turn left", X_JUNCTION).goal.junction is None
 
 
-def test_only_one_of_the_two_is_done_and_then_what_is_for_any_case() -> None:
+def test_exactly_one_branch_is_carried_out() -> None:
+    """The other branch is skipped; the clause "in any case" follows."""
     text = "if there is a door on the left, stop, otherwise turn around. In any case turn left"
     follower = following(text)
     assert follower.active == 1
@@ -81,7 +82,8 @@ def test_nothing_is_left_to_do_where_a_lone_condition_is_not_met() -> None:
     assert following("if there is a corner, turn left").done
 
 
-def test_it_is_looked_for_until_the_end_of_the_hallway_and_then_decided() -> None:
+def test_a_condition_is_decided_at_the_end_of_the_corridor() -> None:
+    """The robot looks for what the condition names until then."""
     text = "if you see a third door on the left, enter it, otherwise stop"
     follower = following(text, complete=False)
     assert follower.active == 0
@@ -204,7 +206,9 @@ def test_the_end_of_a_command_can_be_corrected(said: str, correction: str, meant
         ("nonsense", "de", None),
     ],
 )
-def test_a_command_of_another_language_is_told_so(text: str, language: str, hint: str) -> None:
+def test_a_command_in_another_language_is_named_as_such(
+    text: str, language: str, hint: str
+) -> None:
     with pytest.raises(CommandError) as caught:
         parse(text, language)
     assert (hint in str(caught.value)) if hint else ("--language" not in str(caught.value))

@@ -54,7 +54,7 @@ def points_into_the_open(segments: FloatArray, pose: Pose, corner: FloatArray) -
     return bool(sight > math.hypot(x, y))
 
 
-def test_every_corner_of_a_plan_is_of_the_kind_that_its_geometry_says() -> None:
+def test_corner_kinds_agree_with_the_geometry_of_the_plan() -> None:
     kinds, rng = [], np.random.default_rng(4)
     for name in ("heidelberg_hallway", "villa_hall", "office_cross"):
         plan = load_floor_plan(name)
@@ -107,7 +107,8 @@ def test_a_corner_is_found_behind_a_post_that_stands_before_it() -> None:
     assert outer[0] == pytest.approx((3.0, 1.5), abs=0.01)
 
 
-def test_a_chamfered_corner_is_one_corner_where_its_walls_would_meet() -> None:
+def test_a_chamfered_corner_is_one_corner() -> None:
+    """It lies where its two walls would meet."""
     segments = polyline((3.0, -2.0), (3.0, 1.3), (2.8, 1.5), (-1.0, 1.5))
     corners = full(extract(scan_of(segments, HERE)))
     assert [corner.kind for corner in corners] == [CornerKind.OUTER]

@@ -76,7 +76,7 @@ def test_the_axis_lies_in_the_middle_whatever_the_start(scene: Scene, start: Pos
 
 
 @pytest.mark.parametrize("seed", [2000006, 1000022])
-def test_the_wall_of_the_doorway_that_one_stands_in_does_not_end_the_way_out(seed: int) -> None:
+def test_the_wall_of_the_own_doorway_ends_no_corridor(seed: int) -> None:
     """Open leaves turn the axis a little, so that half of that wall lies ahead of x = 0."""
     plan = load_floor_plan(f"office:large:{seed}")
     for door in plan.doors:

@@ -53,7 +53,7 @@ def test_counting_the_other_way_takes_the_other_side() -> None:
     assert goal.door.midpoint == pytest.approx((5.0, 1.0))
 
 
-def test_a_door_that_has_been_passed_counts_while_its_clause_lasts() -> None:
+def test_a_passed_door_counts_while_its_clause_lasts() -> None:
     goal = ground(clause("take the second door on the left"), DOORS, START, (7.0, 0.0, 0.0))
     assert middle(goal) == pytest.approx(5.0)
 

@@ -64,7 +64,7 @@ def test_normal_has_the_moments_of_a_normal_distribution() -> None:
     assert abs(stats.kurtosis(z)) < 4 * math.sqrt(24) * error
 
 
-def test_normal_has_the_distribution_function_of_a_normal_distribution() -> None:
+def test_normal_numbers_have_the_normal_distribution() -> None:
     assert stats.kstest(normals((4, 5, 6)), "norm").pvalue > 0.01
 
 
@@ -101,7 +101,7 @@ def test_keys_that_differ_in_one_number_are_independent(other: tuple[int, int, i
     assert_independent(normals((0, 0, 1)), normals(other))
 
 
-def test_one_beam_is_independent_from_step_to_step_and_from_episode_to_episode() -> None:
+def test_noise_is_independent_between_steps_and_episodes() -> None:
     by_step = np.array([normals((0, 0, step), 1)[0] for step in range(20_000)])
     by_episode = np.array([normals((0, episode, 0), 1)[0] for episode in range(20_000)])
     for z in (by_step, by_episode):

@@ -111,7 +111,7 @@ def test_the_kernel_agrees_with_the_reference(opening: Opening, seed: int):
     assert np.allclose(ends, expected, atol=1e-7)
 
 
-def test_a_bend_too_flat_for_the_end_point_fit_is_a_corner_of_two_walls():
+def test_a_bend_too_flat_for_end_point_fit_is_a_corner():
     """Thirty degrees over two short walls: the chord is nowhere off by the split distance."""
     segments = polyline((2.0, -0.27), (2.0, 0.0), (1.865, 0.234))
     scan = scan_of(segments, (0.0, 0.0, 0.0))

@@ -84,7 +84,7 @@ def test_what_was_driven_before_an_interruption_is_kept(
     assert len(list(dataset.iterate_episodes())) == 2
 
 
-def test_an_interruption_while_writing_waits_until_the_episode_is_whole() -> None:
+def test_an_interruption_waits_until_the_episode_is_written() -> None:
     written: list[int] = []
 
     def write() -> None:

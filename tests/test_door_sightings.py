@@ -33,7 +33,7 @@ def test_a_door_straight_ahead_is_gated():
 
 
 @pytest.mark.parametrize(("x", "y"), [(0.4, 0.7), (3.6, 0.0)])
-def test_a_door_close_by_or_at_a_grazing_angle_is_seen_but_not_gated(x, y):
+def test_near_and_grazing_doors_are_seen_but_not_gated(x, y):
     scan, door = seen_from(x, y)
     assert Gate().view(scan, door.start, door.end) is View.SEEN
 
@@ -77,7 +77,7 @@ def test_counts_of_a_scan():
     assert (counts + judge(scan, [], [door])).recall == 1 / 2
 
 
-def test_every_labelled_opening_has_the_width_that_its_file_states():
+def test_labelled_openings_have_the_stated_widths():
     openings = read_openings(LABELS / "freiburg_079_openings.csv")
     assert len({opening.door.name for opening in openings}) == len(openings)
     assert all(0.5 <= opening.door.width <= 1.3 for opening in openings)

@@ -86,7 +86,7 @@ def test_every_body_can_face_the_door_that_it_is_told_to_go_to() -> None:
                 assert placement_error(plan, BODY, goal.pose) is None
 
 
-def test_every_body_can_stand_where_a_turn_or_a_way_down_a_hallway_ends() -> None:
+def test_both_bodies_fit_where_turns_and_corridors_end() -> None:
     """A corridor that is first seen from a doorway beside it can have its axis along a wall."""
     for episode in load_episodes("test_real"):
         site = Site(episode.plan(), episode.floor_plan)
@@ -102,7 +102,8 @@ def test_in_the_middle_of_a_crossing_one_is_in_a_junction() -> None:
     assert not in_junction(plan, WEST)
 
 
-def test_who_is_told_to_leave_a_room_can_turn_round_and_has_one_way_out() -> None:
+def test_rooms_to_leave_have_one_exit_and_space_to_turn() -> None:
+    """Both bodies can turn around where they start."""
     split = replace(SPLITS["val_unseen"], clauses=(1, 2, 3))
     seen = 0
     for number in range(60):
@@ -132,7 +133,8 @@ def test_where_no_room_has_a_name_none_is_spoken_of() -> None:
 
 
 @pytest.mark.parametrize("clauses", [2, 3, 4])
-def test_conditions_are_drafted_and_both_judges_say_the_same_of_what_is_done(clauses: int) -> None:
+def test_both_judges_agree_on_drafted_conditions(clauses: int) -> None:
+    """Verifier and second opinion judge each branch alike."""
     verdicts, said = set(), set()
     for seed in range(24):
         draft, rng = drafter(seed), np.random.default_rng(seed)
@@ -167,7 +169,8 @@ def test_a_condition_is_in_doubt_where_a_closed_door_decides_it() -> None:
     assert True in answers.values()
 
 
-def test_what_is_called_impossible_is_so_with_every_door_counted_and_without_glass() -> None:
+def test_impossible_commands_stay_so_under_any_count() -> None:
+    """They stay impossible with closed doors counted and without glass."""
     seen = set()
     for number in range(24):
         draft = drafter(number)
@@ -188,7 +191,8 @@ def test_what_is_called_impossible_is_so_with_every_door_counted_and_without_gla
     assert len(seen) > 1
 
 
-def test_what_can_be_done_or_done_by_another_count_is_not_called_impossible() -> None:
+def test_what_some_count_allows_is_not_called_impossible() -> None:
+    """A command that some way of counting allows is not impossible."""
     doubts = AmbiguityFilter(load_floor_plan("office_cross"))
     feasible = GoToDoor(DoorReference(1, Side.RIGHT))
     crossing = Follow(PlaceReference(Place.CORNER))  # there is no corner, but a crossing

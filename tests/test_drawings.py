@@ -65,7 +65,7 @@ LAYERS = Drawing(walls=("A-WALL",), doors=("A-DOOR",))
     ("unit", "metres"),
     [(InsertUnits.Meters, 1.0), (InsertUnits.Millimeters, 0.001), (InsertUnits.Inches, 0.0254)],
 )
-def test_lines_polylines_and_blocks_are_walls_in_the_units_of_the_header(
+def test_lines_polylines_and_blocks_are_walls_in_header_units(
     unit: InsertUnits, metres: float, tmp_path: Path
 ) -> None:
     plan, report = import_map(dxf(tmp_path / "a.dxf", unit, metres), drawing=LAYERS)
@@ -73,7 +73,7 @@ def test_lines_polylines_and_blocks_are_walls_in_the_units_of_the_header(
     assert report.left_out == ("1 TEXT",)
 
 
-def test_the_hinge_and_the_jamb_that_a_leaf_swings_to_make_a_door(tmp_path: Path) -> None:
+def test_a_hinge_and_the_facing_jamb_make_a_door(tmp_path: Path) -> None:
     plan, _ = import_map(dxf(tmp_path / "a.dxf"), drawing=LAYERS)
     (door,) = plan.doors
     assert door.open
@@ -82,7 +82,7 @@ def test_the_hinge_and_the_jamb_that_a_leaf_swings_to_make_a_door(tmp_path: Path
 
 @given(st.floats(-math.pi, math.pi), st.floats(0.5, 2.0), st.sampled_from((1, -1)))
 @settings(max_examples=20)
-def test_a_turned_mirrored_and_scaled_block_is_drawn_where_it_is_put(
+def test_a_transformed_block_is_drawn_where_it_is_placed(
     turn: float, size: float, mirror: int
 ) -> None:
     document = ezdxf.new(units=InsertUnits.Meters)
@@ -109,7 +109,7 @@ def test_a_block_that_holds_itself_is_refused(tmp_path: Path) -> None:
         import_map(tmp_path / "endless.dxf")
 
 
-def test_circles_become_lines_that_lie_beside_them_by_a_centimetre(tmp_path: Path) -> None:
+def test_circles_become_lines_within_a_centimetre(tmp_path: Path) -> None:
     document = ezdxf.new(units=InsertUnits.Millimeters)
     document.modelspace().add_circle((3000, 2000), 1500)
     document.saveas(tmp_path / "round.dxf")
@@ -218,9 +218,10 @@ def test_each_kind_of_bad_file_gets_one_clear_error(
     assert name in str(error.value)
 
 
-def test_a_drawing_without_units_asks_for_the_scale_and_a_wrong_layer_lists_those_there_are(
+def test_missing_units_ask_for_the_scale(
     tmp_path: Path,
 ) -> None:
+    """A wrong layer is answered with the layers there are."""
     path = dxf(tmp_path / "a.dxf", InsertUnits.Unitless)
     with pytest.raises(FloorPlanError, match=r"INSUNITS.*0\.001 for millimetres"):
         import_map(path)
@@ -230,7 +231,7 @@ def test_a_drawing_without_units_asks_for_the_scale_and_a_wrong_layer_lists_thos
         import_map(path, drawing=Drawing(1.0, ("WALL",)))
 
 
-def test_an_error_of_the_reader_without_words_is_told_by_its_kind(
+def test_a_reader_error_without_text_is_named_by_its_kind(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fails(path: Path) -> None:

@@ -59,7 +59,8 @@ def test_in_a_room_the_pose_settles_where_the_scan_was_taken(error: Pose) -> Non
 
 
 @given(small)
-def test_a_bare_corridor_tells_the_heading_and_the_place_across_but_not_along(error: Pose) -> None:
+def test_a_bare_corridor_corrects_all_but_the_place_along_it(error: Pose) -> None:
+    """Its walls tell the heading and the place across."""
     believed = HERE[0] + error[0], HERE[1] + error[1], HERE[2] + error[2]
     _, y, heading = settled(CORRIDOR, believed)
     assert (y, heading) == pytest.approx(HERE[1:], abs=1e-3)
@@ -104,7 +105,7 @@ def test_a_memory_locates_a_lidar_by_what_it_saw_before() -> None:
     assert believed == pytest.approx(start, abs=0.01)
 
 
-def test_a_robot_that_corrects_its_odometry_knows_better_where_it_is() -> None:
+def test_corrected_odometry_is_nearer_to_the_truth() -> None:
     """Along a way with three turns, with twice the usual drift."""
     errors = OdometrySettings(turn_bias=0.02, turn_noise=0.02, veer_noise=0.01)
     command = "turn left at the intersection, turn right at the corner and take the last door"

@@ -31,7 +31,7 @@ NOTHING = np.empty((0, 2))
 
 @ROBOTS
 @pytest.mark.parametrize("name", HALLWAY_STARTS)
-def test_with_everything_known_each_door_is_passed_close_to_the_path(robot, name):
+def test_with_everything_known_doors_are_passed_on_the_path(robot, name):
     segments, start, target = hallway_task(name)
     drive = drive_knowing(segments, robot, around(start, np.random.default_rng(1)), target)
     assert drive.arrived
@@ -140,7 +140,7 @@ def wall_with_two_gaps():
 GATES = {y: ((3.0, y - 0.5), (3.0, y + 0.5)) for y in (0.0, 4.0)}
 
 
-def test_the_way_to_a_gate_leads_through_it_though_another_is_shorter():
+def test_the_way_to_a_gate_leads_through_that_gate():
     points, barrier = wall_with_two_gaps()
     driver, target = Driver(WHEELCHAIR), Target((6.0, 0.0, 0.0), 0.2, None, gate=GATES[4.0])
     driver.drive(points, target, (0.0, 0.0, 0.0))
@@ -156,7 +156,7 @@ def test_the_way_to_a_gate_leads_through_it_though_another_is_shorter():
     assert driver.path is before
 
 
-def test_a_barrier_is_passed_on_the_way_to_a_gate_and_where_no_other_way_leads_on():
+def test_barriers_are_passed_only_for_gates_or_as_a_last_way():
     points, barrier = wall_with_two_gaps()
     beyond = ((5.0, -1.0), (5.0, 1.0))
     driver, target = Driver(WHEELCHAIR), Target((6.0, 0.0, 0.0), 0.2, None, gate=beyond)
@@ -169,7 +169,7 @@ def test_a_barrier_is_passed_on_the_way_to_a_gate_and_where_no_other_way_leads_o
     assert driver.path.crosses(*GATES[0.0])
 
 
-def test_a_place_is_reached_around_a_barrier_where_that_is_no_great_detour():
+def test_a_short_detour_leads_around_a_barrier():
     points, barrier = wall_with_two_gaps()
     for y, gate in ((1.5, 4.0), (0.0, 0.0)):
         driver, target = Driver(WHEELCHAIR), Target((6.0, y, 0.0), 0.2, None)
@@ -185,7 +185,7 @@ def test_doorways_are_barred_but_for_the_one_the_robot_stands_in():
     assert barriers_across(np.empty((0, 4)), WHEELCHAIR).shape == (0, 2)
 
 
-def test_a_target_that_moves_is_followed_and_one_that_trembles_is_not():
+def test_a_moving_target_is_followed_but_not_a_trembling_one():
     driver, pose = Driver(WHEELCHAIR), (0.0, 0.0, 0.0)
     driver.drive(NOTHING, Target((5.0, 0.0, 0.0)), pose)
     driver.drive(NOTHING, Target((5.01, 0.01, 0.01)), pose)
@@ -203,7 +203,7 @@ def test_where_no_way_leads_on_the_robot_stands_and_is_not_done():
 
 
 @ROBOTS
-def test_a_short_way_is_driven_though_it_leads_only_near_the_target(robot):
+def test_a_short_way_that_ends_near_the_target_is_driven(robot):
     """The target lies behind the end of a corridor, half a metre ahead of the robot's front."""
     walls = polyline((-2, -1), (1.2, -1), (1.2, 1), (-2, 1), (-2, -1))
     target = Target((1.6, 0.0, 0.0), 0.2, 0.15)

@@ -74,7 +74,7 @@ def test_straight_points_are_never_cut():
 
 @settings(max_examples=20, deadline=None)
 @given(rooms(), st.integers(0, 2**32 - 1))
-def test_every_wall_of_a_room_is_found_once_and_none_that_is_not_there(room: Room, seed: int):
+def test_every_wall_of_a_room_is_found_exactly_once(room: Room, seed: int):
     scan = scan_of(room.segments, room.pose, sigma=0.01, rng=np.random.default_rng(seed))
     walls = extract(scan, ExtractorSettings(sigma=0.01, segmentation="dynamic")).walls
     assert 3 <= len(walls) <= 5

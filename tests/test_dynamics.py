@@ -103,7 +103,7 @@ def test_off_is_the_default_and_changes_nothing() -> None:
     assert digest(rollout(plain, steps)) == digest(rollout(off, steps))
 
 
-def test_people_are_seen_and_the_end_of_an_episode_says_how_near_they_came() -> None:
+def test_info_at_the_end_says_how_near_people_came() -> None:
     env = SemNavEnv(
         floor_plan="office_cross", observation="raw", dynamics=Dynamics(12), max_seconds=20.0
     )
@@ -117,7 +117,7 @@ def test_people_are_seen_and_the_end_of_an_episode_says_how_near_they_came() -> 
     assert (info["personal_space_intrusions"] > 0) == (info["least_gap_to_people"] < 0.45)
 
 
-def test_every_episode_has_furniture_of_its_own_and_the_same_for_a_seed() -> None:
+def test_furniture_differs_by_episode_and_repeats_by_seed() -> None:
     env = lively(dynamics=Dynamics(added_boxes=5))
     first = env.floor_plan
     env.reset()
@@ -143,7 +143,7 @@ def test_the_picture_shows_people_and_leaves() -> None:
     env.close()
 
 
-def test_the_command_line_takes_people_and_says_how_near_they_came(
+def test_the_demo_command_says_how_near_people_came(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     words = ["demo", "stop", "--pedestrians", "2", "--model", "orca", "--changing-doors", "0.5"]

@@ -46,12 +46,12 @@ class TestHeidelberg:
             assert {ours.start, ours.end} == ends
             assert ours.width == pytest.approx(door["width"], abs=1e-3)
 
-    def test_what_is_closed_beyond_the_drawing_is_assumed(self) -> None:
+    def test_only_what_lies_beyond_the_drawing_is_assumed(self) -> None:
         assumed = {room.name for room in self.plan.rooms if room.assumed}
         assert assumed == {"room_north", "room_south_2", "room_south_3"}
         assert sum(surface.assumed for surface in self.plan.surfaces) == 5
 
-    def test_the_leaf_of_the_north_door_stands_44_degrees_open_into_the_side_corridor(self) -> None:
+    def test_the_north_door_stands_44_degrees_open(self) -> None:
         door, leaf = self.plan.door("north"), self.leaf
         opening = math.atan2(door.start[1] - door.end[1], door.start[0] - door.end[0])
         assert math.degrees(abs(leaf - opening)) == pytest.approx(44, abs=1)
@@ -122,7 +122,7 @@ class TestVilla:
 class TestOffice:
     plan = load_floor_plan("office_cross")
 
-    def test_it_has_what_it_should(self) -> None:
+    def test_it_holds_every_kind_of_door_region_and_material(self) -> None:
         states = [door_state(door, self.plan) for door in self.plan.doors]
         assert len(states) >= 16
         assert states.count(DoorState.CLOSED) == 1

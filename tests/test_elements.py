@@ -12,7 +12,7 @@ def test_a_column_spans_the_half_that_faces_the_scanner() -> None:
     assert column.extent == pytest.approx(math.pi)
 
 
-def test_a_hollow_wall_spans_what_the_beams_pass_counter_clockwise() -> None:
+def test_a_hollow_wall_spans_its_beams_counter_clockwise() -> None:
     bay = Arc((1.0, 0.0), 2.0, (1.0, -2.0), (1.0, 2.0), convex=False)
     assert bay.extent == pytest.approx(math.pi)
     quarter = Arc((0.0, 0.0), 2.0, (2.0, 0.0), (0.0, 2.0), convex=False)

@@ -48,9 +48,8 @@ FIRST = 3
 
 
 @pytest.mark.parametrize("name", ["mine.jsonl", "mine.jsonl.gz"])
-def test_a_file_gives_back_what_was_written_and_is_the_same_bytes_each_time(
-    name: str, tmp_path: Path
-) -> None:
+def test_episode_files_round_trip_to_the_same_bytes(name: str, tmp_path: Path) -> None:
+    """Reading gives back what was written, and writing it again the same bytes."""
     path, again = tmp_path / name, tmp_path / f"again-{name}"
     other = replace(EPISODE, id="mine-00008", expected=Expected.INFEASIBLE)
     write_episodes([EPISODE, other], path)
@@ -75,7 +74,7 @@ def test_a_file_gives_back_what_was_written_and_is_the_same_bytes_each_time(
         ({"colour": "red"}, "has a 'colour'; an episode has only"),
     ],
 )
-def test_each_fault_of_a_line_is_one_error_with_file_line_and_field(
+def test_each_fault_names_its_file_line_and_field(
     change: dict[str, Any], problem: str, tmp_path: Path
 ) -> None:
     path = tmp_path / "bad.jsonl"
@@ -86,7 +85,7 @@ def test_each_fault_of_a_line_is_one_error_with_file_line_and_field(
     assert "\n" not in str(caught.value)
 
 
-def test_what_is_no_file_of_episodes_is_refused(tmp_path: Path) -> None:
+def test_a_wrong_episode_file_is_refused(tmp_path: Path) -> None:
     def refused(name: str, content: bytes, problem: str) -> None:
         (tmp_path / name).write_bytes(content)
         with pytest.raises(EpisodeFileError, match=problem):
@@ -105,7 +104,7 @@ def test_what_is_no_file_of_episodes_is_refused(tmp_path: Path) -> None:
     refused("a.jsonl", missing, "has no 'route'; an episode has id, floor_plan")
 
 
-def test_ten_thousand_episodes_in_splits_of_the_sizes_that_are_told() -> None:
+def test_the_splits_hold_ten_thousand_episodes_as_documented() -> None:
     assert sum(split.episodes for split in SPLITS.values()) == 10_000
     for name, split in SPLITS.items():
         episodes = load_episodes(name)
@@ -166,7 +165,7 @@ def test_what_a_split_promises_holds_for_a_sample(name: str) -> None:
     assert [problem for _, some in faults(sample) for problem in some] == []
 
 
-def test_a_broken_promise_is_told() -> None:
+def test_each_broken_guarantee_of_an_episode_is_named() -> None:
     hopeless = replace(EPISODE, command="go through the ninth door on the right")
     hopeless = replace(hopeless, readings=(hopeless.command,))
     blocked = replace(EPISODE, start=(1.3, 100.0, 0.0))
@@ -195,7 +194,7 @@ def test_evenly_takes_as_many_as_asked_for() -> None:
     assert evenly(episodes[:3], 9) == episodes[:3]
 
 
-def test_an_environment_draws_its_episodes_or_takes_the_one_asked_for() -> None:
+def test_episodes_are_drawn_unless_one_is_asked_for() -> None:
     env = SemNavEnv(episodes="test_real")
     _, drawn = env.reset(seed=3)
     assert drawn["episode_id"].startswith("test_real-")
@@ -237,7 +236,7 @@ def test_episodes_that_nobody_can_drive_are_refused_at_once() -> None:
         SemNavEnv(episodes=[])
 
 
-def test_an_infeasible_episode_ends_when_the_robot_has_stood_still() -> None:
+def test_an_infeasible_episode_ends_when_the_robot_stands() -> None:
     env = SemNavEnv(observation="truth")
     words = "go through the ninth door on the right"
     hopeless = replace(

@@ -58,7 +58,7 @@ def test_the_row_of_an_episode_is_flat_json() -> None:
     assert set(COLUMNS) < set(row)
 
 
-def test_evaluate_tells_shares_causes_and_the_second_opinion_and_draws_failures(
+def test_evaluate_reports_shares_causes_and_failures(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """An agent that stands still fails every episode, and both judges say so."""
@@ -99,7 +99,7 @@ def test_every_trial_is_feasible_from_its_start(trial) -> None:  # type: ignore[
     assert all(placement_error(plan, robot, trial.pose) is None for robot in ROBOTS.values())
 
 
-def test_the_office_suite_has_twenty_commands_of_one_to_three_clauses() -> None:
+def test_the_office_suite_has_one_to_three_clauses() -> None:
     commands = {trial.command for trial in SUITES["office_cross"]}
     clauses = {len(parse(command).clauses) for command in commands}
     assert len(commands) >= 20
@@ -132,9 +132,10 @@ def test_a_suite_has_seeds_and_no_episodes(capsys: pytest.CaptureFixture[str]) -
     assert "give a suite --seeds" in capsys.readouterr().err
 
 
-def test_a_split_is_evaluated_by_its_clauses_and_failures_are_told_by_their_episodes(
+def test_a_split_is_evaluated_by_number_of_clauses(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """Failures are named by their episodes."""
     monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
     out = tmp_path / "out.jsonl"
     words = ["test_real", "--episodes", "2", "--pictures", str(tmp_path), "--out", str(out)]
@@ -149,7 +150,7 @@ def test_a_split_is_evaluated_by_its_clauses_and_failures_are_told_by_their_epis
     assert [row["episode"] for row in rows] == ["test_real-00000", "test_real-00100"]
 
 
-def test_an_interrupted_evaluation_keeps_the_episodes_that_were_driven(
+def test_an_interrupted_evaluation_keeps_driven_episodes(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
@@ -211,7 +212,7 @@ def test_an_episode_that_names_itself_is_named_once() -> None:
     assert not hasattr(caught.value, "__notes__")
 
 
-def test_an_ambiguous_command_counts_if_all_its_readings_are_found(
+def test_an_ambiguous_command_needs_all_its_readings(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["evaluate", "test_ambiguous", "--episodes", "20"]) == 0

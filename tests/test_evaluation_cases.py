@@ -22,7 +22,7 @@ def test_a_case_is_drawn_the_same_from_the_same_seed():
     )
 
 
-def test_noise_is_of_the_stated_size_and_a_clean_scan_is_the_truth():
+def test_noise_has_the_stated_size():
     for case in cases(clutter=False):
         (_, clean), (_, noisy) = case.scans
         both = clean.valid & noisy.valid & (clean.ranges < 9.5)

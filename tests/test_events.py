@@ -90,7 +90,7 @@ def test_a_crossing_is_left_by_the_arm_that_one_takes(
     assert entered.step < left.step
 
 
-def test_who_starts_in_a_junction_leaves_it_without_entering() -> None:
+def test_a_start_in_a_junction_is_left_without_being_entered() -> None:
     recording = walked((15.0, 9.1), (15.0, 14.0))
     assert found(recording, JunctionEntered) == []
     assert [event.arm for event in found(recording, JunctionLeft)] == [Arm.AHEAD]
@@ -115,7 +115,8 @@ def test_a_turn_has_its_angle_and_small_ones_are_none(angle: float, rate: float)
         assert turn.duration == pytest.approx(steps * PERIOD)
 
 
-def test_standing_for_a_second_is_a_stop_and_standing_at_the_start_is_none() -> None:
+def test_a_stop_lasts_a_second_and_is_not_at_the_start() -> None:
+    """Standing still at the start is no event."""
     there = np.linspace((5.0, 9.1), (8.0, 9.1), 30)
     path = np.vstack((np.repeat(there[:1], 30, axis=0), there, np.repeat(there[-1:], 15, axis=0)))
     [stop] = found(recorded(path), Stopped)

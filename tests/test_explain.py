@@ -48,9 +48,7 @@ def test_any_scan_can_be_explained(scan: Scan) -> None:
 
 @settings(max_examples=30, deadline=None)
 @given(openings(0.5, 2.5), seeds)
-def test_every_potential_or_inner_corner_has_two_probes_found_or_explained(
-    opening: Opening, seed: int
-) -> None:
+def test_each_corner_has_two_probes_found_or_explained(opening: Opening, seed: int) -> None:
     rng = np.random.default_rng(seed)
     scene = extract(scan_of(opening.segments, opening.pose, sigma=0.02, rng=rng), explain=True)
     probed = [corner for corner in scene.corners if corner.kind is not CornerKind.OUTER]

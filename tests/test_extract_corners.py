@@ -44,7 +44,7 @@ def test_a_corner_is_inner_if_it_points_at_the_scanner(
 
 
 @given(wedges())
-def test_formula_3_1_agrees_with_geometry_unless_an_inner_corner_is_obtuse(
+def test_formula_3_1_holds_unless_an_inner_corner_is_obtuse(
     wedge: tuple[Point, Point, Point],
 ) -> None:
     before, corner, after = wedge
@@ -58,7 +58,7 @@ def test_formula_3_1_agrees_with_geometry_unless_an_inner_corner_is_obtuse(
         assert corner_kind(*wedge) is CornerKind.INNER
 
 
-def test_walls_that_stop_short_of_their_corner_are_extended_to_it() -> None:
+def test_walls_are_extended_to_their_corner() -> None:
     segments = np.concatenate(
         (polyline((2.0, -1.5), (2.0, 0.8)), polyline((1.8, 1.0), (-1.0, 1.0)))
     )

@@ -82,7 +82,7 @@ def test_the_command_writes_tables_and_figures(capsys, tmp_path):
             assert min(image.size) > 200
 
 
-def test_the_command_prints_the_most_important_unless_all_is_wanted(capsys):
+def test_the_command_prints_all_tables_only_on_request(capsys):
     words = ("features", "--plans", "villa_hall", "--poses", 2, "--sigma", 0.02)
     short, full = (
         run(capsys, *words, *more, command=STUDIES.main)[1] for more in ((), ("--full",))
@@ -112,14 +112,15 @@ def test_bad_input_is_one_line_and_exit_code_two(capsys, words, complaint):
     assert complaint in err
 
 
-def test_a_scene_with_a_number_that_is_none_is_noticed():
+def test_a_scene_with_nan_is_noticed():
     assert is_finite(Scene(walls=(WALL,), doors=(Door((1.0, 0.0), (2.0, 0.0)),)))
     assert not is_finite(Scene(doors=(Door((math.nan, 0.0), (2.0, 0.0)),)))
     assert not is_finite(Scene(walls=(replace(WALL, residual=math.inf),)))
 
 
 @needs_data
-def test_every_eighth_scan_of_the_real_log_shows_the_doors_that_the_notes_count():
+def test_the_real_log_shows_the_noted_doors():
+    """Every eighth scan is compared with notes that were made by hand."""
     target = targets(read_openings(FREIBURG_LABELS))[1]
     glimpses = list(look_through(DATA / FREIBURG, ExtractorSettings(), every=8))
     counts = count(glimpses, target, Gate(), memory=False)

@@ -81,9 +81,7 @@ def test_the_kernel_agrees_with_the_reference(scan: Scan, chosen: ExtractorSetti
 
 @settings(max_examples=60, deadline=None)
 @given(st.lists(st.floats(0.15, 0.85), min_size=1, max_size=2), seeds)
-def test_points_between_two_surfaces_are_removed_and_nothing_else(
-    shares: list[float], seed: int
-) -> None:
+def test_only_mixed_pixels_are_removed(shares: list[float], seed: int) -> None:
     scan = mouth(0.01, seed)
     edge = edge_of(scan)
     ranges = scan.ranges.copy()
@@ -186,7 +184,7 @@ def test_an_edge_stays_where_it_is_under_medians() -> None:
 
 @settings(max_examples=60, deadline=None)
 @given(rooms(), seeds, filters, st.integers(0, 359))
-def test_in_a_full_circle_it_does_not_matter_where_the_scan_begins(
+def test_the_start_of_a_full_circle_does_not_matter(
     room: Room, seed: int, chosen: ExtractorSettings, first: int
 ) -> None:
     field = 2.0 * math.pi * 359 / 360
@@ -200,8 +198,6 @@ def test_in_a_full_circle_it_does_not_matter_where_the_scan_begins(
 
 @settings(max_examples=80, deadline=None)
 @given(awkward_scans(), filters)
-def test_any_filtered_scan_gives_a_finite_scene_that_can_be_explained(
-    scan: Scan, chosen: ExtractorSettings
-) -> None:
+def test_any_filtered_scan_gives_a_finite_scene(scan: Scan, chosen: ExtractorSettings) -> None:
     scene = extract(scan, chosen, explain=True)
     assert all(map(math.isfinite, (x for w in scene.walls for x in (*w.start, *w.end))))

@@ -39,7 +39,7 @@ def test_jambs_are_the_ends_of_the_walls_along_the_marked_line(
     assert jambs_of(frame, walls, label) == pytest.approx(truth, abs=1e-4)
 
 
-def test_jambs_are_the_ends_of_walls_that_are_drawn_exactly_on_the_line() -> None:
+def test_jambs_are_the_ends_of_walls_on_the_line_of_the_door() -> None:
     walls = [((0.0, 2.0), (2.0, 2.0)), ((3.0, 2.0), (7.0, 2.0))]
     here = jambs_of((0.0, 0.0, 0.0), walls, ((2.0, 2.0), (3.0, 2.0)))
     assert here == pytest.approx([2.0, 2.0, 3.0, 2.0], abs=1e-9)

@@ -70,7 +70,8 @@ def test_the_scene_holds_open_doors_only() -> None:
     assert hall(leaf(0), door_open=False).scene.doors == ()
 
 
-def test_what_is_wider_than_a_robots_door_is_no_door_of_the_scene() -> None:
+def test_openings_wider_than_a_door_are_no_doors_of_the_scene() -> None:
+    """The plan may call it a door; the extractor would not."""
     widths = {"door": 1.2, "just": WIDEST_DOOR, "gate": 1.4}
     doors = tuple(PlanDoor(name, (0.0, 0.0), (width, 0.0)) for name, width in widths.items())
     plan = replace(hall(), doors=doors)

@@ -12,7 +12,7 @@ from tests.remembering import ANGLES, DOOR_A, DOOR_B, NOTHING, WALL_A, Ends, bea
 AHEAD: Ends = (-0.5, 2.0, 0.5, 2.0)
 
 
-def test_a_door_whose_opening_is_found_filled_is_given_up_and_comes_back() -> None:
+def test_a_filled_door_is_forgotten_and_comes_back() -> None:
     memory = SceneMemory()
     for _ in range(20):
         see(memory, doors=[AHEAD])
@@ -36,7 +36,7 @@ def test_an_open_gap_in_which_most_scans_find_no_door_is_none() -> None:
     [beams_that_end_at(1.0), np.full(360, np.nan), np.full(360, -np.inf)],
     ids=["hidden", "nan", "too near"],
 )
-def test_a_scan_that_cannot_tell_says_nothing_of_a_door(ranges: FloatArray) -> None:
+def test_a_scan_without_a_view_is_no_evidence_on_a_door(ranges: FloatArray) -> None:
     memory = SceneMemory()
     for _ in range(4):
         see(memory, doors=[AHEAD])
@@ -60,7 +60,7 @@ def test_only_a_good_view_speaks_against_a_door(pose: Pose) -> None:
 
 
 @pytest.mark.parametrize("hidden", [slice(0, 255), slice(286, 360)], ids=["right", "left"])
-def test_a_scan_that_sees_the_wall_on_one_side_of_a_door_only_says_nothing_of_it(
+def test_a_view_of_one_side_is_no_evidence_on_a_door(
     hidden: slice,
 ) -> None:
     """Beams of one degree: the opening spans 76 to 104 degrees, beams 256 to 284."""
@@ -78,7 +78,7 @@ def test_a_scan_that_sees_the_wall_on_one_side_of_a_door_only_says_nothing_of_it
 WALL_AHEAD: Ends = (0.5, 2.0, -0.5, 2.0)
 
 
-def test_a_wall_that_scans_pass_through_is_given_up_and_comes_back() -> None:
+def test_a_wall_seen_through_is_forgotten_and_comes_back() -> None:
     memory = SceneMemory()
     for _ in range(200):
         see(memory, walls=[WALL_AHEAD])
@@ -95,7 +95,7 @@ def test_a_wall_that_scans_pass_through_is_given_up_and_comes_back() -> None:
     [beams_that_end_at(1.0), beams_that_end_at(2.3), NOTHING, np.full(360, np.nan)],
     ids=["hidden", "drifted", "no return", "nan"],
 )
-def test_a_scan_that_cannot_tell_says_nothing_of_a_wall(ranges: FloatArray) -> None:
+def test_a_scan_without_a_view_is_no_evidence_on_a_wall(ranges: FloatArray) -> None:
     memory = SceneMemory()
     for _ in range(4):
         see(memory, walls=[WALL_AHEAD])
@@ -114,7 +114,7 @@ def test_a_long_wall_is_given_up_by_those_who_pass_close_to_it() -> None:
     assert memory.size == (0, 0)
 
 
-def test_a_long_wall_is_not_given_up_for_the_view_through_a_doorway() -> None:
+def test_a_view_through_a_doorway_keeps_a_long_wall() -> None:
     memory = SceneMemory()
     for _ in range(3):
         see(memory, walls=[(6.0, 0.8, -6.0, 0.8)])

@@ -125,7 +125,7 @@ spans = st.lists(st.tuples(st.integers(0, 30), st.integers(0, 30)).map(sorted).m
 
 
 @given(spans, spans)
-def test_what_is_left_of_spans_is_what_no_hole_covers(given_spans, holes) -> None:
+def test_spans_minus_holes_are_what_no_hole_covers(given_spans, holes) -> None:
     left = without(given_spans, holes)
     for k in range(30):
         inside = any(a <= k < b for a, b in given_spans) and not any(a <= k < b for a, b in holes)

@@ -21,7 +21,7 @@ CORRIDOR = st.tuples(st.floats(0.5, 29.5), st.floats(8.5, 9.5))
 
 @given(CORRIDOR, CORRIDOR)
 @settings(max_examples=30)
-def test_a_way_is_at_least_the_straight_line_and_the_same_both_ways(
+def test_geodesics_are_symmetric_and_no_shorter_than_lines(
     a: tuple[float, float], b: tuple[float, float]
 ) -> None:
     there, back = GEODESIC.to(b).length(a), GEODESIC.to(a).length(b)

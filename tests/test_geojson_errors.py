@@ -110,7 +110,7 @@ def test_what_is_wrong_is_named_in_one_line(
         ("9" * 6000, "must be of type object, not inf"),
     ],
 )
-def test_what_is_no_plan_at_all_is_refused(text: str, message: str) -> None:
+def test_a_wrong_floor_plan_is_refused(text: str, message: str) -> None:
     with pytest.raises(FloorPlanError, match=message):
         parse_plan(text, "text", "name")
 

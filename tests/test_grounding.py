@@ -75,14 +75,13 @@ def test_a_bare_turn_is_made_here() -> None:
     ("scene", "turn", "x"),
     [(SIDE_ARMS, "left", 4.0), (SIDE_ARMS, "right", 9.0), (L_LEFT, "left", 13.0)],
 )
-def test_after_go_down_the_hallway_a_bare_turn_is_the_next_that_offers_it(
-    scene: Scene, turn: str, x: float
-) -> None:
+def test_after_follow_a_bare_turn_is_at_the_next_opening(scene: Scene, turn: str, x: float) -> None:
+    """After "go down the hallway", "turn left" means the next opening to the left."""
     goal = goal_of(f"turn {turn}", scene, after_corridor=True)
     assert goal.pose[0] == pytest.approx(x, abs=0.06)
 
 
-def test_out_of_a_doorway_one_turns_in_the_hallway_and_does_not_count_that_door() -> None:
+def test_out_of_a_doorway_the_own_door_does_not_count() -> None:
     scene = corridor(left=(5.0, 8.0), right=(2.0,))
     doorway = (5.0, 1.0, -QUARTER)
     goal = goal_of("turn left", scene, doorway)
@@ -110,7 +109,8 @@ def test_how_far_the_hallway_is_followed(text: str, scene: Scene, pose: Pose) ->
     assert abs(wrap_angle(goal.pose[2] - pose[2])) < 1e-6
 
 
-def test_until_a_door_leaves_that_door_and_the_facing_one_still_to_count() -> None:
+def test_until_a_door_leaves_it_and_the_facing_one_ahead() -> None:
+    """Both still count for the clause that comes after "until the door"."""
     scene = corridor(left=(3.0, 6.0), right=(6.0,))
     there = goal_of("follow the hallway until the second door on the left", scene).pose
     assert middle(goal_of("take the first door on the left", scene, there)) == 6.0

@@ -53,7 +53,7 @@ def rectilinear(draw):
 
 @given(rectilinear(), st.floats(0.01, 0.5))
 @settings(max_examples=60)
-def test_the_outlines_of_pixels_are_exactly_the_outlines_of_the_drawn_walls(drawn, resolution):
+def test_outlines_of_pixels_are_those_of_the_drawn_walls(drawn, resolution):
     solid, truth = drawn
     lines = lines_of(trace(pixels_of(solid, resolution), EXACT).plan)
     wanted = shapely.transform(truth.boundary, lambda points: resolution * points)

@@ -78,7 +78,7 @@ def test_a_model_answers_with_a_program(answer: object) -> None:
         ([{"kind": "GoToRoom", "name": "../../etc"}], "small letters and digits"),
     ],
 )
-def test_what_is_no_program_is_refused(answer: object, reason: str) -> None:
+def test_a_wrong_program_is_refused(answer: object, reason: str) -> None:
     with pytest.raises(CommandError, match="the model's answer is no program") as caught:
         stub(answer).interpret(TEXT)
     assert reason in str(caught.value)
@@ -133,7 +133,7 @@ def test_what_a_model_says_is_resolved_like_every_other_command() -> None:
 
 @pytest.mark.parametrize("interpreter", [GrammarInterpreter(), TemplateInterpreter()])
 @given(command=commands)
-def test_what_the_grammar_understands_every_interpreter_leaves_to_it(
+def test_all_interpreters_agree_where_the_grammar_understands(
     interpreter: Interpreter, command: Command
 ) -> None:
     understood = interpreter.interpret(str(command))

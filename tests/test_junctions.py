@@ -67,7 +67,7 @@ def test_an_opening_is_found_to_within_one_probe() -> None:
     ],
     ids=["pillar", "cabinet", "pillar in the middle", "half-open leaf", "open leaf"],
 )
-def test_what_stands_in_a_hallway_neither_ends_nor_opens_it(extra: list[Wall]) -> None:
+def test_furniture_neither_ends_nor_opens_a_corridor(extra: list[Wall]) -> None:
     seen = corridor_at(corridor(left=(8,), right=(9,), extra=extra, half=1.1), START)
     assert seen.junctions == ()
     assert seen.end == pytest.approx(14.0)
@@ -83,7 +83,7 @@ def test_a_recess_belongs_to_the_side() -> None:
     assert seen.side_at(True, 5.0) == pytest.approx(2.0)
 
 
-def test_a_gap_that_no_wall_leads_out_of_is_unseen_and_no_opening() -> None:
+def test_a_gap_without_walls_leading_out_is_no_opening() -> None:
     walls = tuple(w for w in X_JUNCTION.walls if not (6.0 <= w.start[0] == w.end[0] <= 8.0))
     seen = corridor_at(Scene(walls), START)
     assert seen.junctions == ()
@@ -92,7 +92,7 @@ def test_a_gap_that_no_wall_leads_out_of_is_unseen_and_no_opening() -> None:
 
 
 @pytest.mark.parametrize("tilt", [-0.03, 0.0, 0.03])
-def test_a_long_wall_across_the_end_leads_out_though_it_is_a_little_askew(tilt: float) -> None:
+def test_a_slightly_oblique_end_wall_leads_out(tilt: float) -> None:
     """Odometry drifts; and with doors close to both near corners only that wall tells of arms."""
     sides = polyline((-3.0, 1.0), (8.0, 1.0), (8.0, 1.3)) + polyline((-3.0, -1.0), (8.0, -1.0))
     across = Wall((10.0 - 20.0 * tilt, -20.0), (10.0 + 20.0 * tilt, 20.0))
@@ -111,9 +111,7 @@ def test_a_door_close_to_the_corner_leads_out_as_the_wall_does(offset: float, le
 
 @pytest.mark.parametrize("edges", ["near", "far", "both"])
 @pytest.mark.parametrize(("width", "narrow"), [(1.3, True), (1.55, False)])
-def test_a_narrow_opening_needs_walls_that_lead_out_of_both_edges(
-    width: float, narrow: bool, edges: str
-) -> None:
+def test_a_narrow_opening_needs_walls_at_both_edges(width: float, narrow: bool, edges: str) -> None:
     far = 6.05 + width
     sides = polyline((-3.0, 1.0), (6.05, 1.0))
     sides += polyline((far, 1.0), (14.0, 1.0), (14.0, -1.0), (-3.0, -1.0))
@@ -124,7 +122,8 @@ def test_a_narrow_opening_needs_walls_that_lead_out_of_both_edges(
 
 
 @pytest.mark.parametrize("x", [-0.9, 0.0, 0.9])
-def test_a_robot_in_a_junction_looks_along_the_hallway_that_leads_on(x: float) -> None:
+def test_in_a_junction_the_corridor_is_the_one_that_leads_on(x: float) -> None:
+    """A robot that starts there looks along the corridor that leads on."""
     walls = polyline((1.0, -6.0), (1.0, -0.5), (9.0, -0.5), (9.0, 0.5), (-1.0, 0.5), (-1.0, -6.0))
     seen = corridor_at(Scene((*walls, Wall((-1.0, -6.0), (1.0, -6.0)))), (x, 0.1, 0.0))
     assert seen.frame[1] == pytest.approx(0.0, abs=0.1)

@@ -99,7 +99,7 @@ def test_practice_draws_the_trials_of_its_preset():
     assert all(name == p.name for name, p in PRESETS.items())
 
 
-def test_practice_sums_the_rewards_of_the_steps_that_an_action_holds():
+def test_action_repeat_sums_the_rewards_of_its_steps():
     practice = ActionRepeat(preset("quick"))
     practice.reset(seed=1)
     twin = SemNavEnv(observation="all", rewards=practice.preset.rewards)
@@ -143,7 +143,8 @@ def test_a_policy_comes_back_from_its_tensors(seed):
     assert np.array_equal(net.act(values), again.act(values))
 
 
-def test_a_saved_agent_acts_as_the_policy_does_and_holds_each_action(saved):
+def test_a_saved_agent_acts_as_its_policy(saved):
+    """It also holds each action for as many steps."""
     agent, net = LearnedAgent.load(saved), policy()
     env = SemNavEnv(observation=agent.observation)
     seen, info = env.reset(seed=0)
@@ -199,7 +200,7 @@ def test_a_wrong_description_is_refused_by_name(saved, changes, message):
 
 
 @pytest.mark.parametrize("text", ["", "[]", "nonsense", "[" * 100_000, '"\\ud800"'])
-def test_what_is_no_description_is_refused(saved, text):
+def test_a_wrong_description_is_refused(saved, text):
     (saved / AGENT).write_text(text)
     with pytest.raises(ValueError, match=AGENT):
         LearnedAgent.load(saved)
@@ -239,7 +240,7 @@ class Trap:
 
 
 @pytest.mark.parametrize("data", [b"", b"\0" * 8, b"\xff" * 64, pickle.dumps(Trap())])
-def test_what_is_no_safetensors_file_is_refused_and_never_unpickled(saved, data):
+def test_a_file_that_is_not_safetensors_is_never_unpickled(saved, data):
     (saved / POLICY).write_bytes(data)
     with pytest.raises(ValueError, match="is not a safetensors file"):
         LearnedAgent.load(saved)

@@ -78,7 +78,7 @@ def test_glass_is_not_seen_and_a_door_leaf_is() -> None:
     assert lidar.exact_ranges((6.7, 3.0, math.pi / 2))[405] == pytest.approx(4.6)
 
 
-def test_a_scan_carries_the_spec_the_ranges_and_the_time_of_the_sweep() -> None:
+def test_a_scan_carries_spec_ranges_and_time() -> None:
     lidar = Lidar(empty_hall(), replace(TIM561, rate_hz=5.0))
     scan = lidar.scan((4.0, 3.0, 0.3), (1, 2, 30))
     np.testing.assert_array_equal(scan.ranges, lidar.ranges((4.0, 3.0, 0.3), (1, 2, 30)))

@@ -65,7 +65,7 @@ CORRIDOR = plan_of(
 THREE_POSES = ((0.0, 0.0, math.pi / 2), (0.0, 2.0, math.pi / 2), (-0.5, 4.0, 0.0))
 
 
-def test_three_scans_of_a_corridor_merge_to_nine_walls_without_losing_one():
+def test_three_scans_of_a_corridor_merge_to_nine_walls():
     """Weerakoon et al., section III: from 15 segments to 9."""
     one = MapSettings(wall_hits=1)
     lidar = Lidar(CORRIDOR, replace(Lidar(CORRIDOR).spec, sigma=0.01, dropout=0.0))
@@ -101,7 +101,7 @@ def test_a_wall_never_crosses_an_open_door():
     assert line_map.doors[0].width == pytest.approx(1.0, abs=0.06)
 
 
-def test_what_is_later_seen_through_is_removed():
+def test_a_wall_seen_through_later_is_removed():
     walls = ((-5.0, 2.0), (5.0, 2.0)), ((5.0, -2.0), (-5.0, -2.0))
     crate = (-0.5, 1.0), (0.5, 1.0)
     views = [(x, 0.0, 1.2) for x in np.linspace(-1.0, 1.0, 5)]

@@ -37,7 +37,7 @@ def test_the_lines_a_scan_was_made_from_explain_it_all():
     assert math.isnan(row.quiet)
 
 
-def test_a_line_before_the_wall_counts_its_distance_along_the_beams():
+def test_a_line_before_the_wall_counts_along_the_beams():
     angles = np.arange(-0.5, 0.5, 0.01)
     scan = Scan(np.full(len(angles), 2.0), -0.5, 0.01)
     short = np.array([(1.5 * math.cos(a), 1.5 * math.sin(a)) for a in angles])

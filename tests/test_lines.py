@@ -41,9 +41,7 @@ def test_both_ends_of_a_wall_lie_on_its_line(wall: Wall) -> None:
 
 
 @given(walls, poses)
-def test_the_covariance_says_the_same_about_every_place_in_every_frame(
-    wall: Wall, pose: Pose
-) -> None:
+def test_the_covariance_does_not_depend_on_the_frame(wall: Wall, pose: Pose) -> None:
     moved = Scene(walls=(wall,)).placed(pose).walls[0]
     for one, other in ((wall.start, moved.start), (wall.end, moved.end)):
         assert variance_beside(wall, one) == pytest.approx(variance_beside(moved, other), rel=1e-6)

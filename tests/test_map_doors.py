@@ -71,7 +71,7 @@ def test_a_door_is_as_certain_as_its_sightings():
     assert half.confidence == pytest.approx(0.6 * sure.confidence)
 
 
-def test_scans_that_look_through_an_opening_and_find_no_door_speak_against_it():
+def test_looks_without_a_door_are_evidence_against_it():
     always = map_of(lambda k, pose: [sighting(pose)])
     often = map_of(lambda k, pose: [sighting(pose)] if k % 2 else [])
     seldom = map_of(lambda k, pose: [sighting(pose)] if k % 5 == 0 else [])
@@ -139,7 +139,7 @@ def test_beams_tell_where_the_jambs_are(frame, first, last):
     assert passage.bounds(ends) == pytest.approx(np.array(jambs).ravel(), abs=0.02)
 
 
-def test_a_reveal_hides_no_more_than_two_centimetres_of_an_opening():
+def test_a_reveal_hides_at_most_two_centimetres():
     """Oblique beams that pass the one jamb end on the reveal of the other."""
     plan, passage = corridor(reveal=0.15), DoorwayEvidence(np.array(DOOR))
     lidar = Lidar(plan)
@@ -179,7 +179,7 @@ def found(ends):
 OPENINGS = [opening((x, 1.0, x + 0.8, 1.0)) for x in (0.0, 5.0)]
 
 
-def test_an_opening_is_found_by_the_nearest_door_and_the_others_are_left():
+def test_an_opening_is_matched_by_the_nearest_door():
     near, nearer = found((0.2, 1.0, 1.0, 1.0)), found((0.83, 1.01, 0.02, 1.0))
     first, second, rest = findings([near, nearer], OPENINGS)
     assert (first.door, second.door, rest.door) == (nearer, None, near)
@@ -198,7 +198,7 @@ def test_an_opening_is_found_by_the_nearest_door_and_the_others_are_left():
     ],
     ids=["in it", "turned round", "in the room behind", "across", "beyond its end"],
 )
-def test_a_phantom_stands_in_the_wall_of_the_labelled_doors_or_elsewhere(ends, inside):
+def test_phantoms_are_told_by_whether_they_share_the_wall(ends, inside):
     summary, each = map_sheets([found(ends)], OPENINGS)
     told = {row[0]: row[1:] for row in summary.rows}
     assert told["not labelled"][1] == 1
@@ -207,7 +207,8 @@ def test_a_phantom_stands_in_the_wall_of_the_labelled_doors_or_elsewhere(ends, i
     assert len(each.rows) == 3
 
 
-def test_the_real_corridors_doors_are_mapped_to_five_centimetres_and_its_walls_hold_no_phantom():
+def test_the_real_corridor_is_mapped_to_five_centimetres():
+    """Its walls hold no door that is not labelled."""
     log = DATA / FREIBURG
     if not log.exists():
         pytest.skip(f"{log} is missing")

@@ -33,7 +33,7 @@ def test_fusing_is_symmetric(a, b, place):
 
 
 @given(lines)
-def test_a_line_fused_with_itself_stays_and_is_known_twice_as_well(line):
+def test_a_line_fused_with_itself_halves_its_covariance(line):
     fused = fuse(line, line)
     assert fused.heading == pytest.approx(line.heading)
     assert abs(line.across((fused.x, fused.y))) < 1e-12
@@ -48,7 +48,7 @@ def test_fusing_makes_nothing_less_certain(a, b):
     assert fused.angle_variance <= min(a.angle_variance, b.angle_variance)
 
 
-def test_two_stretches_of_one_line_fix_its_direction_better_than_either():
+def test_two_stretches_fix_a_direction_better_than_one():
     rng = np.random.default_rng(0)
     errors = []
     for _ in range(300):
@@ -106,7 +106,8 @@ def test_a_gap_is_the_same_from_either_side(a, b, length_a, length_b):
     assert (gap(one, other) < 0) == (min(one[1], other[1]) > max(one[0], other[0]))
 
 
-def test_a_short_line_along_a_long_one_is_a_double_and_its_back_is_not():
+def test_a_short_line_along_a_long_one_is_a_double():
+    """A line that faces the other way is the back of the wall, and stays."""
     long, short = Wall((0.0, 0.0), (5.0, 0.0)), Wall((1.0, 0.03), (2.0, 0.05))
     back, far = Wall((4.0, -0.05), (1.0, -0.05)), Wall((1.0, 0.3), (2.0, 0.3))
     assert without_doubles((short, long, back, far)) == (long, back, far)

@@ -102,7 +102,7 @@ def test_procrustes_steps_find_the_pose_as_well():
 
 @pytest.mark.parametrize("window", [20, 40, 80])
 @pytest.mark.parametrize("step", range(12))
-def test_in_a_corridor_without_features_the_way_along_it_is_undetermined(step, window):
+def test_a_bare_corridor_is_undetermined_along_its_axis(step, window):
     heading = 0.5 * step - 3.0
     here, there = (0.0, 0.0, heading), (0.1, 0.05, heading + 0.1)
     scans = corridor_scan(here, 2 * step), corridor_scan(there, 2 * step + 1)
@@ -117,7 +117,7 @@ def test_in_a_corridor_without_features_the_way_along_it_is_undetermined(step, w
 
 
 @given(st.lists(st.floats(-1.0, 1.0), min_size=9, max_size=9), st.floats(-0.1, 1.0))
-def test_what_is_taken_off_an_information_is_one_motion_and_nothing_else(numbers, told):
+def test_removing_a_motion_keeps_all_other_information(numbers, told):
     root = np.array(numbers).reshape(3, 3)
     c = 1.0 + root[2] @ root[2]
     place, coupling = np.diag((5.0, told)), root[:2, 2]
@@ -156,7 +156,8 @@ def test_the_covariance_covers_the_error(sigma):
 
 
 @pytest.mark.parametrize("name", ["GDC1", "AHG2"])
-def test_exact_pairs_in_a_vector_map_match_to_a_millimetre_and_know_how_well(name):
+def test_exact_pairs_match_to_a_millimetre(name):
+    """The covariance agrees with the error."""
     if not AMRL.exists():
         pytest.skip(f"{AMRL} is missing")
     plan, ways = (
@@ -250,7 +251,7 @@ def test_limits_are_checked(limit):
 
 
 @pytest.mark.parametrize("text", ["[]", "{", '[{"p0": {"x": 0}}]', '{"a": 1}', "[3]"])
-def test_what_is_no_vector_map_is_refused_in_one_line(tmp_path, text):
+def test_a_wrong_vector_map_is_refused_in_one_line(tmp_path, text):
     path = tmp_path / "floor.vectormap.json"
     path.write_text(text)
     with pytest.raises(ValueError, match=r"floor\.vectormap\.json: ") as error:

@@ -60,7 +60,7 @@ def test_what_is_seen_from_many_places_is_one_thing(views: list[Pose]) -> None:
 
 
 @given(order=st.permutations(range(12)))
-def test_the_order_of_the_scans_of_a_static_scene_does_not_matter(order: list[int]) -> None:
+def test_the_order_of_static_scans_does_not_matter(order: list[int]) -> None:
     rng = np.random.default_rng(5)
     shifts = rng.normal(0.0, 0.02, (12, 4))
     memory = SceneMemory()
@@ -102,7 +102,7 @@ def test_a_jamb_is_known_better_with_every_sighting() -> None:
     assert rms[-3:].mean() < 0.65 * rms[0]
 
 
-def test_of_two_doors_in_one_place_the_one_seen_more_often_counts() -> None:
+def test_of_two_doors_in_one_place_the_more_seen_counts() -> None:
     wide = (2.55, 1.05, 4.0, 1.0)
     memory = SceneMemory()
     for k in range(9):

@@ -97,7 +97,8 @@ def test_a_beam_ends_where_the_physics_has_somebody_or_a_leaf(plan: str) -> None
     assert met > 20
 
 
-def test_a_body_pushed_along_a_beam_is_stopped_before_it_passes_somebody() -> None:
+def test_a_body_stops_before_the_person_that_its_beam_meets() -> None:
+    """It is pushed along the beam."""
     world, lidar = crowded("office_cross")
     rng, stopped = np.random.default_rng(6), 0
     for _ in range(12):

@@ -47,12 +47,12 @@ ASIDE = st.floats(0.0, 0.6)
 
 
 @given(ASIDE, ASIDE, ASIDE, ASIDE)
-def test_a_hallway_both_of_whose_sides_go_on_behind_an_opening_goes_on(a, b, c, d):
+def test_a_corridor_whose_sides_go_on_goes_on(a, b, c, d):
     assert is_narrow_place(OPENING, passage(a, b, c, d, length=3.0))
 
 
 @given(st.floats(0.3, 0.6), st.integers(0, 3))
-def test_where_one_side_is_not_seen_to_go_on_a_hallway_ends_at_the_door(aside, missing):
+def test_an_unseen_side_ends_a_corridor_at_the_door(aside, missing):
     sides = passage(aside, aside, aside, aside, length=3.0)
     sides[missing, [0, 2]] = np.clip(sides[missing, [0, 2]], -2.4, 2.4)
     assert not is_narrow_place(OPENING, sides)
@@ -63,11 +63,11 @@ def test_where_one_side_is_not_seen_to_go_on_a_hallway_ends_at_the_door(aside, m
     [(0.3, 0.3, 1.0, 1.0), (0.25, 0.25, 1.0, 0.25), (0.7, 0.7, 0.1, 0.1), (0.0, 0.0, 2.0, 2.0)],
     ids=["a door into a room", "a room flush with it", "a narrow arm", "a room at its end"],
 )
-def test_where_the_hallway_is_wider_than_the_opening_it_is_a_door(steps):
+def test_an_opening_narrower_than_its_corridor_is_a_door(steps):
     assert not is_narrow_place(OPENING, passage(*steps))
 
 
-def test_where_one_side_runs_through_a_hallway_ends_in_a_wider_place():
+def test_a_corridor_with_one_through_side_ends_where_it_widens():
     lobby = passage(0.1, 0.1, 0.1, 3.0)
     assert is_narrow_place(OPENING, lobby)
     assert is_narrow_place(OPENING, lobby * [-1.0, 1.0, -1.0, 1.0])
@@ -85,7 +85,7 @@ def test_sides_that_are_not_seen_to_run_on_leave_a_door_a_door():
 @pytest.mark.parametrize(
     ("steps", "end"), [((0.0, 0.1, 0.3, 0.1), 8.0), ((0.4, 0.4, 1.0, 1.0), 4.0)]
 )
-def test_a_hallway_ends_at_a_door_across_it_and_not_where_it_narrows(steps, end):
+def test_a_corridor_ends_at_a_door_not_at_a_narrowing(steps, end):
     walls = np.vstack((passage(*steps), (4.0, 2.0, 4.0, -2.0)))
     across = Door((0.0, 0.6), (0.0, -0.6))
     on_the_left = Door((2.0, 0.6 + steps[2]), (3.0, 0.6 + steps[2]))

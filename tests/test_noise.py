@@ -43,7 +43,7 @@ def test_without_errors_the_ranges_stay_as_they_are() -> None:
     np.testing.assert_array_equal(measured(exact, replace(TIM561, sigma=0.0, dropout=0.0)), exact)
 
 
-def test_too_close_reads_minus_infinity_and_too_far_reads_infinity() -> None:
+def test_ranges_beyond_the_limits_are_infinite() -> None:
     exact = np.array([0.0, 0.049, 10.0, 11.0])
     found = measured(exact, replace(TIM561, sigma=0.0, dropout=0.0))
     np.testing.assert_array_equal(found, [-math.inf, -math.inf, math.inf, math.inf])
@@ -68,7 +68,7 @@ def test_dropouts_fall_on_errors_of_every_size() -> None:
     assert abs(noisy[dropped].std() - 1.0) < 0.02
 
 
-def test_the_systematic_error_is_one_uniform_offset_for_an_episode() -> None:
+def test_the_systematic_error_is_one_offset_per_episode() -> None:
     spec = replace(WIDE, systematic=0.06)
     offsets = []
     for episode in range(2000):

@@ -109,7 +109,7 @@ def test_bad_scans_are_named():
     arrays(np.float64, st.tuples(st.integers(0, 5), st.just(4)), elements=places),
     st.floats(0.01, 0.5),
 )
-def test_points_of_segments_lie_on_them_no_farther_apart_than_the_spacing(segments, spacing):
+def test_sampled_points_are_no_farther_apart_than_the_spacing(segments, spacing):
     points = points_of_segments(segments, spacing)
     assert points.shape[1] == 2
     for row in segments:

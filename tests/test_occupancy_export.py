@@ -79,7 +79,7 @@ def storeys(draw: st.DrawFn, *, slanted: bool = True) -> FloorPlan:
 
 @given(storeys(), st.sampled_from((0.02, 0.05, 0.1)), st.sampled_from((".pgm", ".png")))
 @settings(max_examples=40)
-def test_walls_come_back_within_a_pixel_and_doors_and_rooms_with_their_names(
+def test_a_round_trip_keeps_walls_to_a_pixel_and_all_names(
     plan: FloorPlan, resolution: float, image: str
 ) -> None:
     with tempfile.TemporaryDirectory() as folder:
@@ -103,7 +103,7 @@ def off_axis(ends: NDArray[np.float64]) -> NDArray[np.float64]:
 
 @given(storeys(slanted=False), st.sampled_from((0.02, 0.05, 0.1)))
 @settings(max_examples=40, deadline=None)
-def test_an_orthogonal_plan_comes_back_with_orthogonal_walls_and_doors_along_them(
+def test_an_orthogonal_plan_stays_orthogonal_after_a_round_trip(
     plan: FloorPlan, resolution: float
 ) -> None:
     with tempfile.TemporaryDirectory() as folder:
@@ -116,7 +116,7 @@ def test_an_orthogonal_plan_comes_back_with_orthogonal_walls_and_doors_along_the
     assert (off_axis(doors) <= np.where(opened, 1e-5, 0.5 * resolution)).all()
 
 
-def test_no_wall_or_door_of_the_bundled_office_leans_when_it_comes_back(tmp_path: Path) -> None:
+def test_the_bundled_office_does_not_lean_after_a_round_trip(tmp_path: Path) -> None:
     """A leaf that stood half open before a jamb is a wall there: that jamb is the leaf's."""
     plan = load_floor_plan("office_cross")
     export_map(plan, tmp_path / "map.yaml", 0.05)

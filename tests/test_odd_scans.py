@@ -80,6 +80,6 @@ def test_beams_beyond_a_full_turn_are_left_out() -> None:
     assert extract(again) == extract(once)
 
 
-def test_settings_that_are_none_are_refused_with_what_they_must_be() -> None:
+def test_wrong_settings_are_refused_with_what_is_right() -> None:
     with pytest.raises(TypeError, match="ExtractorSettings, not dict"):
         extract(Scan([1.0, 1.0], 0.0, 0.1), {"sigma": 0.02})  # type: ignore[arg-type]

@@ -32,7 +32,7 @@ def ends(errors: OdometrySettings, moves: list[Pose], episodes: int = 400) -> np
 
 @given(st.lists(moves, max_size=30))
 @settings(deadline=None)
-def test_without_errors_odometry_is_the_true_pose_seen_from_the_start(moves: list[Pose]) -> None:
+def test_error_free_odometry_is_the_pose_in_the_odom_frame(moves: list[Pose]) -> None:
     true = START
     for move in moves:
         true = compose(true, move)
@@ -67,9 +67,10 @@ def test_turn_bias_scales_turns() -> None:
 
 
 @pytest.mark.parametrize("updates", [10, 1000])
-def test_distance_noise_grows_with_the_root_of_the_way_however_often_it_is_read(
+def test_distance_noise_grows_with_the_root_of_the_way(
     updates: int,
 ) -> None:
+    """It does not matter how often odometry is read."""
     moves = [(4.0 / updates, 0.0, 0.0)] * updates
     found = ends(replace(EXACT, distance_noise=0.03), moves)[:, 0]
     assert abs(found.mean() - 4.0) < 0.01
@@ -90,7 +91,7 @@ def test_veer_noise_turns_a_straight_way() -> None:
     assert abs(found.std() - 0.03) < 0.005
 
 
-def test_the_same_generator_gives_the_same_drift_and_another_a_different_one() -> None:
+def test_drift_depends_on_the_generator_only() -> None:
     way = [(0.1, 0.02, 0.05)] * 50
     assert drive(OdometrySettings(), way, 1) == drive(OdometrySettings(), way, 1)
     assert drive(OdometrySettings(), way, 1) != drive(OdometrySettings(), way, 2)

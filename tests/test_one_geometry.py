@@ -83,7 +83,8 @@ def test_a_beam_ends_where_the_physics_has_something_solid(plan: FloorPlan) -> N
 
 
 @plans
-def test_a_body_pushed_along_a_beam_is_stopped_before_it_passes_its_end(plan: FloorPlan) -> None:
+def test_a_body_stops_where_its_beam_ends(plan: FloorPlan) -> None:
+    """It is pushed along the beam, in random plans."""
     lidar, world = Lidar(plan, AROUND), probing(plan)
     for start in free_poses(world, 25):
         assert push(world, start, AROUND.range_max) <= lidar.exact_ranges(start)[AHEAD]
@@ -102,9 +103,10 @@ def test_a_body_that_goes_on_pushing_never_gets_through(plan: FloorPlan) -> None
 
 
 @plans
-def test_where_a_body_is_stopped_the_lidar_sees_something_unless_it_is_glass(
+def test_what_stops_a_body_is_seen_unless_it_is_glass(
     plan: FloorPlan,
 ) -> None:
+    """Beams and contacts use one geometry."""
     plan = without_glass(plan)
     lidar, world = Lidar(plan, AROUND), probing(plan)
     stopped = 0

@@ -59,9 +59,7 @@ def test_behind_is_what_one_comes_by_on_turning_around(
 
 
 @given(st.floats(-2.0, 2.0), st.sampled_from([("left", "right"), ("right", "left")]))
-def test_doors_are_opposite_if_and_only_if_they_share_some_of_the_way_across(
-    shift: float, sides: tuple[str, str]
-) -> None:
+def test_doors_are_opposite_iff_their_widths_overlap(shift: float, sides: tuple[str, str]) -> None:
     assume(abs(abs(shift) - DOOR_WIDTH) > 0.01)
     here, there = sides
     scene = corridor(**{here: (5.0,), there: (5.0 + shift,)})
@@ -82,7 +80,7 @@ def test_waiting_before_a_door_changes_nothing(between: str) -> None:
     assert goal.door.midpoint == (3.0, -1.0)
 
 
-def test_one_may_follow_the_hallway_back_to_a_door_but_not_to_one_across() -> None:
+def test_following_leads_back_to_a_door_but_not_across() -> None:
     goal = last_goal("go down the hallway until the second door behind you", BEHIND, (8, 0, 0))
     assert goal.pose == pytest.approx((4.3, 0.0, math.pi), abs=0.05)
     with pytest.raises(GroundingError, match="it lies across"):
@@ -98,7 +96,7 @@ def test_one_may_follow_the_hallway_back_to_a_door_but_not_to_one_across() -> No
         ("turn left by 360 degrees", 0.0),
     ],
 )
-def test_turns_beyond_half_a_turn_end_as_if_turned_the_shorter_way(text: str, turn: float) -> None:
+def test_long_turns_end_as_the_shorter_ones(text: str, turn: float) -> None:
     begin = (1.0, 0.2, 0.3)
     goal = last_goal(text, BEHIND, begin)
     assert goal.pose == pytest.approx(compose(begin, (0.0, 0.0, turn)))
@@ -115,7 +113,7 @@ def look(text: str, scene: Scene, pose: Pose, begin: Pose | None = None) -> Foll
 
 
 @pytest.mark.parametrize("text", ["go through", "if you see", "go to"])
-def test_who_has_not_seen_what_is_behind_turns_to_look(text: str) -> None:
+def test_an_unseen_rear_is_inspected_by_turning(text: str) -> None:
     rest = ", stop" if text.startswith("if") else ""
     follower = look(f"{text} the door behind you{rest}", seen_ahead(BEHIND, 7.5), (8.0, 0.0, 0.0))
     assert follower.active == 0
@@ -125,7 +123,7 @@ def test_who_has_not_seen_what_is_behind_turns_to_look(text: str) -> None:
     assert not follower.goal.reached_by((*follower.goal.pose[:2], 3.0))
 
 
-def test_who_has_turned_and_sees_none_goes_that_way_and_looks_on() -> None:
+def test_without_a_door_behind_the_search_goes_back_on() -> None:
     begin, pose = (8.0, 0.0, 0.0), (8.0, 0.0, 3.0)
     text = "go through the third door behind you"
     follower = look(text, seen_ahead(BEHIND, 3.0), pose, begin)
@@ -137,14 +135,14 @@ def test_who_has_turned_and_sees_none_goes_that_way_and_looks_on() -> None:
     assert follower.goal.door == BEHIND.doors[0]
 
 
-def test_who_has_looked_all_the_way_back_says_what_there_is() -> None:
+def test_a_finished_search_behind_says_what_there_is() -> None:
     follower = look("go through the fourth door behind you", BEHIND, (8, 0, 3.1), (8, 0, 0))
     follower.advance(lambda: BEHIND, (-1.6, 0.0, 3.1), 0.5)
     follower.look(BEHIND, (-1.6, 0.0, 3.1))
     assert follower.impossible == "no fourth door behind you: the hallway ended after 3"
 
 
-def test_who_has_not_seen_what_is_opposite_turns_to_look() -> None:
+def test_an_unseen_opposite_side_is_inspected_by_turning() -> None:
     text, half = TO_FIRST, Scene(tuple(w for w in FACING.walls if w.start[1] > -0.9))
     before: Pose = (3.0, 0.1, QUARTER)
     follower = Follower(parse(text))
@@ -158,7 +156,8 @@ def test_who_has_not_seen_what_is_opposite_turns_to_look() -> None:
     assert follower.goal.door.midpoint == (3.0, -1.0)
 
 
-def test_a_robot_that_has_seen_nothing_yet_waits_before_it_says_that_none_is_opposite() -> None:
+def test_no_door_is_called_missing_before_the_first_scan() -> None:
+    """A robot that has seen nothing yet waits."""
     follower = look("go through the door opposite", Scene(), (7.0, 0.0, 0.0))
     assert isinstance(follower.goal, SeekGoal)
     follower.look(BEHIND, (7.0, 0.0, 0.0))
@@ -190,7 +189,8 @@ def test_a_robot_that_sees_it_drives_there(robot: str, text: str, pose: Pose, do
     assert driven.rechecked() == ""
 
 
-def test_who_sees_a_gap_beside_it_turns_there_before_it_says_that_no_door_is_opposite() -> None:
+def test_a_gap_is_inspected_before_a_door_is_called_missing() -> None:
+    """The robot turns towards an unseen stretch beside it."""
     unknown = Scene(FACING.walls)  # the gaps are seen, but not yet taken for doors
     begin: Pose = (6.0, 0.0, 0.0)
     follower = look("go through the door opposite", unknown, begin)
@@ -223,7 +223,7 @@ def test_one_cannot_go_to_the_doorway_that_one_stands_in(until: str) -> None:
         last_goal(text, FACING, (3.0, 1.0, QUARTER))
 
 
-def test_who_stands_in_a_doorway_knows_at_once_that_no_second_door_is_behind() -> None:
+def test_a_doorway_has_no_second_door_behind() -> None:
     text = "if you see a second door behind you, go through it, otherwise turn around"
     seen = Scene(FACING.walls, FACING.doors[:1])
     for scene, begin, pose in (
@@ -243,7 +243,7 @@ def test_no_condition_on_more_than_one_door_opposite_is_met(nth: str) -> None:
 
 
 @given(st.floats(-4.0, 4.0))
-def test_in_a_room_a_door_is_behind_if_it_lies_more_behind_than_beside(shift: float) -> None:
+def test_in_a_room_behind_means_more_behind_than_beside(shift: float) -> None:
     assume(abs(abs(shift) - 3.0) > 0.05)
     scene = Scene(corridor(half=5.0).walls, (Door((-3.0, shift - 0.45), (-3.0, shift + 0.45)),))
     found = answer("go through the door behind you", scene, (0.0, 0.0, 0.0))

@@ -43,9 +43,7 @@ EVALUATE = ("evaluate", "heidelberg", "--seeds", "1")
         (("map", "show", "villa_hall", "--out", "afile/x.png"), "'afile' is a file, not a folder"),
     ],
 )
-def test_a_path_that_cannot_be_written_is_refused_before_the_work(
-    capsys, monkeypatch, here, words, message
-):
+def test_unwritable_paths_are_refused_before_the_work(capsys, monkeypatch, here, words, message):
     for name in ("evaluate.run_suite", "demo.SemNavEnv", "extract.open_log", "map_build.open_log"):
         monkeypatch.delattr(f"semnav_env.scripts.{name}")
     assert message in refusal(capsys, *words)
@@ -100,7 +98,7 @@ def test_an_unknown_split_suite_or_place_names_the_nearest_one(capsys, words, me
     assert refusal(capsys, *words).endswith(f"; did you mean {meant!r}?")
 
 
-def test_what_is_like_nothing_has_no_nearest_one(capsys):
+def test_an_unlike_word_has_no_nearest_one(capsys):
     assert "did you mean" not in refusal(capsys, "evaluate", "moon")
 
 

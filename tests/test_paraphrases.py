@@ -56,7 +56,7 @@ def test_every_wording_of_a_language_is_understood_somewhere(language: str) -> N
     assert left == set()
 
 
-def test_the_readings_of_a_text_can_be_imported_after_a_command_was_parsed() -> None:
+def test_readings_can_be_imported_after_parsing() -> None:
     """A module of that name would take the function's place when it is first needed."""
     parse("stop")
     from semnav_env.commands import readings

@@ -18,30 +18,30 @@ from tests.command_strategies import commands
 
 # Each command beside its canonical wording.
 UNDERSTOOD = """
-go down the corridor = go down the corridor
-Go down the corridor. = go down the corridor
-follow the hall = go down the corridor
-drive down the passage = go down the corridor
-head down the corridor! = go down the corridor
-continue along the corridor = go down the corridor
-go along corridor = go down the corridor
-walk straight down the corridor = go down the corridor
-follow the corridor until the end = go down the corridor until the end of the corridor
-go down the corridor to the end of the corridor = go down the corridor until the end of the corridor
-follow the corridor to the end of the corridor = go down the corridor until the end of the corridor
-follow the hall all the way to the end = go down the corridor until the end of the corridor
-go to the end of the corridor = go down the corridor until the end of the corridor
-continue until the end = go down the corridor until the end of the corridor
-go down the corridor until the next intersection = go down the corridor until the first intersection
-go down the hall until the intersection = go down the corridor until the first intersection
-follow the corridor till the second junction = go down the corridor until the second intersection
-drive down the corridor up to the 3rd crossing = go down the corridor until the third intersection
-go to the next intersection = go down the corridor until the first intersection
-head along the corridor until you reach the corner = go down the corridor until the first corner
-follow the passage as far as the fourth corner = go down the corridor until the fourth corner
-go down the corridor until the door on the left = go down the corridor until the first door on the left
-follow the corridor to the 5th door on your right = go down the corridor until the fifth door on the right
-continue until the last door = go down the corridor until the last door
+go down the hallway = go down the hallway
+Go down the corridor. = go down the hallway
+follow the hall = go down the hallway
+drive down the passage = go down the hallway
+head down the hallway! = go down the hallway
+continue along the corridor = go down the hallway
+go along hallway = go down the hallway
+walk straight down the hallway = go down the hallway
+follow the corridor until the end = go down the hallway until the end of the hallway
+go down the hallway to the end of the hallway = go down the hallway until the end of the hallway
+follow the hallway to the end of the corridor = go down the hallway until the end of the hallway
+follow the hall all the way to the end = go down the hallway until the end of the hallway
+go to the end of the hallway = go down the hallway until the end of the hallway
+continue until the end = go down the hallway until the end of the hallway
+go down the hallway until the next intersection = go down the hallway until the first intersection
+go down the hall until the intersection = go down the hallway until the first intersection
+follow the hallway till the second junction = go down the hallway until the second intersection
+drive down the corridor up to the 3rd crossing = go down the hallway until the third intersection
+go to the next intersection = go down the hallway until the first intersection
+head along the corridor until you reach the corner = go down the hallway until the first corner
+follow the passage as far as the fourth corner = go down the hallway until the fourth corner
+go down the hallway until the door on the left = go down the hallway until the first door on the left
+follow the hallway to the 5th door on your right = go down the hallway until the fifth door on the right
+continue until the last door = go down the hallway until the last door
 turn left = turn left
 turn right now = turn right
 Turn around, please = turn around
@@ -53,10 +53,10 @@ turn left at the next junction = turn left at the first intersection
 turn right at the 2nd intersection = turn right at the second intersection
 turn right at second crossing = turn right at the second intersection
 turn left at the third corner = turn left at the third corner
-turn around at the end of the corridor = turn around at the end of the corridor
-turn right at the end = turn right at the end of the corridor
+turn around at the end of the corridor = turn around at the end of the hallway
+turn right at the end = turn right at the end of the hallway
 at the second intersection, turn left = turn left at the second intersection
-at the end of the corridor turn right = turn right at the end of the corridor
+at the end of the hallway turn right = turn right at the end of the hallway
 go to the door = go to the first door
 go up to the third door on the left = go to the third door on the left
 drive to the last door on your right = go to the last door on the right
@@ -86,10 +86,10 @@ turn left, and then stop = turn left and stop
 turn left. Then stop. = turn left and stop
 turn left, then, stop... = turn left and stop
 please, turn left, please, and stop now, please! = turn left and stop
-go down the corridor and through the first door on the left = go down the corridor and go through the first door on the left
-go down the corridor, turn left at the intersection and go in the first door on the right = go down the corridor, turn left at the first intersection and go through the first door on the right
-go down the corridor, turn left at the intersection and go in the second door on the right = go down the corridor, turn left at the first intersection and go through the second door on the right
-follow the corridor until the end, then turn right at the corner and enter the last door on your left. stop = go down the corridor until the end of the corridor, turn right at the first corner, go through the last door on the left and stop
+go down the hallway and through the first door on the left = go down the hallway and go through the first door on the left
+go down the hallway, turn left at the intersection and go in the first door on the right = go down the hallway, turn left at the first intersection and go through the first door on the right
+go down the hallway, turn left at the intersection and go in the second door on the right = go down the hallway, turn left at the first intersection and go through the second door on the right
+follow the corridor until the end, then turn right at the corner and enter the last door on your left. stop = go down the hallway until the end of the hallway, turn right at the first corner, go through the last door on the left and stop
 turn left, at the second intersection, turn right = turn left and turn right at the second intersection
 """  # noqa: E501
 TABLE = [tuple(line.split(" = ")) for line in UNDERSTOOD.strip().splitlines()]
@@ -115,7 +115,7 @@ def test_wordings_mean_their_canonical_form(text: str, canonical: str) -> None:
         "\ufeffgo thr\u200bough the se\u00adcond door\u2060 on the ri\u200dght\u200e",
     ],
 )
-def test_case_spaces_compatibility_letters_and_invisible_characters_change_nothing(
+def test_case_spaces_and_invisible_characters_change_nothing(
     text: str,
 ) -> None:
     assert str(parse(text)) == "go through the second door on the right"
@@ -136,9 +136,7 @@ def _mirrored(text: str) -> str:
 
 
 @pytest.mark.parametrize(("text", "canonical"), TABLE)
-def test_swapping_left_and_right_in_the_words_swaps_them_in_the_meaning(
-    text: str, canonical: str
-) -> None:
+def test_swapping_left_and_right_swaps_them_in_the_meaning(text: str, canonical: str) -> None:
     assert str(parse(_mirrored(text.lower()))) == _mirrored(canonical)
 
 
@@ -182,7 +180,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize("text", REFUSED)
-def test_what_is_not_wholly_understood_is_refused(text: str) -> None:
+def test_partly_understood_texts_are_refused(text: str) -> None:
     with pytest.raises(CommandError):
         parse(text)
 

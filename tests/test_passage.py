@@ -26,14 +26,15 @@ def strip(width, length, shift=0.0):
 
 
 @given(widths, st.floats(2.1, 9.0), poses)
-def test_two_long_walls_that_face_each_other_are_a_corridor_wherever_they_are(width, times, pose):
+def test_two_long_facing_walls_are_a_corridor(width, times, pose):
+    """The pose of the scene does not matter."""
     scene = strip(width, times * width).placed(pose)
     assert is_corridor(scene)
     assert max(p.elongation for p in passages(scene.walls)) == pytest.approx(times)
 
 
 @given(widths, st.floats(0.3, 1.9))
-def test_what_is_not_twice_as_long_as_wide_is_none(width, times):
+def test_a_passage_shorter_than_twice_its_width_is_no_corridor(width, times):
     assert not is_corridor(strip(width, times * width))
 
 

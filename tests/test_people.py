@@ -142,9 +142,7 @@ def test_the_allowed_velocity_is_the_nearest_one_of_a_fine_grid(
 @pytest.mark.parametrize(
     ("plan", "robot"), [("office_cross", "wheelchair"), ("villa_hall", "spot")]
 )
-def test_nobody_and_nothing_gets_deeper_than_a_centimetre_into_anything(
-    model: str, plan: str, robot: str
-) -> None:
+def test_bodies_overlap_by_at_most_a_centimetre(model: str, plan: str, robot: str) -> None:
     world = world_of(plan, robot, Dynamics(6, model, changing_doors=1.0))
     deepest, touched = drive_about(world, 300, seed=3)
     assert deepest < 0.01
@@ -177,7 +175,7 @@ def test_people_get_about_through_doors(model: str) -> None:
     assert (walked < 30.0 * 2.5).all()
 
 
-def test_a_robot_that_drives_at_somebody_is_stopped_and_pushes_nobody() -> None:
+def test_a_robot_is_stopped_by_people_and_pushes_nobody() -> None:
     world = World(empty_hall(12.0, 8.0), WHEELCHAIR, dynamics=Dynamics(1))
     touched = False
     for seed in range(20):

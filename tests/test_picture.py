@@ -39,7 +39,7 @@ def recording() -> Recording:
     return made
 
 
-def test_people_stand_where_they_were_at_the_end_behind_their_last_metres(
+def test_people_are_drawn_at_the_end_with_their_last_metres(
     recording: Recording,
 ) -> None:
     ax = Figure().add_subplot()

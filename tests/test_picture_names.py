@@ -31,7 +31,7 @@ def empty(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.mark.parametrize("path", NO_PICTURES)
 @pytest.mark.parametrize("words", DRAWING.values(), ids=list(DRAWING))
-def test_what_is_no_picture_is_refused_and_nothing_is_written(
+def test_a_name_that_is_no_picture_is_refused(
     words: list[str], path: str, empty: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main([*words, path]) == 2

@@ -29,7 +29,7 @@ def test_a_footprint_is_centred_on_its_pose(x: float, y: float, heading: float) 
 
 @settings(deadline=None)
 @given(st.floats(0, 10), st.floats(0, 6), angles)
-def test_a_pose_in_an_empty_hall_is_free_exactly_if_all_corners_are_inside(
+def test_a_pose_in_a_hall_is_free_iff_all_corners_are_inside(
     x: float, y: float, heading: float
 ) -> None:
     corners = footprint(SPOT, (x, y, heading)).exterior.coords

@@ -68,7 +68,7 @@ def test_each_door_of_the_hallway_is_passed_from_all_starts(robot, name):
 
 @ROBOTS
 @pytest.mark.parametrize(("width", "door"), [(1.65, 1.0), (1.65, 1.2), (2.2, 0.9)])
-def test_a_robot_turns_from_a_narrow_corridor_into_a_door_on_its_side(robot, width, door):
+def test_a_side_door_is_entered_from_a_narrow_corridor(robot, width, door):
     segments, doorway = corridor_with_door(width, door)
     start = (0.0, width / 2, 0.0)
     target = target_behind(doorway, start[:2])
@@ -112,7 +112,7 @@ def test_a_gap_five_centimetres_wider_on_each_side_is_taken(robot):
     assert is_free(points_of(wall), path.poses, robot, path.margin - BETWEEN)
 
 
-def test_a_target_behind_a_wall_gives_the_nearest_place_and_says_so():
+def test_an_unreachable_target_gives_the_nearest_place():
     box = points_of(np.concatenate((polyline((2, -9), (2, 9)), polyline((4, -9), (4, 9)))))
     path = plan(box, (0.0, 0.0, 0.0), Target((3.0, 0.0, 0.0)), WHEELCHAIR)
     assert not path.complete

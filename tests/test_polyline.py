@@ -131,7 +131,7 @@ def corner_of_a_room(noise=None):
     return Scan(ranges, angles[0], 0.01)
 
 
-def test_three_vertices_find_the_corner_of_a_room_between_two_beams():
+def test_three_vertices_find_a_corner_between_two_beams():
     (line,) = polylines(corner_of_a_room(), 3)
     assert line[1] == pytest.approx((2.0, 1.5), abs=2e-3)
 

@@ -82,7 +82,7 @@ def turned(scan: Scan, angle: float) -> Scan:
 
 @settings(max_examples=60)
 @given(places, seeds, chosen_settings, st.floats(-10.0, 10.0))
-def test_rotating_the_robot_rotates_the_scene_with_every_strategy(
+def test_rotating_the_robot_rotates_the_scene(
     place: Room | Opening, seed: int, chosen: ExtractorSettings, angle: float
 ) -> None:
     scan = scan_of(place.segments, place.pose, sigma=0.02, rng=np.random.default_rng(seed))

@@ -171,7 +171,7 @@ def test_what_comes_after_the_end_changes_nothing(seed: int) -> None:
     assert (found.verdict, found.step) == ("done", 2)
 
 
-def test_the_second_opinion_imports_nothing_of_the_verifier_or_the_follower() -> None:
+def test_the_second_opinion_imports_no_verifier_or_follower() -> None:
     tree = ast.parse(Path(second.__file__).read_text())
     names = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     names |= {a.name for node in ast.walk(tree) if isinstance(node, ast.Import) for a in node.names}

@@ -200,6 +200,6 @@ def test_a_frame_refuses_points_of_the_wrong_shape() -> None:
         replace(PLAIN, trail=np.zeros(3))
 
 
-def test_a_frame_refuses_numbers_for_doors_that_are_not_remembered() -> None:
+def test_a_frame_refuses_numbers_of_unknown_doors() -> None:
     with pytest.raises(ValueError, match="1 doors are remembered"):
         replace(PLAIN, remembered=Scene(doors=(DOOR,)), door_numbers={1: 1})

@@ -67,7 +67,7 @@ def test_every_plain_name_is_one_that_a_command_can_hold(name: str) -> None:
     assert not plain or GoToRoom(plain).name == plain
 
 
-def test_a_room_that_is_not_there_is_answered_with_some_of_those_that_are() -> None:
+def test_an_unknown_room_is_answered_with_known_ones() -> None:
     with pytest.raises(CommandError, match="the rooms here are: kitchen, lab 2; expected"):
         parse("go to the ballroom", rooms=("kitchen", "lab 2"))
     with pytest.raises(CommandError, match=r"are: 1\.00, .*, 1\.11, \.\.\.; expected"):
@@ -83,7 +83,7 @@ def test_a_misspelt_room_is_answered_with_the_nearest_one() -> None:
     assert caught.value.hint is None
 
 
-def test_numbers_of_rooms_are_said_in_full_or_in_short_where_that_is_clear() -> None:
+def test_room_numbers_may_be_short_where_they_are_unique() -> None:
     rooms = ("l3_508", "l3_414a", "l2_414a", "room_west_1", "Kitchen")
     for text, name in (
         ("go to room 3.508", "l3_508"),
@@ -122,7 +122,8 @@ def test_a_way_keeps_to_the_middle_of_its_hallways() -> None:
     assert main == pytest.approx([9.1] * len(main), abs=0.3)
 
 
-def test_who_is_in_the_room_already_is_there() -> None:
+def test_a_robot_inside_the_room_has_arrived() -> None:
+    """A clause that names the room is done at once."""
     inside = PLAN.region("room_west_south_2").polygon.centroid
     begin = (inside.x, inside.y, 0.0)
     (goal,) = plan_goals(PLAN, Command((GoToRoom("room_west_south_2"),)), begin)
@@ -130,14 +131,15 @@ def test_who_is_in_the_room_already_is_there() -> None:
 
 
 @pytest.mark.parametrize("heading", [0.0, 1.0, -2.5])
-def test_who_is_in_the_room_already_goes_on_from_how_they_stand(heading: float) -> None:
+def test_inside_the_room_the_next_clause_begins_where_one_stands(heading: float) -> None:
     inside = PLAN.region("room_west_south_2").polygon.centroid
     command = Command((GoToRoom("room_west_south_2"), Turn(Turning.LEFT)))
     _, turn = plan_goals(PLAN, command, (inside.x, inside.y, heading))
     assert turn.pose == pytest.approx((inside.x, inside.y, wrap_angle(heading + math.pi / 2)))
 
 
-def test_who_has_gone_through_the_door_of_a_room_is_in_it_and_who_has_left_by_it_is_not() -> None:
+def test_crossing_a_door_decides_whether_one_is_in_the_room() -> None:
+    """Going in counts as being in the room; coming out does not."""
     second = GoToDoor(DoorReference(2, Side.RIGHT))
     room = GoToRoom("room_west_south_2")
     through, there = plan_goals(PLAN, Command((second, room)), WEST)
@@ -255,7 +257,7 @@ def test_a_trail_leads_back_to_its_start_without_loops(corners: list[tuple[float
         assert (np.hypot(*(kept[k + 1 :] - place).T) >= PACE / 2 - 1e-9).all()
 
 
-def test_a_way_is_driven_place_by_place_and_beside_it_where_odometry_drifts() -> None:
+def test_a_way_is_driven_place_by_place_despite_drift() -> None:
     way = Way(paced(((0.0, 0.0), (20.0, 0.0))))
     (clause,) = parse("go back to the start").clauses
     goal = ground(clause, DOORS, (0.0, 0.0, 0.0), way=way)

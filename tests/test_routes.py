@@ -88,7 +88,7 @@ def test_the_shortest_command_of_a_route(goal: str, start: Pose, text: str) -> N
 
 
 @pytest.mark.parametrize("name", PLANS)
-def test_what_is_said_of_a_route_leads_along_it_to_that_very_door(name: str) -> None:
+def test_a_description_leads_along_its_route_to_its_door(name: str) -> None:
     rng = np.random.default_rng(11)
     routes = [random_route(PLANS[name], rng) for _ in range(25)]
     told = [check(PLANS[name], route, door) for route, door, _ in routes]
@@ -110,7 +110,7 @@ def thousand_routes(name: str) -> Iterator[tuple[FloorPlan, Route, str]]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [*PLANS, *DISTRIBUTIONS])
-def test_what_is_said_of_a_thousand_routes_leads_along_them(name: str) -> None:
+def test_a_thousand_descriptions_lead_along_their_routes(name: str) -> None:
     told, seconds = [], []
     for plan, route, door in thousand_routes(name):
         began = time.perf_counter()
@@ -185,7 +185,7 @@ headings = st.floats(-math.pi, math.pi)
     facing=st.none() | headings,
 )
 @settings(max_examples=50)
-def test_the_poses_of_a_route_are_near_each_other_and_lead_from_end_to_end(
+def test_the_poses_of_a_route_are_dense_from_end_to_end(
     points: list[tuple[float, float]], heading: float, facing: float | None
 ) -> None:
     route = Route((*points[0], heading), np.array(points), facing)
@@ -216,7 +216,7 @@ def test_the_heading_at_the_end_of_a_route_is_finite() -> None:
         ),
     ],
 )
-def test_what_is_no_route_is_refused(points: list[tuple[float, float]], message: str) -> None:
+def test_a_wrong_route_is_refused(points: list[tuple[float, float]], message: str) -> None:
     with pytest.raises(RouteError, match=message):
         Route((0.0, 0.0, 0.0), np.array(points))
 
@@ -236,7 +236,8 @@ def test_a_route_that_no_robot_can_follow_is_not_described(
         describe(OFFICE, Route((*points[0], 0.0), np.array(points)))
 
 
-def test_a_route_in_circles_cannot_be_told_and_the_error_says_how_far() -> None:
+def test_a_circular_route_is_undescribable() -> None:
+    """The error says how far the route can be told."""
     turns = np.linspace(0.0, 24.0 * math.pi, 800)
     points = np.stack((1.0 + 0.7 * np.sin(turns), 1.5 - 0.7 * np.cos(turns)), axis=1)
     route = Route((1.0, 0.8, 0.0), points)

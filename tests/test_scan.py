@@ -11,7 +11,7 @@ from tests.strategies import awkward_scans
 
 
 @given(awkward_scans())
-def test_a_beam_is_valid_only_with_a_positive_range_between_the_limits(scan: Scan) -> None:
+def test_a_valid_range_is_positive_and_within_the_limits(scan: Scan) -> None:
     for distance, valid in zip(scan.ranges, scan.valid, strict=True):
         assert valid == (scan.range_min <= distance < scan.range_max)
 

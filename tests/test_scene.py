@@ -30,7 +30,7 @@ def test_seeing_a_scene_from_where_it_was_placed_gives_it_back(pose: Pose) -> No
 
 
 @given(poses)
-def test_placing_a_scene_keeps_sizes_and_everything_that_is_no_place(pose: Pose) -> None:
+def test_placing_a_scene_changes_positions_only(pose: Pose) -> None:
     placed = SCENE.placed(pose)
     assert placed.walls[0].length == pytest.approx(3.0)
     assert placed.doors[0].width == pytest.approx(1.0)

@@ -10,7 +10,7 @@ from tests.grounded import DOORS, START, clause, middle
 from tests.hand_made import L_LEFT, corridor
 
 
-def test_what_is_not_seen_yet_is_looked_for_along_the_hallway() -> None:
+def test_an_unseen_referent_is_sought_along_the_corridor() -> None:
     near = Scene(tuple(Wall(w.start, (min(w.end[0], 6.0), w.end[1])) for w in corridor().walls[:2]))
     for text in (
         "go through the first door on the right",
@@ -31,9 +31,7 @@ def seen_without_a_door() -> Scene:
 
 
 @pytest.mark.parametrize(("progress", "kind"), [(0.0, "SEEK"), (2.0, "SEEK"), (3.2, "PASS")])
-def test_while_a_stretch_before_the_door_is_unseen_one_looks_there_first(
-    progress: float, kind: str
-) -> None:
+def test_an_unseen_stretch_before_the_door_is_inspected_first(progress: float, kind: str) -> None:
     text = "go through the first door on the left"
     goal = ground(clause(text), seen_without_a_door(), START, (progress, 0.0, 0.0))
     assert goal.kind.name == kind
@@ -46,28 +44,27 @@ def test_the_last_door_is_known_only_at_the_end() -> None:
     assert middle(ground(last, DOORS, START, (12.6, 0.0, 0.0))) == pytest.approx(9.0)
 
 
-def test_a_perceived_door_is_missing_only_when_the_end_has_been_seen() -> None:
+def test_a_door_is_missing_only_once_the_end_was_seen() -> None:
     third = clause("go through the third door on the right")
     assert isinstance(ground(third, DOORS, START, (9.0, 0.0, 0.0)), SeekGoal)
     with pytest.raises(GroundingError, match=r"no third door on the right: .* ended after 2"):
         ground(third, DOORS, START, (12.6, 0.0, 0.0))
 
 
-def test_looking_goes_on_to_a_place_from_which_the_end_counts_as_seen() -> None:
+def test_seeking_ends_where_the_end_counts_as_seen() -> None:
     goal = ground(clause("take the third door on the right"), DOORS, START, (11.0, 0.0, 0.0))
     with pytest.raises(GroundingError):
         ground(clause("take the third door on the right"), DOORS, START, goal.pose)
 
 
-def test_at_the_end_a_robot_takes_a_corner_for_the_intersection_it_was_told_of() -> None:
+def test_at_the_end_a_corner_passes_for_an_intersection() -> None:
+    """People say "intersection" of a bend, too."""
     turn = clause("turn left at the intersection")
     assert isinstance(ground(turn, L_LEFT, START, (9.0, 0.0, 0.0)), SeekGoal)
     assert isinstance(ground(turn, L_LEFT, START, (12.6, 0.0, 0.0)), ReachGoal)
 
 
-def test_a_door_is_taken_once_the_robot_has_come_as_near_as_it_can_to_what_may_hide_another() -> (
-    None
-):
+def test_a_hidden_stretch_is_approached_before_a_door_is_taken() -> None:
     """From 6 m on no side is seen to the left: a pane of glass, say."""
     scene = corridor(left=(5.0,), end_door=True)
     walls = tuple(w for w in scene.walls if not (w.start[1] == w.end[1] == 1.0 and w.end[0] > 6.0))

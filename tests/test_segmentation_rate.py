@@ -38,9 +38,7 @@ labels = hnp.arrays(np.int64, 10, elements=st.integers(NONE, 3))
         ([0, 0, 0, 0, 1, 2, 3, 4, 5, 6], 3 / 8),
     ],
 )
-def test_a_wall_counts_by_its_longest_piece_and_a_piece_for_one_wall(
-    found: list[int], rate: float
-) -> None:
+def test_walls_and_pieces_are_matched_one_to_one(found: list[int], rate: float) -> None:
     assert segmentation_rate(POINTS, TWO_WALLS, np.array(found)) == pytest.approx(rate)
 
 
@@ -75,9 +73,7 @@ def test_names_of_found_segments_do_not_matter(true: np.ndarray, found: np.ndarr
 
 @settings(max_examples=20, deadline=None)
 @given(st.floats(-2.0, 2.0), st.floats(-1.0, 1.0), st.floats(-math.pi, math.pi))
-def test_every_beam_in_a_room_has_a_wall_and_ends_where_it_was_measured(
-    x: float, y: float, heading: float
-) -> None:
+def test_every_beam_in_a_room_is_labelled_with_its_wall(x: float, y: float, heading: float) -> None:
     room = plan_of(closed((-3.0, -2.0), (3.0, -2.0), (3.0, 2.0), (-3.0, 2.0)))
     view = TrueView(room, TIM561)
     scan = view.scan((x, y, heading))

@@ -50,7 +50,7 @@ def test_times_worked_by_hand() -> None:
 
 @given(coordinate, coordinate, speed, speed, st.floats(-3.1, 3.1), speed, speed)
 @settings(max_examples=100, deadline=None)
-def test_at_the_time_to_collision_the_bodies_touch_and_before_they_do_not(
+def test_bodies_touch_first_at_the_time_to_collision(
     x: float, y: float, u: float, v: float, heading: float, forward: float, left: float
 ) -> None:
     body = np.array([0.3, -0.2, heading, 0.55, 0.325, forward, left, 0.7])

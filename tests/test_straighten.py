@@ -114,9 +114,10 @@ def test_a_rough_house_comes_back_square(
 
 @given(rooms(), degrees, seeds, st.floats(0.0, 0.5), st.floats(0.2, 3.0))
 @settings(max_examples=6, deadline=None)
-def test_no_point_moves_beyond_the_bound_and_outlines_that_were_apart_stay_so(
+def test_points_move_within_the_bound_and_outlines_stay_apart(
     house: BaseGeometry, angle: float, seed: int, share: float, bound: float
 ) -> None:
+    """Outlines that were apart stay apart."""
     rings = outlines(rough(raster(turned(house, angle, (0.0, 0.0))), seed, share), 0.5)
     straight = straighten(rings, bound)
     assert len(straight.rings) == len(rings)
@@ -174,9 +175,8 @@ def test_the_ends_of_thin_walls_are_square(thick: int, length: int) -> None:
 
 @given(st.integers(0, 1000), st.integers(1, 1000))
 @settings(deadline=None)
-def test_of_two_runs_as_long_that_meet_that_of_the_first_outline_is_given_up(
-    first: int, further: int
-) -> None:
+def test_of_two_equal_runs_the_first_is_given_up(first: int, further: int) -> None:
+    """Of two runs of pixels of one length that meet, one must give way."""
     runs = [PixelRun(k, Span(0, 1, 0, 4.0), -1, 1, 0, True, 0, 4) for k in (first, first + further)]
     square = np.array(((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)))
     one, other = (
@@ -212,7 +212,7 @@ def test_straightening_is_reported_and_can_be_switched_off(
     assert "straighten is 6.0; it must be 0 to 5 pixels" in capsys.readouterr().err
 
 
-def test_walls_are_straight_in_the_world_however_the_map_lies_in_it(tmp_path: Path) -> None:
+def test_walls_are_straight_however_the_map_is_turned(tmp_path: Path) -> None:
     grey = np.where(rough(two_rooms() == 0, 2, 0.2), 0, 254)
     path = write_map(tmp_path, grey, origin=[1.0, 2.0, 0.5])
     plan, report = import_map(path)
@@ -223,7 +223,7 @@ def test_walls_are_straight_in_the_world_however_the_map_lies_in_it(tmp_path: Pa
     assert f"along {first:.2f} and {first + 90.0:.2f} degrees" in str(report)
 
 
-def test_jambs_follow_their_walls_and_a_door_that_gets_too_narrow_is_refused() -> None:
+def test_jambs_follow_their_straightened_walls() -> None:
     def walls(gap: float, y: float = 0.0) -> FloorPlan:
         sides = Surface(((0.0, y), (2.0, y))), Surface(((2.0 + gap, y), (5.0, y)))
         return FloorPlan("walls", sides, (), (), (), (), box(-1, -1, 6, 1))
@@ -236,7 +236,7 @@ def test_jambs_follow_their_walls_and_a_door_that_gets_too_narrow_is_refused() -
         with_walls(plan, walls(0.4))
 
 
-def test_leaves_of_closed_doors_reach_from_wall_to_wall_and_are_no_jambs() -> None:
+def test_closed_leaves_reach_from_wall_to_wall() -> None:
     """A closed door and an open one beside it share a pier, which straightening moves."""
 
     def plan(y: float, *more: Surface, doors: tuple[PlanDoor, ...] = ()) -> FloorPlan:

@@ -36,7 +36,8 @@ def test_hung_leaves_leave_a_valid_plan_with_the_same_open_doors(name: str) -> N
 
 
 @plans
-def test_a_leaf_swings_where_nothing_stands_and_fills_its_door_when_closed(name: str) -> None:
+def test_a_closed_leaf_fills_its_door(name: str) -> None:
+    """It swings only where nothing stands."""
     leaves, still = swinging_leaves(with_leaves(load_floor_plan(name)))
     for leaf in leaves:
         door = still.door(leaf.door)
@@ -84,7 +85,8 @@ def test_a_closed_door_opens_again_and_an_open_one_closes() -> None:
     assert longest.max() <= Swinging().closed_for[1] + 0.2
 
 
-def test_a_leaf_stops_before_a_robot_in_the_doorway_and_goes_on_when_it_is_gone() -> None:
+def test_a_leaf_waits_for_a_robot_in_the_doorway() -> None:
+    """It moves on when the robot is gone."""
     world = world_of("office_cross", "spot", ALWAYS)
     door = world.floor_plan.door("west_north_1")
     world.reset((*door.midpoint, math.pi / 2), np.random.default_rng(0))
@@ -102,7 +104,7 @@ def test_a_leaf_stops_before_a_robot_in_the_doorway_and_goes_on_when_it_is_gone(
     pytest.fail("the door never closed after the robot had left")
 
 
-def test_a_closed_leaf_stops_the_robot_and_an_open_one_lets_it_through() -> None:
+def test_only_a_closed_leaf_stops_the_robot() -> None:
     for closed in (True, False):
         world = world_of("office_cross", "spot", ALWAYS)
         world.reset((6.75, 8.9, math.pi / 2), np.random.default_rng(0))

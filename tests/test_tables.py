@@ -47,7 +47,7 @@ def rows(table, separator=","):
 
 @given(tables, st.sampled_from([",", ";", "\t"]), st.sampled_from(["log", "log.csv", "l.csv.gz"]))
 @in_a_folder
-def test_a_csv_of_nothing_but_ranges_comes_back_as_it_was_written(tmp_path, table, separator, name):
+def test_a_csv_of_bare_ranges_round_trips(tmp_path, table, separator, name):
     records, log = read(written(tmp_path, rows(table, separator), name), FORWARD)
     assert not log.bad
     assert [record.line for record in records] == list(range(1, len(table) + 1))
@@ -77,7 +77,7 @@ def test_a_csv_says_by_header_and_comment_what_its_columns_are(tmp_path):
     assert second.scan.valid.tolist() == [True, False, False]
 
 
-def test_what_is_given_goes_before_what_a_csv_says(tmp_path):
+def test_options_override_the_columns_of_a_csv(tmp_path):
     geometry = Geometry(range_max=4.5, angle_min=0.0, angle_increment=-0.1)
     first, _ = read(written(tmp_path, HEADED), geometry)[0]
     np.testing.assert_allclose(first.scan.angles, [-0.2, -0.1, 0.0], atol=1e-12)
@@ -236,7 +236,7 @@ def test_a_header_that_promises_too_much_is_damage(tmp_path):
         (b"a,b\n1,2\n", "not a log of scans.*CSV"),
     ],
 )
-def test_what_is_nearly_a_log_says_what_to_do(tmp_path, data, message):
+def test_a_near_miss_of_a_log_is_refused_with_advice(tmp_path, data, message):
     path = tmp_path / "log"
     path.write_bytes(data)
     with pytest.raises(LogError, match=message):

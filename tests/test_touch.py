@@ -59,12 +59,12 @@ def test_what_the_lidar_sees_is_not_felt_as_well(distance: float) -> None:
     assert len(known) == 0
 
 
-def test_what_is_touched_where_no_beam_looks_is_felt() -> None:
+def test_touches_outside_the_view_are_bumps() -> None:
     known = felt()
     assert known.note([(-0.6, 0.0, math.pi)], np.full(SPEC.beams, 0.1), HERE)
 
 
-def test_a_lidar_that_looks_all_round_sees_what_is_touched_behind() -> None:
+def test_a_full_circle_lidar_sees_what_is_touched_behind() -> None:
     round_spec = replace(SPEC, beams=720, angle_min=-math.pi, angle_increment=math.tau / 720)
     behind = [(-0.6, 0.0, math.pi)]
     assert not Felt(round_spec, HERE).note(behind, np.full(720, 0.6), HERE)
@@ -82,7 +82,8 @@ def test_the_same_touch_again_tells_nothing_new(odometry: Pose, aside: float) ->
     assert np.array_equal(known.ends, ends)
 
 
-def test_what_one_front_touches_at_both_ends_is_one_however_wide_it_is() -> None:
+def test_touches_at_both_ends_of_the_front_are_one_wall() -> None:
+    """A robot touches one wall with both ends of its front."""
     known = felt()
     known.note([(0.6, -0.45, 0.0), (0.6, 0.45, 0.0)], NOTHING_NEAR, HERE)
     assert len(known) == 1
@@ -118,7 +119,7 @@ def test_pieces_farther_apart_or_at_an_angle_stay_two(odometry: Pose) -> None:
         assert len(known) == 2
 
 
-def test_so_many_pieces_are_known_and_the_oldest_goes_first() -> None:
+def test_a_full_bump_map_drops_its_oldest_piece() -> None:
     known = felt()
     for k in range(MOST_PIECES + 3):
         known.note([FRONT], NOTHING_NEAR, (2.0 * k, 0.0, 0.0))
@@ -127,7 +128,9 @@ def test_so_many_pieces_are_known_and_the_oldest_goes_first() -> None:
 
 
 @given(poses)
-def test_a_door_that_was_run_into_is_none_and_the_one_beside_it_still_is(odometry: Pose) -> None:
+def test_a_bumped_door_no_longer_counts_but_its_neighbour_does(odometry: Pose) -> None:
+    """What was bumped into lies in its opening."""
+
     def door(low: float, high: float) -> Door:
         return Door(to_parent(odometry, (0.6, low)), to_parent(odometry, (0.6, high)))
 
@@ -149,9 +152,10 @@ def test_nothing_felt_changes_nothing() -> None:
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
-def test_a_robot_feels_a_pane_once_it_has_run_into_it_and_forgets_it_with_the_episode(
+def test_bumped_panes_are_kept_for_the_episode(
     robot: str,
 ) -> None:
+    """A pane of glass that was bumped into is forgotten with the episode."""
     env = SemNavEnv(robot, pane_across())
     options = {"pose": (3.0, 0.5, 0.0), "command": "go down the hallway"}
     observation, _ = env.reset(seed=1, options=options)
@@ -199,7 +203,7 @@ def test_the_scripted_agent_finds_its_way_around_a_pane(robot: str) -> None:
 
 
 @pytest.mark.parametrize("heading", [0.0, 0.5, math.pi / 2, 2.0, math.pi, -1.0])
-def test_a_touch_lies_on_the_footprint_and_points_into_what_is_touched(heading: float) -> None:
+def test_a_touch_lies_on_the_footprint_and_points_outwards(heading: float) -> None:
     plan = plan_of(closed((-3, -3), (3, -3), (3, 3), (-3, 3)))
     world = World(plan, ROBOTS["spot"])
     world.reset((0.0, 0.0, heading), np.random.default_rng(0))

@@ -120,7 +120,7 @@ def test_resuming_restores_weights_optimizer_and_count(tmp_path):
     resumed.close()
 
 
-def test_resuming_before_the_first_update_starts_from_the_same_weights(tmp_path):
+def test_resuming_at_once_starts_from_the_same_weights(tmp_path):
     trainer = train(tmp_path, rollouts=0)
     resumed = Trainer.resume(TINY, tmp_path)
     assert resumed.steps == 0
@@ -164,7 +164,7 @@ def test_a_damaged_training_is_not_resumed(tmp_path):
             Trainer.resume(TINY, tmp_path)
 
 
-def test_an_interruption_between_files_leaves_a_folder_that_works(tmp_path, monkeypatch):
+def test_an_interruption_leaves_a_folder_that_works(tmp_path, monkeypatch):
     """Whichever of the three files was the last one written, both uses of the folder go on."""
     train(tmp_path)
     trainer = Trainer.resume(TINY, tmp_path)

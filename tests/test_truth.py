@@ -127,7 +127,7 @@ def hall_with_a_door(is_open=True, *more):
 
 
 @given(st.floats(0.5, 9.5), st.floats(0.5, 4.5), st.floats(-3.0, 3.0))
-def test_an_open_door_with_nothing_before_it_is_seen_whole_and_directed(x, y, heading):
+def test_an_unobstructed_door_is_seen_whole(x, y, heading):
     (door,) = true_scene(hall_with_a_door(), (x, y, heading), ALL_AROUND).doors
     assert door.name == "door 1"
     assert door.visible == pytest.approx(1.0)
@@ -177,7 +177,7 @@ def test_the_outline_is_what_the_ray_caster_measures(view):
 
 @given(views())
 @settings(max_examples=30, deadline=None)
-def test_walls_have_the_lidar_on_their_left_and_follow_one_another(view):
+def test_true_walls_have_the_lidar_on_their_left(view):
     twin, pose = view
     scene = twin.scene(pose)
     for wall in scene.walls:
@@ -204,7 +204,7 @@ def test_turning_the_robot_turns_the_truth(view):
 
 @given(views())
 @settings(max_examples=40, deadline=None)
-def test_extraction_of_a_truth_scan_returns_the_walls_of_the_truth(view):
+def test_a_noise_free_scan_returns_the_true_walls(view):
     """Those of 0.5 m and twenty beams that are met at 12 degrees or more, each in one piece."""
     twin, pose = view
     truth, found = twin.scene(pose).walls, extract(twin.scan(pose)).walls
@@ -217,7 +217,7 @@ def test_extraction_of_a_truth_scan_returns_the_walls_of_the_truth(view):
 
 @given(views())
 @settings(max_examples=60, deadline=None)
-def test_extraction_of_a_truth_scan_returns_the_full_corners_of_the_truth(view):
+def test_a_noise_free_scan_returns_the_true_corners(view):
     """Those of walls of 0.5 m and twenty beams met at 12 degrees or more, to 1 % of the range."""
     twin, pose = view
     truth, found = twin.scene(pose), extract(twin.scan(pose))
@@ -243,7 +243,7 @@ def incidence(wall):
 
 
 @pytest.mark.parametrize("name", sorted(VIEWS))
-def test_extraction_of_truth_scans_returns_nearly_all_doors_in_good_view(name):
+def test_noise_free_scans_return_nearly_all_doors_in_view(name):
     rng = np.random.default_rng(0)
     gate, doors, found = Gate(reach=5.0), 0, 0
     for case in draw_cases(load_floor_plan(name), 150, (0.0,), False, rng):

@@ -29,7 +29,8 @@ def inside(room: str, heading: float = 1.0) -> Pose:
     return middle.x, middle.y, heading
 
 
-def test_only_the_nearest_wall_with_a_door_counts_where_walls_are_not_all_seen() -> None:
+def test_the_nearest_wall_with_a_door_counts() -> None:
+    """Not all walls are seen here."""
     here: Pose = (0.0, 0.0, 0.0)
     near, across = Door((2.0, 0.5), (2.0, 1.5)), Door((5.0, -0.5), (5.0, 0.5))
     beside = Door((-1.0, -3.0), (0.0, -3.0))
@@ -63,7 +64,8 @@ def test_the_room_is_left_and_the_named_side_taken(said: str, fuller: str) -> No
     assert found == wanted
 
 
-def test_what_can_be_done_is_not_changed_and_what_cannot_stays_as_it_is() -> None:
+def test_feasible_and_hopeless_commands_stay_as_they_are() -> None:
+    """No step is inferred for a feasible command, nor where none helps."""
     command = parse("go through the first door on the left")
     for in_room in (True, False):
         assert with_implicit_steps(command, lambda _: True, in_room=in_room) == command
@@ -135,7 +137,7 @@ def test_the_ablation_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert rows["without"]["commands"] == 3
 
 
-def test_who_sees_no_door_turns_round_to_look_for_one() -> None:
+def test_without_a_door_in_view_the_robot_turns_to_look() -> None:
     (clause,) = parse("leave the room").clauses
     begin = (2.0, 1.0, 0.5)
     goal = ground(clause, Scene((), ()), begin)

@@ -74,7 +74,7 @@ def test_the_other_door_is_the_only_one() -> None:
         door_in("take the other door on the right", one)
 
 
-def test_the_last_doors_are_looked_for_until_the_end_has_been_seen() -> None:
+def test_the_last_door_is_sought_until_the_end_is_seen() -> None:
     (clause,) = parse("take the second-to-last door on the left").clauses
     assert isinstance(ground(clause, DOORS, START, (4.0, 0.0, 0.0)), SeekGoal)
     assert isinstance(ground(clause, DOORS, START, (12.6, 0.0, 0.0)), PassGoal)
@@ -85,7 +85,7 @@ def test_a_distance_is_told_from_where_the_clause_begins(text: str, along: float
     assert last_goal(text, DOORS).pose == pytest.approx((along, 0.0, 0.0), abs=0.05)
 
 
-def test_a_distance_beyond_the_end_is_an_error_that_says_where_that_is() -> None:
+def test_a_distance_beyond_the_end_is_refused_with_the_end() -> None:
     with pytest.raises(GroundingError, match=r"40 metres ahead: the hallway ends after 14\.\d m"):
         last_goal("go 40 metres", DOORS)
 
@@ -143,6 +143,6 @@ def test_one_leaves_a_room_by_the_door_one_came_by(between: str) -> None:
         ('go to room "kitchen"', "not been told the way"),
     ],
 )
-def test_what_is_understood_but_not_carried_out_is_refused(text: str, reason: str) -> None:
+def test_an_infeasible_command_is_refused(text: str, reason: str) -> None:
     with pytest.raises(GroundingError, match=reason):
         last_goal(text, DOORS)

@@ -79,7 +79,7 @@ def test_the_window_shows_the_picture_until_it_is_closed() -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_a_window_without_a_display_is_refused_with_the_alternative() -> None:
+def test_a_window_without_a_display_is_refused() -> None:
     code = f"{IMPORTS}Viewer(PLAN).show(PLAIN)"
     done = run_with_driver(code, "no_such_driver")
     assert done.returncode != 0
@@ -87,7 +87,7 @@ def test_a_window_without_a_display_is_refused_with_the_alternative() -> None:
     assert '"rgb_array" needs none' in done.stderr
 
 
-def test_a_missing_pygame_is_only_missed_when_drawing_and_named_with_its_extra() -> None:
+def test_missing_pygame_is_reported_only_when_drawing() -> None:
     code = (
         "import sys; sys.modules['pygame'] = None\n"
         "import semnav_env.rendering\n"

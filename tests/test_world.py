@@ -29,7 +29,7 @@ def axle_of(world: World) -> Point:
 
 
 @robots
-def test_a_straight_drive_reaches_full_speed_no_faster_than_allowed(robot: RobotSpec) -> None:
+def test_a_straight_drive_respects_the_acceleration_limit(robot: RobotSpec) -> None:
     world, speeds = wide_world(robot, (5.0, 15.0, 0.0)), [0.0]
     for _ in range(3 * HZ):
         world.step((9.0, 0.0, 0.0))

@@ -35,9 +35,10 @@ def test_what_came_before_a_reset_does_not_matter() -> None:
 
 @robots
 @pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda w: pickle.loads(pickle.dumps(w))])
-def test_a_copy_made_while_pushing_a_wall_goes_on_as_the_original(
+def test_a_copy_made_in_contact_goes_on_as_the_original(
     robot: RobotSpec, duplicate: object
 ) -> None:
+    """The robot pushes a wall when the copy is made."""
     world = at_the_wall(robot)
     twin = duplicate(world)  # type: ignore[operator]
     assert (twin.pose, twin.velocity, twin.contacts) == (world.pose, world.velocity, world.contacts)
