@@ -21,7 +21,7 @@ from semnav_env.scripts.progress import tracked
 
 
 @dataclass(frozen=True)
-class Office:
+class OfficeCheck:
     """One office.
 
     Attributes:
@@ -85,12 +85,12 @@ class Arguments:
             _show(rows, faulty)
         return 1 if faulty else 0
 
-    def _offices(self, names: tuple[str, ...], robot: RobotSpec) -> list[Office]:
+    def _offices(self, names: tuple[str, ...], robot: RobotSpec) -> list[OfficeCheck]:
         """One of each distribution in turn, so that a run that is cut off can be used."""
         seeds = range(self.first_seed, self.first_seed + self.count)
         if self.out is not None:
             self.out.parent.mkdir(parents=True, exist_ok=True)
-        total, offices = len(names) * self.count, list[Office]()
+        total, offices = len(names) * self.count, list[OfficeCheck]()
         drawn = (measure(name, seed, robot) for seed in seeds for name in names)
         with nullcontext() if self.out is None else self.out.open("w") as out:
             for office in tracked(drawn, lambda n: f"{n} offices", lambda: len(offices) / total):
@@ -100,7 +100,7 @@ class Arguments:
         return offices
 
 
-def measure(name: str, seed: int, robot: RobotSpec = ROBOTS["wheelchair"]) -> Office:
+def measure(name: str, seed: int, robot: RobotSpec = ROBOTS["wheelchair"]) -> OfficeCheck:
     """Generate and check one office."""
     began = time.perf_counter()
     plan = generate_office(seed, name)
@@ -108,10 +108,10 @@ def measure(name: str, seed: int, robot: RobotSpec = ROBOTS["wheelchair"]) -> Of
     faults = tuple(map(str, check(plan, robot)))
     checked = time.perf_counter()
     counts = len(plan.rooms), len(plan.doors), plan.boundary.area
-    return Office(name, seed, *counts, made - began, checked - made, faults)
+    return OfficeCheck(name, seed, *counts, made - began, checked - made, faults)
 
 
-def summary(name: str, offices: list[Office]) -> dict[str, Any]:
+def summary(name: str, offices: list[OfficeCheck]) -> dict[str, Any]:
     """What the table says of a distribution."""
     return {
         "distribution": name,
@@ -131,7 +131,7 @@ def _spread(values: list[Any]) -> tuple[float, float, float]:
     return min(values), round(statistics.fmean(values), 1), max(values)
 
 
-def _show(rows: list[dict[str, Any]], faulty: list[Office]) -> None:
+def _show(rows: list[dict[str, Any]], faulty: list[OfficeCheck]) -> None:
     heads = ("offices", "count", "valid", "rooms", "doors", "m2", "s", "most", "check")
     table = Table(*heads, caption="least/mean/most; seconds: mean, most, mean of the check")
     for row in rows:

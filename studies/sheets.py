@@ -11,7 +11,7 @@ Cell: TypeAlias = str | int | float
 
 
 @dataclass(frozen=True)
-class Sheet:
+class ResultSheet:
     """A table.
 
     Attributes:

@@ -6,7 +6,7 @@ from semnav_env.features import Wall
 from semnav_env.maps import load_floor_plan
 from studies.features.cases import draw_cases
 from studies.features.comparison import compare
-from studies.features.records import Detection, Limits, Sighting, as_table
+from studies.features.records import CountingLimits, Detection, Sighting, as_table
 
 OFFICE = load_floor_plan("office_cross")
 WALL = Wall((0.0, -1.0), (4.0, -1.0), beams=100)
@@ -17,5 +17,5 @@ def cases(plan=OFFICE, poses=6, sigmas=(0.0, 0.02), clutter=True, seed=1):
 
 
 def tables(scan, truth, found):
-    sightings, detections = compare(scan, truth, found, Limits())
+    sightings, detections = compare(scan, truth, found, CountingLimits())
     return as_table(sightings, Sighting), as_table(detections, Detection)

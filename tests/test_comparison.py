@@ -12,7 +12,7 @@ from semnav_env.features import Arc, Corner, CornerKind, CorridorProbe, Scene, W
 from studies.features.comparison import compare_doors
 from studies.features.metrics import calibration, calibration_error, score, segmentation_rates
 from studies.features.overlap import Overlap, segmentation_rate
-from studies.features.records import Detection, Kind, Limits, as_table
+from studies.features.records import CountingLimits, Detection, FeatureKind, as_table
 from tests.evaluation_cases import WALL, cases, tables
 
 
@@ -25,14 +25,14 @@ def test_the_truth_itself_scores_one(seed):
     assert detections["right"].all()
     errors = np.stack([sightings[name] for name in ("angle", "place", "size")])
     assert np.nanmax(errors, initial=0.0) < 1e-9
-    walls = len(sightings[sightings["kind"] == Kind.WALL])
+    walls = len(sightings[sightings["kind"] == FeatureKind.WALL])
     assert walls == 0 or segmentation_rates(sightings) == pytest.approx((1.0, 1.0))
 
 
 def test_nothing_found_is_recall_zero_and_no_precision():
     case = cases(poses=1)[0]
     sightings, detections = tables(case.scans[0][1], case.truth, Scene())
-    each = score(sightings, detections, Kind.WALL)
+    each = score(sightings, detections, FeatureKind.WALL)
     assert each.recall == 0.0
     assert math.isnan(each.precision)
     assert segmentation_rates(sightings) == (0.0, 0.0)
@@ -68,7 +68,7 @@ def test_a_corner_is_found_once_and_its_type_is_told_apart():
         corners=(Corner((2.1, 0.0), CornerKind.OUTER), Corner((2.0, 0.05), CornerKind.INNER))
     )
     sightings, detections = tables(cases(poses=1)[0].scans[0][1], truth, found)
-    each = score(sightings, detections, Kind.FULL_CORNER)
+    each = score(sightings, detections, FeatureKind.FULL_CORNER)
     assert (each.recall, each.precision, each.type_right) == (1.0, 0.5, 1.0)
     assert each.place[0] == pytest.approx(0.05)
     assert each.place_share[0] == pytest.approx(0.025)
@@ -84,7 +84,7 @@ def test_an_arc_is_found_by_its_centre():
     sightings, detections = tables(
         cases(poses=1)[0].scans[0][1], Scene(arcs=(arc,)), Scene(arcs=(near,))
     )
-    each = score(sightings, detections, Kind.ARC)
+    each = score(sightings, detections, FeatureKind.ARC)
     assert (each.gated, each.recall, each.precision) == (1, 1.0, 1.0)
     assert each.size[0] == pytest.approx(0.05)
     assert each.place[0] == pytest.approx(0.1)
@@ -96,14 +96,16 @@ def test_corridors_are_found_by_their_midpoints():
     sightings, detections = tables(
         cases(poses=1)[0].scans[0][1], Scene(corridors=(corridor,)), Scene(corridors=found)
     )
-    each = score(sightings, detections, Kind.CORRIDOR)
+    each = score(sightings, detections, FeatureKind.CORRIDOR)
     assert (each.recall, each.precision) == (1.0, 0.5)
 
 
 def test_a_door_in_poor_view_is_no_demand_but_right_if_found():
     for case in cases(poses=40, clutter=False):
         scan = case.scans[0][1]
-        sightings, detections = compare_doors(scan, case.truth.doors, case.truth.doors, Limits())
+        sightings, detections = compare_doors(
+            scan, case.truth.doors, case.truth.doors, CountingLimits()
+        )
         poor = [s for s in sightings if not s.gated]
         if poor:
             assert all(s.found for s in poor)
@@ -113,7 +115,7 @@ def test_a_door_in_poor_view_is_no_demand_but_right_if_found():
 
 
 def test_confidences_that_hold_have_no_calibration_error():
-    rows = [Detection(Kind.DOOR, 1.0, 0.0, k < 7, 0.7) for k in range(10)]
+    rows = [Detection(FeatureKind.DOOR, 1.0, 0.0, k < 7, 0.7) for k in range(10)]
     bins = calibration(as_table(rows, Detection))
     assert [(b.detections, b.confidence, b.precision) for b in bins] == [
         (10, pytest.approx(0.7), pytest.approx(0.7))

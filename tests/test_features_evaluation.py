@@ -24,9 +24,9 @@ from studies.doors.real_doors import (
 )
 from studies.features.metrics import score, segmentation_rates
 from studies.features.real_logs import find_logs, is_finite, log_row
-from studies.features.records import Kind
+from studies.features.records import FeatureKind
 from studies.features.study import DEFAULT, Study, all_strategies
-from studies.sheets import Sheet
+from studies.sheets import ResultSheet
 from tests.command_line import run
 from tests.evaluation_cases import WALL
 
@@ -49,7 +49,12 @@ def test_the_extractor_keeps_its_level_on_a_small_sample():
         pass
     assert study.cases == 2 * 12 * len(plans)
     outcome = study.pooled()
-    level = {Kind.WALL: 0.95, Kind.DOOR: 0.85, Kind.FULL_CORNER: 0.9, Kind.CORRIDOR: 0.75}
+    level = {
+        FeatureKind.WALL: 0.95,
+        FeatureKind.DOOR: 0.85,
+        FeatureKind.FULL_CORNER: 0.9,
+        FeatureKind.CORRIDOR: 0.75,
+    }
     for kind, least in level.items():
         each = score(outcome.sightings, outcome.detections, kind)
         assert min(each.recall, each.precision) > least, kind
@@ -57,7 +62,7 @@ def test_the_extractor_keeps_its_level_on_a_small_sample():
 
 
 def test_a_table_is_the_same_for_people_and_programs():
-    sheet = Sheet("Title", ("what", "share"), [("doors", 0.5), ("arcs", math.nan)])
+    sheet = ResultSheet("Title", ("what", "share"), [("doors", 0.5), ("arcs", math.nan)])
     assert sheet.markdown().splitlines() == [
         *("## Title", "", "| what | share |", "| --- | --- |"),
         *("| doors | 0.500 |", "| arcs | - |"),

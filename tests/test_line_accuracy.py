@@ -5,7 +5,7 @@ import pytest
 
 from semnav_env.features import Door, ExtractorSettings, Scan, Scene, Wall
 from semnav_env.maps import load_floor_plan
-from studies.features.cases import Case, Situation, draw_cases
+from studies.features.cases import Case, CaseSituation, draw_cases
 from studies.lines.command import Arguments
 from studies.lines.line_accuracy import segmentations, wall_accuracy
 
@@ -18,7 +18,7 @@ def wall_ahead(turned=0.0, at=2.0, doors=()):
     scan = Scan(2.0 / np.cos(angles), -0.5, 0.005)
     dx, dy = math.sin(turned), math.cos(turned)
     truth = Scene((Wall((at + dx, -dy), (at - dx, dy)),), doors)
-    return Case(Situation("made", "anywhere", False), (0, 0, 0), truth, ((SIGMA, scan),))
+    return Case(CaseSituation("made", "anywhere", False), (0, 0, 0), truth, ((SIGMA, scan),))
 
 
 def measured(case):

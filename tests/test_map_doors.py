@@ -21,7 +21,7 @@ from semnav_env.features.mapping.map_doors import MapDoors
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, Surface
 from studies.doors.map_doors import findings, map_sheets, mapped
-from studies.doors.openings import Opening, read_openings
+from studies.doors.openings import LabelledOpening, read_openings
 from studies.doors.real_doors import FREIBURG, FREIBURG_LABELS
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
@@ -169,7 +169,7 @@ def test_a_passage_knows_when_its_door_has_moved_off_it():
 
 
 def opening(ends, group="north", certain=True):
-    return Opening(Door(ends[:2], ends[2:], "N"), group, certain, "")
+    return LabelledOpening(Door(ends[:2], ends[2:], "N"), group, certain, "")
 
 
 def found(ends):

@@ -29,7 +29,7 @@ from semnav_env.maps.importers.gaps import places_beside
 from semnav_env.maps.importers.labels import DOORS, read_door_labels
 from studies.buildings.plan_openings import openings_of
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
-from studies.sheets import Cell, Sheet
+from studies.sheets import Cell, ResultSheet
 
 CLEARANCE = 0.35
 """The lidar is at least this far from everything solid, metres."""
@@ -129,7 +129,7 @@ def drawn(path: Path) -> Building:
     return Building(plan, openings_of(plan), plan.boundary)
 
 
-class Look(NamedTuple):
+class FloorLook(NamedTuple):
     """One simulated scan of a building; doors are in the lidar frame.
 
     Attributes:
@@ -183,7 +183,7 @@ def look_around(
     rng: np.random.Generator,
     settings: ExtractorSettings,
     spec: LidarSpec = TIM561,
-) -> Iterator[Look]:
+) -> Iterator[FloorLook]:
     """Scans from random free poses, with the doors found in each."""
     lidar = Lidar(building.plan, spec)
     everything = Scene(doors=building.doors)
@@ -193,11 +193,11 @@ def look_around(
         found = zip(scene.doors, Scene(doors=scene.doors).placed(pose).doors, strict=True)
         passages = tuple([door for door, placed in found if building.leads_elsewhere(placed)])
         doors = everything.seen_from(pose).doors
-        yield Look(pose, scan, doors, scene.doors, passages)
+        yield FloorLook(pose, scan, doors, scene.doors, passages)
 
 
 def building_row(
-    name: str, looks: Sequence[Look], limits: ExtractorSettings | None
+    name: str, looks: Sequence[FloorLook], limits: ExtractorSettings | None
 ) -> tuple[Cell, ...]:
     """Recall and precision in one building; see `building_sheet`."""
     total = sum([look.counts(limits) for look in looks], DoorCounts())
@@ -207,11 +207,11 @@ def building_row(
     return (name, len(looks), *seen, *given, total.precision, total.precision_at_least)
 
 
-def building_sheet(rows: Sequence[tuple[Cell, ...]]) -> Sheet:
+def building_sheet(rows: Sequence[tuple[Cell, ...]]) -> ResultSheet:
     """The rows of `building_row` as a table."""
     columns = (
         *("floor", "scans", "gated", "recall", "in view", "recall, all in view", "detections"),
         *("of a door", "of an unlabelled opening", "of neither"),
         *("precision", "precision, unlabelled wrong"),
     )
-    return Sheet("Doors in real floors, simulated scans", columns, rows)
+    return ResultSheet("Doors in real floors, simulated scans", columns, rows)

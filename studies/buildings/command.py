@@ -12,7 +12,7 @@ from semnav_env.features import ExtractorSettings
 from semnav_env.scripts.progress import tracked
 from studies.buildings.buildings import (
     Building,
-    Look,
+    FloorLook,
     building_row,
     building_sheet,
     find_buildings,
@@ -70,15 +70,15 @@ class Arguments:
             print("\n\n".join(sheet.markdown() for sheet in sheets))
         return 0
 
-    def _look(self, name: str, building: Building) -> list[Look]:
+    def _look(self, name: str, building: Building) -> list[FloorLook]:
         rng = np.random.default_rng(self.seed)
-        looks: list[Look] = []
+        looks: list[FloorLook] = []
         looking = look_around(building, self.poses, rng, self.settings)
         for look in tracked(looking, lambda n: f"{name}", lambda: len(looks) / self.poses):
             looks.append(look)
         return looks
 
-    def _draw(self, path: Path, building: Building, looks: list[Look]) -> None:
+    def _draw(self, path: Path, building: Building, looks: list[FloorLook]) -> None:
         """Pages with some of the failures, evenly over all."""
         from studies.buildings.failure_pages import Failure, save_failures
 

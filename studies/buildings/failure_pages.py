@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from semnav_env.features.frames import points_to_local
 from semnav_env.features.scene import Door
 from semnav_env.maps.floor_plan import FloorPlan
-from studies.buildings.buildings import Look
+from studies.buildings.buildings import FloorLook
 
 COLUMNS = 5
 AROUND = 2.0
@@ -24,7 +24,7 @@ AROUND = 2.0
 class Failure(NamedTuple):
     """A door that was missed or is false, in the lidar frame, and the scan it is about."""
 
-    look: Look
+    look: FloorLook
     door: Door
 
 

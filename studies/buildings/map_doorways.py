@@ -13,7 +13,7 @@ from semnav_env.maps.importers.gaps import APART, find_doorways
 from studies.buildings.buildings import Building
 from studies.buildings.false_doorways import false_doorways
 from studies.doors.door_sightings import matches
-from studies.sheets import Cell, Sheet
+from studies.sheets import Cell, ResultSheet
 
 
 def map_row(name: str, building: Building, pixels: OccupancyMap) -> tuple[Cell, ...]:
@@ -37,10 +37,10 @@ def map_row(name: str, building: Building, pixels: OccupancyMap) -> tuple[Cell, 
     return name, len(building.doors), hits, recall, len(found), further, false, wrong, seconds
 
 
-def map_sheet(rows: Sequence[tuple[Cell, ...]]) -> Sheet:
+def map_sheet(rows: Sequence[tuple[Cell, ...]]) -> ResultSheet:
     """The rows of `map_row` as a table."""
     columns = (
         *("floor", "labelled open doors", "of them found", "recall", "doorways found"),
         *("without a label", "false", "share false", "seconds"),
     )
-    return Sheet("Doorways found in the map without the labels of doors", columns, rows)
+    return ResultSheet("Doorways found in the map without the labels of doors", columns, rows)

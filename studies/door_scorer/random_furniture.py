@@ -26,7 +26,7 @@ FREE = 0.9
 
 
 @dataclass
-class Furniture:
+class TrainingFurniture:
     """Puts things into a random office.
 
     Attributes:

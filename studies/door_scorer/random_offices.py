@@ -2,6 +2,9 @@
 
 Walls are thick or thin; doors have frames, stand open at any angle or are closed in their recess;
 there are pilasters, niches, mouths of side corridors, and furniture (`random_furniture`).
+
+Only the training of the scorer of doors uses these offices: the weights that come with the package
+were learned in them, and in offices of `semnav_env.maps.generator` they would be others.
 """
 
 from __future__ import annotations
@@ -16,14 +19,14 @@ from numpy.random import Generator
 from semnav_env.features.frames import FloatArray, Pose, to_local
 from semnav_env.features.scene import Door
 from semnav_env.maps.floor_plan import FloorPlan, Surface
-from studies.door_scorer.random_furniture import Furniture
+from studies.door_scorer.random_furniture import TrainingFurniture
 
 CLEARANCE = 0.3
 """A scanner stands at least this far from everything, metres."""
 
 
 @dataclass(frozen=True)
-class Office:
+class TrainingOffice:
     """A random office floor, world frame.
 
     Attributes:
@@ -78,7 +81,7 @@ def _distance(segments: FloatArray, x: float, y: float) -> float:
     return float(np.hypot(*(nearest - (x, y)).T).min())
 
 
-def random_office(rng: Generator, furnished: bool = True) -> Office:
+def random_office(rng: Generator, furnished: bool = True) -> TrainingOffice:
     """A corridor with rooms on both sides.
 
     Args:
@@ -93,11 +96,11 @@ def random_office(rng: Generator, furnished: bool = True) -> Office:
     for end in (-1.0, 1.0):
         builder.end(end * half_length, half_width)
     segments = np.array(builder.segments)
-    return Office(segments, tuple(builder.doors), (half_length, half_width), depth)
+    return TrainingOffice(segments, tuple(builder.doors), (half_length, half_width), depth)
 
 
 @dataclass
-class _Builder(Furniture):
+class _Builder(TrainingFurniture):
     furnished: bool = True
     doors: list[Door] = field(default_factory=list)
 

@@ -15,8 +15,8 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.mapping import LineMap
 from semnav_env.features.readers import open_log
 from studies.doors.door_sightings import MATCH, jambs_apart
-from studies.doors.openings import Opening
-from studies.sheets import Cell, Sheet
+from studies.doors.openings import LabelledOpening
+from studies.sheets import Cell, ResultSheet
 
 EXACT = 0.05
 """A door of the map is exact if both jambs are within this of those labelled, metres."""
@@ -44,7 +44,7 @@ def mapped(path: Path, settings: ExtractorSettings, every: int = 1) -> Iterator[
             yield line_map
 
 
-class Finding(NamedTuple):
+class MapFinding(NamedTuple):
     """A labelled opening with the door of the map that it is, or one of them alone.
 
     Attributes:
@@ -53,23 +53,23 @@ class Finding(NamedTuple):
         off: between their jambs, at most, metres; infinite for one alone.
     """
 
-    opening: Opening | None
+    opening: LabelledOpening | None
     door: Door | None
     off: float
 
 
-def findings(doors: Sequence[Door], openings: Sequence[Opening]) -> list[Finding]:
+def findings(doors: Sequence[Door], openings: Sequence[LabelledOpening]) -> list[MapFinding]:
     """The openings, each with the door nearest to it within `MATCH`, then the other doors."""
-    found: list[Finding] = []
+    found: list[MapFinding] = []
     for opening in openings:
         nearest = min(doors, key=lambda door: _apart(door, opening), default=None)
         off = math.inf if nearest is None else _apart(nearest, opening)
-        found.append(Finding(opening, nearest, off) if off <= MATCH else _missed(opening))
+        found.append(MapFinding(opening, nearest, off) if off <= MATCH else _missed(opening))
     rest = [door for door in doors if all(door is not each.door for each in found)]
-    return found + [Finding(None, door, math.inf) for door in rest]
+    return found + [MapFinding(None, door, math.inf) for door in rest]
 
 
-def map_sheets(doors: Sequence[Door], openings: Sequence[Opening]) -> list[Sheet]:
+def map_sheets(doors: Sequence[Door], openings: Sequence[LabelledOpening]) -> list[ResultSheet]:
     """How many of the openings are doors of the map, and each of both."""
     found = findings(doors, openings)
     walls = [wall for group in ("north", "south") if (wall := _wall(group, openings)) is not None]
@@ -87,12 +87,12 @@ def map_sheets(doors: Sequence[Door], openings: Sequence[Opening]) -> list[Sheet
     columns = "openings", "number", "in the map", "both jambs within 5 cm", "worst jamb, cm"
     each = [_row(finding) for finding in found]
     return [
-        Sheet("Doors in the map of the whole log, freiburg-079", columns, rows),
-        Sheet("Doors in that map one by one", _EACH, each),
+        ResultSheet("Doors in the map of the whole log, freiburg-079", columns, rows),
+        ResultSheet("Doors in that map one by one", _EACH, each),
     ]
 
 
-def _summary(group: Sequence[Finding]) -> tuple[Cell, ...]:
+def _summary(group: Sequence[MapFinding]) -> tuple[Cell, ...]:
     off = [finding.off for finding in group if finding.door]
     worst = 100.0 * max(off, default=math.nan)
     return len(group), len(off), sum(each <= EXACT for each in off), worst
@@ -104,7 +104,7 @@ _EACH = (
 )
 
 
-def _row(finding: Finding) -> tuple[Cell, ...]:
+def _row(finding: MapFinding) -> tuple[Cell, ...]:
     opening, door, off = finding
     label: tuple[Cell, ...] = ("-", "-", "-")
     told: tuple[Cell, ...] = (math.nan,) * 4
@@ -117,24 +117,24 @@ def _row(finding: Finding) -> tuple[Cell, ...]:
     return *label, *_place(finding), width, *told
 
 
-def _place(finding: Finding) -> tuple[float, float]:
+def _place(finding: MapFinding) -> tuple[float, float]:
     shown = finding.opening.door if finding.opening else finding.door
     return shown.midpoint if shown else (math.nan, math.nan)
 
 
-def _missed(opening: Opening) -> Finding:
-    return Finding(opening, None, math.inf)
+def _missed(opening: LabelledOpening) -> MapFinding:
+    return MapFinding(opening, None, math.inf)
 
 
-def _apart(door: Door, opening: Opening) -> float:
+def _apart(door: Door, opening: LabelledOpening) -> float:
     return jambs_apart(door, opening.door.start, opening.door.end)
 
 
-def _is(opening: Opening, group: str) -> bool:
+def _is(opening: LabelledOpening, group: str) -> bool:
     return opening.group == group and opening.certain
 
 
-def _wall(group: str, openings: Sequence[Opening]) -> tuple[FloatArray, FloatArray] | None:
+def _wall(group: str, openings: Sequence[LabelledOpening]) -> tuple[FloatArray, FloatArray] | None:
     """The wall that a side's certain doors stand in, from its first jamb to its last."""
     doors = [opening.door for opening in openings if _is(opening, group)]
     jambs = np.array([point for door in doors for point in (door.start, door.end)])

@@ -12,7 +12,7 @@ LABELS = Path(__file__).with_name("labels")
 
 
 @dataclass(frozen=True)
-class Opening:
+class LabelledOpening:
     """A labelled opening.
 
     Attributes:
@@ -28,7 +28,7 @@ class Opening:
     note: str
 
 
-def read_openings(path: str | Path) -> tuple[Opening, ...]:
+def read_openings(path: str | Path) -> tuple[LabelledOpening, ...]:
     """The openings of a label file; lines that begin with # say how it was made.
 
     Args:
@@ -43,10 +43,12 @@ def read_openings(path: str | Path) -> tuple[Opening, ...]:
         return tuple([_opening(row) for row in rows])
 
 
-def _opening(row: dict[str, str]) -> Opening:
+def _opening(row: dict[str, str]) -> LabelledOpening:
     try:
         x1, y1, x2, y2 = (float(row[name]) for name in ("x1", "y1", "x2", "y2"))
         certain = {"yes": True, "no": False}[row["certain"]]
-        return Opening(Door((x1, y1), (x2, y2), row["id"]), row["group"], certain, row["note"])
+        return LabelledOpening(
+            Door((x1, y1), (x2, y2), row["id"]), row["group"], certain, row["note"]
+        )
     except (KeyError, TypeError, ValueError) as error:
         raise ValueError(f"the opening {row} lacks or misspells a field: {error}") from None

@@ -14,8 +14,8 @@ from semnav_env.features.memory import SceneMemory
 from semnav_env.features.readers import open_log
 from semnav_env.features.scene import Door, Scene
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
-from studies.doors.openings import LABELS, Opening
-from studies.sheets import Sheet
+from studies.doors.openings import LABELS, LabelledOpening
+from studies.sheets import ResultSheet
 
 FREIBURG = Path("carmen") / "freiburg-079-corrected.log.gz"
 FREIBURG_LABELS = LABELS / "freiburg_079_openings.csv"
@@ -47,7 +47,7 @@ class Glimpse(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Target:
+class LabelledTarget:
     """Which labelled openings must be found.
 
     Attributes:
@@ -102,7 +102,7 @@ def seen_from(pose: Pose, doors: Iterable[Door]) -> tuple[Door, ...]:
     return Scene(doors=tuple(doors)).seen_from(pose).doors
 
 
-def targets(openings: Sequence[Opening]) -> list[Target]:
+def targets(openings: Sequence[LabelledOpening]) -> list[LabelledTarget]:
     """What is asked for: the north side without and with its uncertain doors, and everything."""
     certain = tuple([o.door for o in openings if o.certain])
     unsure = tuple([o.door for o in openings if not o.certain])
@@ -110,13 +110,15 @@ def targets(openings: Sequence[Opening]) -> list[Target]:
     doubtful = tuple([o.door for o in openings if o.group == "north" and not o.certain])
     rest = tuple([door for door in unsure if door not in doubtful])
     return [
-        Target("north, certain", north, certain, unsure),
-        Target("north, all", north + doubtful, certain + doubtful, rest),
-        Target("all certain", certain, certain, unsure),
+        LabelledTarget("north, certain", north, certain, unsure),
+        LabelledTarget("north, all", north + doubtful, certain + doubtful, rest),
+        LabelledTarget("all certain", certain, certain, unsure),
     ]
 
 
-def count(glimpses: Sequence[Glimpse], target: Target, gate: Gate, memory: bool) -> DoorCounts:
+def count(
+    glimpses: Sequence[Glimpse], target: LabelledTarget, gate: Gate, memory: bool
+) -> DoorCounts:
     """Sightings and detections over a log, by single scans or with the short memory."""
     total = DoorCounts()
     for glimpse in glimpses:
@@ -127,7 +129,7 @@ def count(glimpses: Sequence[Glimpse], target: Target, gate: Gate, memory: bool)
     return total
 
 
-def passes(glimpses: Sequence[Glimpse], target: Target, gate: Gate) -> tuple[int, int]:
+def passes(glimpses: Sequence[Glimpse], target: LabelledTarget, gate: Gate) -> tuple[int, int]:
     """How many passes by a wanted door there were, and in how many it was found at least once.
 
     A pass is `PASS_SIGHTINGS` gated sightings or more, none `PASS_GAP` scans or more after the
@@ -154,7 +156,7 @@ def _passes(glimpses: Sequence[Glimpse], door: Door, gate: Gate) -> Iterator[boo
         yield any(sightings)
 
 
-def door_sheet(glimpses: Sequence[Glimpse], openings: Sequence[Opening]) -> Sheet:
+def door_sheet(glimpses: Sequence[Glimpse], openings: Sequence[LabelledOpening]) -> ResultSheet:
     """Recall and precision for every target, by single scans and with the short memory."""
     gate = Gate()
     rows = []
@@ -171,4 +173,4 @@ def door_sheet(glimpses: Sequence[Glimpse], openings: Sequence[Opening]) -> Shee
         *("detections", "undecided", "precision", "precision, undecided wrong"),
         *("passes", "passes found"),
     )
-    return Sheet("Real doors, freiburg-079", columns, rows)
+    return ResultSheet("Real doors, freiburg-079", columns, rows)

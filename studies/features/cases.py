@@ -16,8 +16,8 @@ from semnav_env.features.scene import Scene
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.lidar.spec import TIM561, LidarSpec
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.truth import TrueView
 from studies.features.clutter import cluttered, free_floor
+from studies.truth import TrueView
 
 CORRIDOR, ANYWHERE = "corridor", "anywhere"
 PLACES = (CORRIDOR, ANYWHERE)
@@ -33,7 +33,7 @@ LAYOUT = 20
 
 
 @dataclass(frozen=True)
-class Situation:
+class CaseSituation:
     """Where a pose was drawn.
 
     Attributes:
@@ -58,7 +58,7 @@ class Case:
         scans: the standard deviation of the ranges, metres, and a scan with it.
     """
 
-    situation: Situation
+    situation: CaseSituation
     pose: Pose
     truth: Scene
     scans: tuple[tuple[float, Scan], ...]
@@ -95,7 +95,7 @@ def draw_cases(
             pose = _draw_pose(_area(floor, plan, place), layout, rng)
             key = (int(rng.integers(2**31)), 0, number)
             scans = tuple([(sigma, lidar.scan(pose, key)) for sigma, lidar in lidars])
-            situation = Situation(plan.name, place, clutter)
+            situation = CaseSituation(plan.name, place, clutter)
             yield Case(situation, pose, view.scene(pose), scans)
 
 

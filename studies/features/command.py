@@ -18,7 +18,7 @@ from studies.features.figures import save_figures
 from studies.features.real_logs import find_logs, log_row, log_sheet
 from studies.features.report import in_short, sheets
 from studies.features.study import DEFAULT, Study, all_strategies
-from studies.sheets import Cell, Sheet
+from studies.sheets import Cell, ResultSheet
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class Arguments:
         for _ in tracked(cases, lambda n: f"{n} poses", lambda: study.cases / max(total, 1)):
             pass
 
-    def _real(self) -> Iterator[Sheet]:
+    def _real(self) -> Iterator[ResultSheet]:
         if self.data is None:
             return
         logs = find_logs(self.data)
@@ -120,12 +120,12 @@ class Arguments:
             rows.append(row)
         yield log_sheet(rows)
 
-    def _document(self, study: Study, tables: list[Sheet]) -> dict[str, Any]:
+    def _document(self, study: Study, tables: list[ResultSheet]) -> dict[str, Any]:
         asked = {"poses": self.poses, "sigma": self.sigma, "seed": self.seed, "every": self.every}
         records = {table.title: table.records() for table in tables}
         return {"asked": asked, "limits": asdict(study.limits), "tables": records}
 
-    def _write(self, folder: Path, study: Study, tables: list[Sheet]) -> None:
+    def _write(self, folder: Path, study: Study, tables: list[ResultSheet]) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         page = "# Feature extraction, measured\n\n" + _markdown(tables)
         (folder / "features.md").write_text(page + "\n", encoding="utf-8")
@@ -135,5 +135,5 @@ class Arguments:
             save_figures(study, self._told, folder)
 
 
-def _markdown(tables: list[Sheet]) -> str:
+def _markdown(tables: list[ResultSheet]) -> str:
     return "\n\n".join(table.markdown() for table in tables)

@@ -12,9 +12,9 @@ from studies.features.overlap import Overlap
 from studies.features.places import compare_arcs, compare_corners, compare_corridors
 from studies.features.records import (
     NAN,
+    CountingLimits,
     Detection,
-    Kind,
-    Limits,
+    FeatureKind,
     Rows,
     Sighting,
     middle,
@@ -22,7 +22,7 @@ from studies.features.records import (
 )
 
 
-def compare(scan: Scan, truth: Scene, found: Scene, limits: Limits) -> Rows:
+def compare(scan: Scan, truth: Scene, found: Scene, limits: CountingLimits) -> Rows:
     """What became of every true feature of a scan, and what every detected one is.
 
     A true feature that is not in good view is no demand, but finding it is right.
@@ -44,7 +44,7 @@ def compare(scan: Scan, truth: Scene, found: Scene, limits: Limits) -> Rows:
     return [s for part in parts for s in part[0]], [d for part in parts for d in part[1]]
 
 
-def compare_walls(truth: Scene, found: Scene, limits: Limits) -> Rows:
+def compare_walls(truth: Scene, found: Scene, limits: CountingLimits) -> Rows:
     """A wall is found if detected walls cover enough of it, and right the other way round."""
     walls = [wall for wall in truth.walls if limits.shows(wall)]
     overlap, back = Overlap(walls, found.walls), Overlap(found.walls, truth.walls)
@@ -57,11 +57,11 @@ def compare_walls(truth: Scene, found: Scene, limits: Limits) -> Rows:
         lengths = (wall.length, covered, longest)
         gated = limits.shows_well(wall)
         sightings.append(
-            Sighting(Kind.WALL, *where, gated, is_found, angle, place, NAN, NAN, *lengths)
+            Sighting(FeatureKind.WALL, *where, gated, is_found, angle, place, NAN, NAN, *lengths)
         )
     right = (back.covered >= limits.share * back.lengths).tolist()
     detections = [
-        Detection(Kind.WALL, *polar(middle(wall.start, wall.end)), is_right)
+        Detection(FeatureKind.WALL, *polar(middle(wall.start, wall.end)), is_right)
         for wall, is_right in zip(found.walls, right, strict=True)
     ]
     return sightings, detections
@@ -72,7 +72,9 @@ def _wall_errors(wall: Wall, found: Wall) -> tuple[float, float]:
     return angle, (math.dist(wall.start, found.start) + math.dist(wall.end, found.end)) / 2.0
 
 
-def compare_doors(scan: Scan, truth: Sequence[Door], found: Sequence[Door], limits: Limits) -> Rows:
+def compare_doors(
+    scan: Scan, truth: Sequence[Door], found: Sequence[Door], limits: CountingLimits
+) -> Rows:
     """Doors by the gate; detections within its reach count."""
     reach = limits.door.reach
     near = [d for d in found if max(math.hypot(*d.start), math.hypot(*d.end)) <= reach]
@@ -85,10 +87,10 @@ def compare_doors(scan: Scan, truth: Sequence[Door], found: Sequence[Door], limi
         place, size = min(hits, default=(NAN, NAN))
         gated = view is View.GATED
         where = polar(door.midpoint)
-        sightings.append(Sighting(Kind.DOOR, *where, gated, bool(hits), NAN, place, size))
+        sightings.append(Sighting(FeatureKind.DOOR, *where, gated, bool(hits), NAN, place, size))
     detections = [
         Detection(
-            Kind.DOOR,
+            FeatureKind.DOOR,
             *polar(door.midpoint),
             any(matches(door, true.start, true.end) for true in truth),
             door.confidence,

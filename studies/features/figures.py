@@ -18,7 +18,7 @@ from studies.features.metrics import (
     score,
     segmentation_rates,
 )
-from studies.features.records import Kind
+from studies.features.records import FeatureKind
 from studies.features.study import Study
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def by_noise(study: Study) -> Figure:
     figure, axes = _three()
     millimetres = [1e3 * sigma for sigma in study.sigmas]
     pools = [study.pooled(sigma=sigma) for sigma in study.sigmas]
-    for kind in Kind:
+    for kind in FeatureKind:
         scores = [score(pool.sightings, pool.detections, kind) for pool in pools]
         _draw(axes, kind, millimetres, scores)
     _finish(axes, "sigma, mm", millimetres)
@@ -72,7 +72,7 @@ def by_bin(
     figure, axes = _three()
     pool = study.pooled(sigma=sigma)
     edges = unit * np.array(borders)
-    for kind in Kind:
+    for kind in FeatureKind:
         scores = binned(pool.sightings, pool.detections, kind, column, borders)
         _draw(axes, kind, (0.5 * (edges[:-1] + edges[1:])).tolist(), scores)
     _finish(axes, label, edges.tolist())
@@ -87,7 +87,7 @@ def reliability(study: Study, sigma: float) -> Figure:
     bins = calibration(study.pooled(sigma=sigma).detections)
     ax.plot([0, 1], [0, 1], "--", color="0.6", label="as it should be")
     mean, share = [b.confidence for b in bins], [b.precision for b in bins]
-    ax.plot(mean, share, "o-", color=COLOURS[Kind.DOOR], label="doors")
+    ax.plot(mean, share, "o-", color=COLOURS[FeatureKind.DOOR], label="doors")
     for each in bins:
         where = (each.confidence, each.precision)
         ax.annotate(
@@ -135,7 +135,7 @@ _READ: tuple[Callable[[Score], float], ...] = (
 )
 
 
-def _draw(axes: list[Axes], kind: Kind, places: list[float], scores: list[Score]) -> None:
+def _draw(axes: list[Axes], kind: FeatureKind, places: list[float], scores: list[Score]) -> None:
     for ax, read in zip(axes, _READ, strict=True):
         values = [read(each) for each in scores]
         ax.plot(places, values, "o-", color=COLOURS[kind], label=kind.label, markersize=4)

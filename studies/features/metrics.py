@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from studies.features.overlap import segmentation_rate
-from studies.features.records import Kind
+from studies.features.records import FeatureKind
 
 Table = NDArray[np.void]
 """Of `Sighting` or of `Detection`, see `records.as_table`."""
@@ -64,7 +64,7 @@ class Score:
         return 2.0 * self.recall * self.precision / total if total else 0.0
 
 
-def score(sightings: Table, detections: Table, kind: Kind) -> Score:
+def score(sightings: Table, detections: Table, kind: FeatureKind) -> Score:
     """The score of one kind of feature; errors are those of features in good view."""
     sightings = sightings[sightings["kind"] == kind]
     detections = detections[detections["kind"] == kind]
@@ -86,7 +86,7 @@ def score(sightings: Table, detections: Table, kind: Kind) -> Score:
 
 def segmentation_rates(sightings: Table) -> tuple[float, float]:
     """Weerakoon (11) over all walls in view: by all detections together, and by the longest."""
-    walls = sightings[sightings["kind"] == Kind.WALL]
+    walls = sightings[sightings["kind"] == FeatureKind.WALL]
     return (
         segmentation_rate(walls["length"], walls["covered"]),
         segmentation_rate(walls["length"], walls["longest"]),
@@ -94,7 +94,7 @@ def segmentation_rates(sightings: Table) -> tuple[float, float]:
 
 
 def binned(
-    sightings: Table, detections: Table, kind: Kind, column: str, borders: Sequence[float]
+    sightings: Table, detections: Table, kind: FeatureKind, column: str, borders: Sequence[float]
 ) -> list[Score]:
     """The score in each bin of the range or of the bearing to either side."""
     return [
@@ -124,7 +124,7 @@ class Bin:
 
 def calibration(detections: Table, borders: Sequence[float] = CONFIDENCES) -> list[Bin]:
     """A reliability table of the doors' confidences; bins without doors are left out."""
-    doors = detections[detections["kind"] == Kind.DOOR]
+    doors = detections[detections["kind"] == FeatureKind.DOOR]
     bins = []
     for low, high in pairwise(borders):
         inside = doors["confidence"] >= low

@@ -10,7 +10,15 @@ import numpy as np
 
 from semnav_env.features.frames import Point
 from semnav_env.features.scene import Arc, Corner, CornerKind, CorridorProbe, Scene, Wall
-from studies.features.records import NAN, Detection, Kind, Limits, Rows, Sighting, polar
+from studies.features.records import (
+    NAN,
+    CountingLimits,
+    Detection,
+    FeatureKind,
+    Rows,
+    Sighting,
+    polar,
+)
 
 T = TypeVar("T", Corner, CorridorProbe, Arc)
 
@@ -18,12 +26,12 @@ AT_CORNER = 0.02
 """A true wall with an end this close to a true corner is one of its walls, metres."""
 
 
-def compare_corners(truth: Scene, found: Scene, limits: Limits, full: bool) -> Rows:
+def compare_corners(truth: Scene, found: Scene, limits: CountingLimits, full: bool) -> Rows:
     """Full corners (inner and outer) or potential ones, each found once.
 
     A corner is in good view if all its walls are.
     """
-    kind = Kind.FULL_CORNER if full else Kind.POTENTIAL_CORNER
+    kind = FeatureKind.FULL_CORNER if full else FeatureKind.POTENTIAL_CORNER
     wanted = [c for c in truth.corners if (c.kind is not CornerKind.POTENTIAL) is full]
     given = [c for c in found.corners if (c.kind is not CornerKind.POTENTIAL) is full]
     pairs = _pairs(wanted, given, lambda corner: corner.point, limits.point)
@@ -42,20 +50,20 @@ def compare_corners(truth: Scene, found: Scene, limits: Limits, full: bool) -> R
     return sightings, _detections(kind, given, lambda corner: corner.point, pairs)
 
 
-def _is_clear_corner(corner: Corner, walls: Sequence[Wall], limits: Limits) -> bool:
+def _is_clear_corner(corner: Corner, walls: Sequence[Wall], limits: CountingLimits) -> bool:
     ends = [(wall, end) for wall in walls for end in (wall.start, wall.end)]
     near = [wall for wall, end in ends if math.dist(end, corner.point) < AT_CORNER]
     return all(limits.shows_well(wall) for wall in near)
 
 
 def compare_corridors(
-    truth: Sequence[CorridorProbe], found: Sequence[CorridorProbe], limits: Limits
+    truth: Sequence[CorridorProbe], found: Sequence[CorridorProbe], limits: CountingLimits
 ) -> Rows:
     """Corridors by their midpoints, each found once; all are in good view."""
     pairs = _pairs(truth, found, lambda corridor: corridor.midpoint, limits.midpoint)
     sightings = [
         Sighting(
-            Kind.CORRIDOR,
+            FeatureKind.CORRIDOR,
             *polar(corridor.midpoint),
             True,
             k in pairs,
@@ -63,10 +71,10 @@ def compare_corridors(
         )
         for k, corridor in enumerate(truth)
     ]
-    return sightings, _detections(Kind.CORRIDOR, found, lambda each: each.midpoint, pairs)
+    return sightings, _detections(FeatureKind.CORRIDOR, found, lambda each: each.midpoint, pairs)
 
 
-def compare_arcs(truth: Sequence[Arc], found: Sequence[Arc], limits: Limits) -> Rows:
+def compare_arcs(truth: Sequence[Arc], found: Sequence[Arc], limits: CountingLimits) -> Rows:
     """Arcs by their centres, each found once."""
     pairs = _pairs(truth, found, lambda arc: arc.centre, limits.centre)
     sightings = []
@@ -78,13 +86,13 @@ def compare_arcs(truth: Sequence[Arc], found: Sequence[Arc], limits: Limits) -> 
             size = abs(match.radius - arc.radius) / arc.radius
         gated = limits.shows_well(arc)
         sightings.append(
-            Sighting(Kind.ARC, *polar(arc.centre), gated, k in pairs, NAN, place, size)
+            Sighting(FeatureKind.ARC, *polar(arc.centre), gated, k in pairs, NAN, place, size)
         )
-    return sightings, _detections(Kind.ARC, found, lambda arc: arc.centre, pairs)
+    return sightings, _detections(FeatureKind.ARC, found, lambda arc: arc.centre, pairs)
 
 
 def _detections(
-    kind: Kind, found: Sequence[T], place: Callable[[T], Point], pairs: dict[int, int]
+    kind: FeatureKind, found: Sequence[T], place: Callable[[T], Point], pairs: dict[int, int]
 ) -> list[Detection]:
     right = set(pairs.values())
     return [Detection(kind, *polar(place(item)), k in right) for k, item in enumerate(found)]

@@ -21,7 +21,7 @@ from semnav_env.features import (
     extract,
 )
 from semnav_env.features.readers import open_log
-from studies.sheets import Cell, Sheet
+from studies.sheets import Cell, ResultSheet
 
 
 def find_logs(folder: Path) -> list[Path]:
@@ -36,13 +36,13 @@ def find_logs(folder: Path) -> list[Path]:
     return logs
 
 
-def log_sheet(rows: Sequence[tuple[Cell, ...]]) -> Sheet:
+def log_sheet(rows: Sequence[tuple[Cell, ...]]) -> ResultSheet:
     """The rows of `log_row` as a table."""
     columns = (
         *("log", "scans", "bad lines", "scenes that are not finite", "walls", "doors", "corners"),
         *("corridors", "arcs", "median us a scan"),
     )
-    return Sheet("Real logs, features a scan", columns, rows)
+    return ResultSheet("Real logs, features a scan", columns, rows)
 
 
 def log_row(path: Path, settings: ExtractorSettings) -> tuple[Cell, ...]:

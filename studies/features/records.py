@@ -18,7 +18,7 @@ from studies.doors.door_sightings import Gate
 NAN = math.nan
 
 
-class Kind(IntEnum):
+class FeatureKind(IntEnum):
     """What is counted."""
 
     WALL = 0
@@ -38,10 +38,10 @@ class Sighting(NamedTuple):
     """A true feature in one scan, and what became of it. NaN where a number has no meaning.
 
     Attributes:
-        kind: see `Kind`.
+        kind: see `FeatureKind`.
         range: of its middle, metres.
         bearing: of its middle, radians.
-        gated: it is in good view, see `Limits`.
+        gated: it is in good view, see `CountingLimits`.
         found: some detection is it.
         angle: error of a wall's direction, radians.
         place: error in metres of its ends (the mean of both), its point, midpoint or centre.
@@ -52,7 +52,7 @@ class Sighting(NamedTuple):
         longest: how much of it the longest one covers, metres.
     """
 
-    kind: Kind
+    kind: FeatureKind
     range: float
     bearing: float
     gated: bool
@@ -70,14 +70,14 @@ class Detection(NamedTuple):
     """A detected feature in one scan.
 
     Attributes:
-        kind: see `Kind`.
+        kind: see `FeatureKind`.
         range: of its middle, metres.
         bearing: of its middle, radians.
         right: it is a true one, in good view or not.
         confidence: of a door, 0 to 1; NaN for others.
     """
 
-    kind: Kind
+    kind: FeatureKind
     range: float
     bearing: float
     right: bool
@@ -85,7 +85,7 @@ class Detection(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Limits:
+class CountingLimits:
     """When a feature counts as in good view (gated), and what counts as finding it.
 
     Attributes:

@@ -17,9 +17,9 @@ from studies.features.metrics import (
     score,
     segmentation_rates,
 )
-from studies.features.records import Kind
+from studies.features.records import FeatureKind
 from studies.features.study import Outcome, Study
-from studies.sheets import Cell, Sheet
+from studies.sheets import Cell, ResultSheet
 
 COUNTS = (
     *("in good view", "recall", "in view", "recall, all in view"),
@@ -28,7 +28,7 @@ COUNTS = (
 """Columns of `_counts`."""
 
 
-def sheets(study: Study, sigma: float) -> list[Sheet]:
+def sheets(study: Study, sigma: float) -> list[ResultSheet]:
     """All tables; those by plan, range, bearing and confidence for one noise, `sigma`."""
     return [
         found_and_missed(study),
@@ -41,15 +41,15 @@ def sheets(study: Study, sigma: float) -> list[Sheet]:
     ]
 
 
-def in_short(study: Study, sigma: float) -> list[Sheet]:
+def in_short(study: Study, sigma: float) -> list[ResultSheet]:
     """Recall and precision over all poses for one noise; the strategies if there are several."""
     outcome = study.pooled(sigma=sigma)
-    rows = [(kind.label, *_counts(outcome, kind)) for kind in Kind]
-    short = Sheet(f"Over all poses, sigma {1e3 * sigma:g} mm", ("feature", *COUNTS), rows)
+    rows = [(kind.label, *_counts(outcome, kind)) for kind in FeatureKind]
+    short = ResultSheet(f"Over all poses, sigma {1e3 * sigma:g} mm", ("feature", *COUNTS), rows)
     return [short, strategies(study)] if len(study.strategies) > 1 else [short]
 
 
-def found_and_missed(study: Study) -> Sheet:
+def found_and_missed(study: Study) -> ResultSheet:
     """Recall and precision of every kind with the default settings."""
     rows = [
         (place, _yes(clutter), 1e3 * sigma, kind.label, *_counts(outcome, kind))
@@ -57,17 +57,17 @@ def found_and_missed(study: Study) -> Sheet:
         for clutter in (False, True)
         for sigma in study.sigmas
         for outcome in [study.pooled(sigma=sigma, place=place, clutter=clutter)]
-        for kind in Kind
+        for kind in FeatureKind
         if outcome.scans
     ]
     columns = ("poses", "clutter", "sigma, mm", "feature", *COUNTS)
-    return Sheet("Found and missed, default settings", columns, rows)
+    return ResultSheet("Found and missed, default settings", columns, rows)
 
 
-def doors_by_plan(study: Study, sigma: float) -> Sheet:
+def doors_by_plan(study: Study, sigma: float) -> ResultSheet:
     """Recall and precision of doors in every plan."""
     rows = [
-        (plan, place, _yes(clutter), *_counts(outcome, Kind.DOOR))
+        (plan, place, _yes(clutter), *_counts(outcome, FeatureKind.DOOR))
         for plan in study.plans
         for place in PLACES
         for clutter in (False, True)
@@ -75,15 +75,15 @@ def doors_by_plan(study: Study, sigma: float) -> Sheet:
         if outcome.scans
     ]
     title = f"Doors by floor plan, sigma {1e3 * sigma:g} mm"
-    return Sheet(title, ("floor plan", "poses", "clutter", *COUNTS), rows)
+    return ResultSheet(title, ("floor plan", "poses", "clutter", *COUNTS), rows)
 
 
-def errors(study: Study) -> Sheet:
+def errors(study: Study) -> ResultSheet:
     """Errors of what was found in good view."""
     rows: list[tuple[Cell, ...]] = []
     for sigma in study.sigmas:
         outcome = study.pooled(sigma=sigma)
-        for kind in Kind:
+        for kind in FeatureKind:
             each = score(outcome.sightings, outcome.detections, kind)
             if not each.gated:
                 continue
@@ -94,10 +94,10 @@ def errors(study: Study) -> Sheet:
     named = ("angle, degrees", "place, m", "place, % of range", "door width, m, or radius, share")
     both = [f"{name}: {part}" for name in named for part in ("median", "90 %")]
     columns = ("sigma, mm", "feature", *both, "inner or outer right")
-    return Sheet("Errors of what was found, default settings", columns, rows)
+    return ResultSheet("Errors of what was found, default settings", columns, rows)
 
 
-def strategies(study: Study) -> Sheet:
+def strategies(study: Study) -> ResultSheet:
     """Every strategy at every noise."""
     rows = [
         (name, 1e3 * sigma, *_strategy(study.pooled(name, sigma)))
@@ -109,17 +109,17 @@ def strategies(study: Study) -> Sheet:
         *("wall recall", "wall precision", "door recall", "door precision", "corner F1"),
         *("corner F1, potential", "median us a scan"),
     )
-    return Sheet("Strategies", columns, rows)
+    return ResultSheet("Strategies", columns, rows)
 
 
 def by_bin(
     study: Study, sigma: float, column: str, title: str, borders: Sequence[float], unit: float
-) -> Sheet:
+) -> ResultSheet:
     """Recall and precision of every kind by range or by the bearing to either side."""
     outcome = study.pooled(sigma=sigma)
     rows = [
         (kind.label, f"{unit * low:g} to {unit * high:g}", *_of(each))
-        for kind in Kind
+        for kind in FeatureKind
         for low, high, each in zip(
             borders[:-1],
             borders[1:],
@@ -127,18 +127,18 @@ def by_bin(
             strict=True,
         )
     ]
-    return Sheet(f"By {column}, sigma {1e3 * sigma:g} mm", ("feature", title, *COUNTS), rows)
+    return ResultSheet(f"By {column}, sigma {1e3 * sigma:g} mm", ("feature", title, *COUNTS), rows)
 
 
-def reliability(study: Study, sigma: float) -> Sheet:
+def reliability(study: Study, sigma: float) -> ResultSheet:
     """How often doors are doors that were found with some confidence."""
     bins = calibration(study.pooled(sigma=sigma).detections)
     rows = [(f"{b.low:.1f} to {b.high:.1f}", b.detections, b.confidence, b.precision) for b in bins]
     columns = ("confidence", "detections", "mean confidence", "share that are doors")
-    return Sheet(f"Confidence of doors, sigma {1e3 * sigma:g} mm", columns, rows)
+    return ResultSheet(f"Confidence of doors, sigma {1e3 * sigma:g} mm", columns, rows)
 
 
-def _counts(outcome: Outcome, kind: Kind) -> tuple[Cell, ...]:
+def _counts(outcome: Outcome, kind: FeatureKind) -> tuple[Cell, ...]:
     return _of(score(outcome.sightings, outcome.detections, kind))
 
 
@@ -149,10 +149,10 @@ def _of(each: Score) -> tuple[Cell, ...]:
 
 def _strategy(outcome: Outcome) -> Iterator[Cell]:
     yield from segmentation_rates(outcome.sightings)
-    for kind in (Kind.WALL, Kind.DOOR):
+    for kind in (FeatureKind.WALL, FeatureKind.DOOR):
         each = score(outcome.sightings, outcome.detections, kind)
         yield from (each.recall, each.precision)
-    for kind in (Kind.FULL_CORNER, Kind.POTENTIAL_CORNER):
+    for kind in (FeatureKind.FULL_CORNER, FeatureKind.POTENTIAL_CORNER):
         yield score(outcome.sightings, outcome.detections, kind).f1
     yield float(1e6 * np.median(outcome.seconds)) if outcome.scans else math.nan
 

@@ -14,10 +14,10 @@ import numpy as np
 from semnav_env.features import ExtractorSettings, extract
 from semnav_env.features.strategies import BreakpointRule, Segmentation, strategy_names
 from semnav_env.maps import FloorPlan
-from studies.features.cases import Case, Situation, draw_cases
+from studies.features.cases import Case, CaseSituation, draw_cases
 from studies.features.comparison import compare
 from studies.features.metrics import Table
-from studies.features.records import Detection, Limits, Sighting, as_table
+from studies.features.records import CountingLimits, Detection, Sighting, as_table
 
 DEFAULT = "default"
 
@@ -54,7 +54,7 @@ class Condition:
     """
 
     strategy: str
-    situation: Situation
+    situation: CaseSituation
     sigma: float
 
 
@@ -102,7 +102,7 @@ class Study:
     """
 
     strategies: Strategies
-    limits: Limits = field(default_factory=Limits)
+    limits: CountingLimits = field(default_factory=CountingLimits)
     outcomes: dict[Condition, Outcome] = field(default_factory=dict)
     cases: int = 0
 

@@ -28,7 +28,7 @@ from studies.matching.matching import (
     read_ways,
     simulated_pairs,
 )
-from studies.sheets import Cell, Sheet
+from studies.sheets import Cell, ResultSheet
 
 
 @dataclass(frozen=True)
@@ -66,11 +66,11 @@ class Arguments:
         found = (self._simulated(name, sigma) for name, sigma in cases)
         for row in tracked(found, lambda n: f"{n} cases", lambda: len(rows) / len(cases)):
             rows.append(row)
-        sheets = [Sheet("Simulated pairs", _SIMULATED, rows)] if rows else []
+        sheets = [ResultSheet("Simulated pairs", _SIMULATED, rows)] if rows else []
         if self.logs:
-            sheets.append(Sheet("Successive scans", _REAL, [*map(self._real, self.logs)]))
+            sheets.append(ResultSheet("Successive scans", _REAL, [*map(self._real, self.logs)]))
             drifts = [self._drift(path, wheels) for path in self.logs for wheels in (False, True)]
-            sheets.append(Sheet("Odometry from scans", _DRIFT, drifts))
+            sheets.append(ResultSheet("Odometry from scans", _DRIFT, drifts))
         if self.json:
             print(json.dumps({sheet.title: sheet.records() for sheet in sheets}))
         else:

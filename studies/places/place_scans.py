@@ -12,7 +12,7 @@ import numpy as np
 from semnav_env.features import ExtractorSettings, extract
 from semnav_env.features.readers import open_log
 from studies.places.passage import PassageLimits, is_corridor
-from studies.sheets import Cell, Sheet
+from studies.sheets import Cell, ResultSheet
 
 CLUTTER_SLICES = Path("clutter_slices") / "clutter_slices.npz"
 CORRIDOR = "Corridor_main"
@@ -56,7 +56,7 @@ def called_corridor(
         return [is_corridor(extract(record.scan, settings), limits) for record in log]
 
 
-def place_sheets(labels: PlaceLabels, called: list[bool], corridor: str) -> Iterator[Sheet]:
+def place_sheets(labels: PlaceLabels, called: list[bool], corridor: str) -> Iterator[ResultSheet]:
     """How many scans of each place, and of each position in the corridor, are called one.
 
     Args:
@@ -77,14 +77,14 @@ def place_sheets(labels: PlaceLabels, called: list[bool], corridor: str) -> Iter
     f1 = 2.0 * right / int(truth.sum() + given.sum())
     row = (corridor, len(truth), int(truth.sum()), int(given.sum()), precision, recall, f1)
     columns = ("corridor", "scans", "of it", "called one", "precision", "recall", "F1")
-    yield Sheet("Corridors told from other places", columns, [row])
+    yield ResultSheet("Corridors told from other places", columns, [row])
     yield _shares("place", np.array(labels.places), given)
     yield _shares("position in it", np.array(labels.positions)[truth], given[truth])
 
 
-def _shares(what: str, names: np.ndarray, given: np.ndarray) -> Sheet:
+def _shares(what: str, names: np.ndarray, given: np.ndarray) -> ResultSheet:
     rows: list[tuple[Cell, ...]] = []
     for name in dict.fromkeys(names.tolist()):
         there = names == name
         rows.append((name, int(there.sum()), int(given[there].sum())))
-    return Sheet(f"By {what}", (what, "scans", "called a corridor"), rows)
+    return ResultSheet(f"By {what}", (what, "scans", "called a corridor"), rows)

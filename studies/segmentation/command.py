@@ -16,7 +16,7 @@ from semnav_env.scripts.progress import tracked
 from studies.features.study import all_strategies
 from studies.segmentation.segment_labels import LabelledScan, labelled_scans
 from studies.segmentation.segmentation import Rate, known_noise, measure
-from studies.sheets import Sheet
+from studies.sheets import ResultSheet
 
 MEASURES = {
     "lines": "Straight walls, by the whole chain",
@@ -103,8 +103,8 @@ def strategies() -> dict[str, ExtractorSettings]:
     }
 
 
-def _sheet(measure: str, rates: dict[str, list[Rate]]) -> Sheet:
+def _sheet(measure: str, rates: dict[str, list[Rate]]) -> ResultSheet:
     noises = [rate.noise for rate in next(iter(rates.values()))]
     columns = ("strategy", *(f"{1e3 * noise:g} mm" for noise in noises))
     rows = [(name, *(getattr(rate, measure) for rate in row)) for name, row in rates.items()]
-    return Sheet(MEASURES[measure], columns, rows)
+    return ResultSheet(MEASURES[measure], columns, rows)

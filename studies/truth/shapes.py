@@ -31,7 +31,7 @@ STRAIGHT_ON = math.radians(0.5)
 
 
 @dataclass(frozen=True)
-class Circle:
+class PlanCircle:
     """The circle that a round surface follows.
 
     Attributes:
@@ -61,7 +61,7 @@ class Shapes:
     walls: NDArray[np.intp]
     lengths: FloatArray
     surfaces: NDArray[np.intp]
-    circles: dict[int, Circle]
+    circles: dict[int, PlanCircle]
 
     @classmethod
     def of(cls, floor_plan: FloorPlan) -> Shapes:
@@ -83,7 +83,7 @@ class Shapes:
         return cls(table[:, 1:], walls, lengths, table[:, 0].astype(np.intp), circles)
 
 
-def fit_circle(surface: Surface) -> Circle | None:
+def fit_circle(surface: Surface) -> PlanCircle | None:
     """The circle that a surface follows, if it is round.
 
     It is if all its points lie within `ROUND_ERROR` of one circle, fitted by least squares
@@ -108,7 +108,7 @@ def fit_circle(surface: Surface) -> Circle | None:
     close = bool((np.abs(np.hypot(*arms.T) - radius) <= ROUND_ERROR).all())
     if not (close and one_way and (np.abs(turns) <= ROUND_STEP + 1e-9).all()):
         return None
-    return Circle((float(centre[0]), float(centre[1])), radius, float(np.abs(turns).sum()))
+    return PlanCircle((float(centre[0]), float(centre[1])), radius, float(np.abs(turns).sum()))
 
 
 def straight_walls(segments: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:

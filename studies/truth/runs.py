@@ -12,8 +12,8 @@ import numpy as np
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local
 from semnav_env.features.scene import Arc, Wall
 from semnav_env.lidar.spec import LidarSpec
-from semnav_env.truth.shapes import Circle, Shapes
-from semnav_env.truth.sweep import NOTHING, Outline
+from studies.truth.shapes import PlanCircle, Shapes
+from studies.truth.sweep import NOTHING, Outline
 
 JOINED = 0.01
 """Stretches that end and begin this close together belong together, metres."""
@@ -89,7 +89,7 @@ def _connected(outline: Outline) -> Iterator[list[int]]:
 
 def _by_shape(
     group: list[int], outline: Outline, shapes: Shapes
-) -> Iterator[tuple[Circle | None, list[int]]]:
+) -> Iterator[tuple[PlanCircle | None, list[int]]]:
     """Successive stretches of one round surface, or of none."""
 
     def surface(k: int) -> int:
@@ -101,7 +101,7 @@ def _by_shape(
 
 
 def _pieces(
-    circle: Circle | None,
+    circle: PlanCircle | None,
     part: list[int],
     outline: Outline,
     shapes: Shapes,
@@ -158,7 +158,9 @@ def _wall(part: list[int], outline: Outline, shapes: Shapes, spec: LidarSpec) ->
     return Wall(start, end, beams=beams, visible=min(1.0, math.dist(start, end) / whole))
 
 
-def _arc(circle: Circle, part: list[int], outline: Outline, lidar: Pose, spec: LidarSpec) -> Arc:
+def _arc(
+    circle: PlanCircle, part: list[int], outline: Outline, lidar: Pose, spec: LidarSpec
+) -> Arc:
     start, end = _ends(part, outline)
     centre = to_local(lidar, circle.centre)
     middle = part[len(part) // 2]
