@@ -17,7 +17,7 @@ INSTALLED = {
 MAY_NEED = {
     "features/mapping": {"scipy"},
     "features/plot.py": {"matplotlib"},
-    "features/readers": {"rosbags", "lz4", "backports", "compression"},
+    "features/readers": {"rosbags"},
 }
 
 

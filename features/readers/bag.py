@@ -7,9 +7,9 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Protocol
 
-from semnav_env.features.readers.bag_stream import StreamedBag
 from semnav_env.features.readers.channel import Channel, Message
 from semnav_env.features.readers.log import DamageError
+from semnav_env.features.readers.salvage import SalvagedBag
 
 
 class Bag(Protocol):
@@ -92,7 +92,7 @@ def open_bag(path: Path) -> Bag:
     try:
         return IndexedBag(path)
     except Exception:  # bags without an index, of other kinds of messages, or damaged in any way
-        return StreamedBag(path)
+        return SalvagedBag(path)
 
 
 def _begins(path: Path, magic: bytes) -> bool:

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.lib import format as npy
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.readers.binary import exactly
 from semnav_env.features.readers.log import DamageError, LogError
 
 
@@ -81,11 +80,11 @@ class NpzArrays:
             (rows, columns), by_columns, dtype = self._header(name, file)
             size = columns * dtype.itemsize
             if by_columns:
-                data = exactly(file, rows * size)
+                data = _exactly(file, rows * size)
                 yield from np.frombuffer(data, dtype).reshape(columns, rows).T.astype(np.float64)
                 return
             for _ in range(rows):
-                yield np.frombuffer(exactly(file, size), dtype).astype(np.float64)
+                yield np.frombuffer(_exactly(file, size), dtype).astype(np.float64)
 
     def close(self) -> None:
         """Close the file."""
@@ -112,7 +111,7 @@ class NpzArrays:
             return None
         with _damage(), self._member(name) as file:
             shape, by_columns, dtype = self._header(name, file)
-            data = exactly(file, int(np.prod(shape)) * dtype.itemsize)
+            data = _exactly(file, int(np.prod(shape)) * dtype.itemsize)
         flat = np.frombuffer(data, dtype).astype(np.float64)
         return flat.reshape(shape[::-1]).T if by_columns else flat.reshape(shape)
 
@@ -126,3 +125,10 @@ def _damage() -> Iterator[None]:
         yield
     except (EOFError, zipfile.BadZipFile, zlib.error):
         raise DamageError from None
+
+
+def _exactly(file: IO[bytes], size: int) -> bytes:
+    data = file.read(size)
+    if len(data) != size:
+        raise EOFError
+    return data
