@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 from semnav_env.agents.base import Observation
 from semnav_env.agents.pilot import Pilot
 from semnav_env.agents.planning.obstacles import points_of_segments
-from semnav_env.agents.scripted import read_odometry
 from semnav_env.features.frames import points_to_local
 from semnav_env.features.scene import ends_of
-from semnav_env.observations import SeenGoal
+from semnav_env.observations import SeenGoal, read_odometry
 
 
 class OracleAgent:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -11,9 +10,9 @@ from numpy.typing import NDArray
 from semnav_env.agents.base import Observation
 from semnav_env.agents.pilot import Pilot
 from semnav_env.agents.planning.obstacles import ObstacleMemory, points_of_segments
-from semnav_env.features.frames import Pose, compose, points_to_parent
-from semnav_env.lidar.spec import LidarSpec
-from semnav_env.observations import SeenGoal, table
+from semnav_env.features.frames import compose, points_to_parent
+from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.observations import SeenGoal, read_odometry, table
 
 
 class ScriptedAgent:
@@ -48,12 +47,7 @@ class ScriptedAgent:
         self._obstacles.update(compose(pose, mount), ranges, self._beams, limit)
         goal = SeenGoal.read(observation["goal"])
         doors = table(observation, "remembered_doors").astype(np.float64)
-        felt = points_to_parent(pose, table(observation, "felt").reshape(-1, 2).astype(np.float64))
-        points = np.vstack((self._obstacles.points(), points_of_segments(felt.reshape(-1, 4))))
+        bumps = table(observation, "bumps").reshape(-1, 2).astype(np.float64)
+        walls = points_to_parent(pose, bumps).reshape(-1, 4)
+        points = np.vstack((self._obstacles.points(), points_of_segments(walls)))
         return self._pilot.act(points, doors, goal, pose, velocity)
-
-
-def read_odometry(observation: Observation) -> tuple[Pose, Pose]:
-    """Pose and velocity from the "odometry" entry of an observation."""
-    x, y, cosine, sine, forward, left, turn = (float(v) for v in observation["odometry"])
-    return (x, y, math.atan2(sine, cosine)), (forward, left, turn)

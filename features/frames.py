@@ -14,6 +14,13 @@ Point: TypeAlias = tuple[float, float]
 Pose: TypeAlias = tuple[float, float, float]
 """(x, y, heading) in metres and radians."""
 
+Twist: TypeAlias = tuple[float, float, float]
+"""A velocity (forward m/s, left m/s, yaw rate rad/s) in the robot frame."""
+
+Contact: TypeAlias = tuple[float, float, float]
+"""Where a body touches something: (x, y) in metres, and the direction from there into the thing
+that is touched, radians; robot frame."""
+
 FloatArray: TypeAlias = NDArray[np.float64]
 
 

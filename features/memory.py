@@ -47,6 +47,14 @@ class SceneMemory:
         """Forget everything."""
         self._used[:] = 0
 
+    def copy(self) -> SceneMemory:
+        """What is remembered now, to be read; it has no room for more."""
+        copy = object.__new__(SceneMemory)
+        copy._used = self._used.copy()
+        walls, doors, _ = self._used.tolist()
+        copy._walls, copy._doors = self._walls[:walls].copy(), self._doors[:doors].copy()
+        return copy
+
     def update(
         self,
         walls: NDArray[np.void],

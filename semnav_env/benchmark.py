@@ -11,12 +11,12 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 
+from semnav_env.belief import BeliefTracker
+from semnav_env.belief.understand import extract_features
 from semnav_env.env import SemNavEnv
 from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import compose
 from semnav_env.lidar.raster import cast
-from semnav_env.perception import Perception
-from semnav_env.senses import extract_features
 
 RESETS = 20
 """Resets timed in a run; one takes as long as many steps."""
@@ -109,13 +109,14 @@ def _drive(env: gym.Env[Any, Any], actions: np.ndarray) -> float:
 
 def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], float]]]:
     """The parts of a step by themselves, at the environment's present pose."""
-    perception, pose = Perception(env.perception.lidar, env.extractor), env.world.pose
-    perception.begin(env.task.verifier.command, env.task.verifier.ways, env.task.verifier.start)
+    lidar, pose = env.simulator.lidar, env.world.pose
+    tracker = BeliefTracker(env.lidar_spec, lidar.mount, env.extractor)
+    tracker.begin(env.judge.verifier.mission.command)
     lidar_pose = compose(pose, env.robot.lidar_mount)
     velocity = (0.3, 0.0, 0.2)
-    perception.sense(pose, pose, velocity, (0, 0, 0))
-    arrays: tuple[Any, ...] = perception.lidar.arrays[:5]
-    out = np.empty(env.lidar_spec.beams)
+    arrays: tuple[Any, ...] = lidar.arrays[:5]
+    out = lidar.ranges(pose, (0, 0, 0))
+    tracker.update(out, pose, velocity)
     scene = env.floor_plan.scene
 
     def repeat(call: Callable[[int], object]) -> Callable[[], float]:
@@ -123,11 +124,11 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], fl
 
     return [
         ("scan without noise", repeat(lambda i: cast(*(*lidar_pose, *arrays, out)))),
-        ("scan with noise", repeat(lambda i: perception.lidar.ranges(pose, (0, 0, i), out))),
-        ("features", repeat(lambda i: extract_features(perception.senses))),
+        ("scan with noise", repeat(lambda i: lidar.ranges(pose, (0, 0, i), out))),
+        ("features", repeat(lambda i: extract_features(tracker.senses))),
         (
-            "scan, features, memory, goal",
-            repeat(lambda i: perception.sense(pose, pose, velocity, (0, 0, i))),
+            "features, memory, goal",
+            repeat(lambda i: tracker.update(out, pose, velocity)),
         ),
         ("world step", repeat(lambda i: env.world.step(TO_AND_FRO[i // 15 % 2]))),
         ("hallway (a few times a second)", repeat(lambda i: corridor_at(scene, pose))),

@@ -1,9 +1,8 @@
-"""The environment: the one place where world, lidar, perception, task and picture meet."""
+"""The environment: the one place where simulator, belief, judge and picture meet."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from numbers import Real
 from typing import Any
 
@@ -11,26 +10,35 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from semnav_env.actions import Actions
+from semnav_env.belief import Belief, BeliefTracker
+from semnav_env.commands import encode
 from semnav_env.dynamics import OFF, Dynamics, PlanSource
-from semnav_env.episodes.options import EpisodeOptions, Episodes
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Pose
-from semnav_env.lidar.lidar import Lidar
-from semnav_env.lidar.spec import LidarSpec, lidar_spec
+from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
+from semnav_env.features.validation import check_kind
 from semnav_env.maps import FloorPlan
-from semnav_env.observations import Observer
-from semnav_env.odometry import Odometry, OdometrySettings
-from semnav_env.perception import Perception, TruePerception
+from semnav_env.observations import Moment, ObservationType, as_observation
 from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
-from semnav_env.settings import check_kind
-from semnav_env.tasks import CommandTask, RewardWeights
-from semnav_env.verifier import Motion
+from semnav_env.robots.actions import Actions
+from semnav_env.simulator import OdometrySettings, RobotSetup, Sensed, Simulator
+from semnav_env.tasks import (
+    AdaptiveTask,
+    EpisodeJudge,
+    EpisodeRequest,
+    Episodes,
+    FrozenEpisodes,
+    MissionMaker,
+    Rewards,
+    RewardWeights,
+    Task,
+    Tick,
+    as_task,
+    spelled_out,
+)
+from semnav_env.verifier import Mission
 from semnav_env.world import World
-
-CONTROL_HZ = 15
-"""Steps per second, the rate of the lidar."""
 
 
 class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
@@ -60,7 +68,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     | corners, corners_mask | 48 * 3, 48 | x, y, kind: 0 outer, 1 inner, 2 potential |
     | corridors, corridors_mask | 24 * 2, 24 | x, y of midpoints of corridor entrances |
     | remembered_doors, .._mask | 16 * 4, 16 | doors seen in three or more scans so far |
-    | felt, felt_mask | 16 * 4, 16 | x, y of ends of what was run into unseen, such as glass |
+    | bumps, bumps_mask | 16 * 4, 16 | x, y of ends of walls bumped into unseen, such as glass |
     | command | 8 * 5 | the command as tokens, see `commands.tokens.encode` |
     | clause | 8 | one-hot: the clause that the robot believes to be under way |
     | odometry | 7 | x, y, cosine and sine of heading as the robot believes; its speeds |
@@ -70,16 +78,20 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     `observation="semantic"` has all but the scan; `"raw"` has scan, command, clause and odometry;
     `"all"` has everything; `"truth"` has the entries of "semantic" without errors: features from an
     exact scan, the true pose in the world as odometry, and the goal grounded on the floor plan.
+    An object with `space(robot, lidar)` and `observe(moment)` makes observations of its own;
+    `EntryObservation(mode, extra)` adds entries to a mode.
 
     ## Rewards
-    A weighted sum of named terms (`RewardWeights`), all in `info["reward_terms"]`: progress along
-    the shortest way, clauses done, success, failure, contact, time.
+    The sum of named terms (`RewardWeights`), all in `info["reward_terms"]`: progress along the
+    shortest way, clauses done, success, failure, contact, time. `AddedTerms` adds terms of one's
+    own; an object with `terms(tick)` replaces them all.
 
     ## Starting State
     `reset(options=...)` takes "command" (text or `Command`), its "language", "implicit_steps" (or
-    not), "pose" (x, y, heading; world frame) and "floor_plan". What is not given is drawn: a
-    free pose in a corridor looking along it, and a command that can be carried out from there. Or
-    "episode", an `Episode` or the id of one of `episodes`, which one is drawn from without options.
+    not), "pose" (x, y, heading; world frame) and "floor_plan", or "episode", an `Episode` or the id
+    of one of `episodes`. Without options the task says what the episode is asked to be. What is not
+    asked for is drawn: a free pose in a corridor looking along it, and a command that can be
+    carried out from there.
 
     ## Episode End
     Terminates when the command has been carried out, at a wrong door or a wrong turn, and after
@@ -87,12 +99,14 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     an episode; it is counted in `info["collisions"]`.
 
     ## Arguments
-    robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a
-    `FloorPlan`. observation: see above. lidar: "tim561", "barbret" or a `LidarSpec`. odometry:
-    drift, and whether walls seen again correct it. extractor: limits of the feature extractor.
-    rewards: weights. dynamics: what else moves. max_seconds: of simulated time. render_mode:
-    "rgb_array" or "human" (extra `render`). episodes: to draw from: the name of a split, a file,
-    or `Episode`s.
+    robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a `FloorPlan`.
+    observation: a mode, see above, or an observation type. lidar: "tim561", "barbret" or a
+    `LidarSpec`; its rate is the control rate. odometry: how dead reckoning errs. extractor: limits
+    of the feature extractor. corrects_drift: whether walls that are seen again correct odometry.
+    rewards: `RewardWeights`, or an object with `terms(tick)`. dynamics: what else moves.
+    task: a command, a list of commands, or a `Task`: what episodes are asked to be. episodes: to
+    draw from instead: the name of a split, a file, or `Episode`s. max_seconds: of simulated time.
+    render_mode: "rgb_array" or "human" (extra `render`).
 
     ## Version History
     v0: first version.
@@ -103,22 +117,24 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
 
     metadata = {  # noqa: RUF012 - declared so by gymnasium.Env
         "render_modes": ["rgb_array", "human"],
-        "render_fps": CONTROL_HZ,
+        "render_fps": 15,
     }
 
     def __init__(
         self,
         robot: str | RobotSpec = "wheelchair",
         floor_plan: str | FloorPlan = "heidelberg_hallway",
-        observation: str = "semantic",
+        observation: str | ObservationType = "semantic",
         lidar: str | LidarSpec = "tim561",
         odometry: OdometrySettings = OdometrySettings(),
         extractor: ExtractorSettings = ExtractorSettings(),
-        rewards: RewardWeights = RewardWeights(),
+        corrects_drift: bool = True,
+        rewards: Rewards = RewardWeights(),
         dynamics: Dynamics = OFF,
+        task: object = None,
+        episodes: Episodes | None = None,
         max_seconds: float = 120.0,
         render_mode: str | None = None,
-        episodes: Episodes | None = None,
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ValueError(f"no render mode {render_mode!r}; there are: rgb_array, human")
@@ -127,25 +143,31 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             raise ValueError(f"max_seconds is {max_seconds!r}; it must be positive and finite")
         check_kind("odometry", odometry, OdometrySettings)
         check_kind("extractor", extractor, ExtractorSettings)
-        check_kind("rewards", rewards, RewardWeights)
-        self.robot = robot_spec(robot)
-        self.lidar_spec = lidar_spec(lidar)
-        self.extractor = extractor
-        self.rewards = rewards
-        self.max_steps = round(max_seconds * CONTROL_HZ)
+        if not isinstance(rewards, Rewards) or isinstance(rewards, type):
+            raise ValueError(
+                f"rewards is {rewards!r:.80}; it must be a semnav_env.tasks.RewardWeights or have "
+                "terms(tick)"
+            )
+        if task is not None and episodes is not None:
+            raise ValueError("give task= or episodes=, not both")
+        self.extractor, self.corrects_drift, self.rewards = extractor, corrects_drift, rewards
+        self.episodes = None if episodes is None else FrozenEpisodes(episodes)
+        self.task: Task = as_task(task) if self.episodes is None else self.episodes
+        self.observation_type = as_observation(observation)
+        exact = bool(getattr(self.observation_type, "exact", False))
+        self.usual = RobotSetup(robot_spec(robot), lidar_spec(lidar), odometry, exact)
+        self.max_steps = round(max_seconds * self.usual.control_hz)
         self.render_mode = render_mode
-        self.odometry = Odometry(odometry)
-        self._observer = Observer(observation, self.lidar_spec.beams, self.lidar_spec.range_max)
-        self.plan_source = PlanSource(floor_plan, dynamics, self.robot)
-        self._enter(self.plan_source.plan())
-        self._actions = Actions(self.robot)
+        self.metadata = self.metadata | {"render_fps": self.usual.control_hz}
+        self.plan_source = PlanSource(floor_plan, dynamics, self.usual.robot)
+        self._enter(self.plan_source.plan(), self.usual)
         self.action_space = self._actions.space
-        self.observation_space = self._observer.space
-        self._asked, self._started = EpisodeOptions(episodes), False
+        self.observation_space = self.observation_type.space(self.robot, self.lidar_spec)
+        self._started = False
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+    ) -> tuple[Any, dict[str, Any]]:
         """Begin an episode; see the class for `options`.
 
         Raises:
@@ -154,23 +176,22 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         """
         super().reset(seed=seed)
         self._started = False
-        options = self._asked.complete(options, self.np_random)
-        floor_plan = self.plan_source.plan(options, self.np_random)
-        if floor_plan is not self.floor_plan:
-            self._enter(floor_plan)
-        start = self.task.begin(options, self.np_random)
-        self.world.reset(start, self.np_random)
-        self.odometry.reset(start, self.np_random)
-        self.perception.begin(self.task.verifier.command, self.task.verifier.ways, start)
-        self._noise_seed = int(self.np_random.integers(2**62))
-        self._steps, self._started = 0, True
-        self._sense(self.world.pose, self.world.velocity)
-        self._renderer.begin(start)
-        return self._observation(), self._reset_info(start)
+        asked = EpisodeRequest.from_options(options)
+        self._asked_by_task = asked is None
+        request = self.task.request(self.np_random) if asked is None else asked
+        request = spelled_out(request, self.episodes)
+        floor_plan = self.plan_source.plan(request.floor_plan, request.pose, self.np_random)
+        setup = self.usual.with_changes(request.robot, request.lidar, request.odometry)
+        if floor_plan is not self.floor_plan or setup != self.setup:
+            self._enter(floor_plan, setup)
+        mission = self._missions.make(request, self.np_random)
+        sensed = self.simulator.reset(mission.start, self.np_random)
+        self._begin(mission)
+        belief = self._believe(sensed)
+        self._started = True
+        return self._observation(belief), self._reset_info(request)
 
-    def step(
-        self, action: ArrayLike
-    ) -> tuple[dict[str, NDArray[Any]], float, bool, bool, dict[str, Any]]:
+    def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Drive for one control period.
 
         Raises:
@@ -179,24 +200,26 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         """
         if not self._started:
             raise RuntimeError("call reset() before step()")
-        world = self.world
-        world.step(self._actions.velocity(action))
-        pose, velocity = world.pose, world.velocity
-        self.odometry.update(pose)
-        self._steps += 1
-        self._renderer.note(pose)
-        self._sense(pose, velocity)
-        speed = math.hypot(velocity[0], velocity[1])
-        terms = self.task.step(Motion(pose, speed, velocity[2], world.in_contact, 1.0 / CONTROL_HZ))
-        verifier = self.task.verifier
+        sensed = self.simulator.step(self._actions.twist(action))
+        motion = sensed.motion
+        self._renderer.note(motion.pose)
+        belief = self._believe(sensed)
+        judgement, verifier = self.judge.update(motion), self.judge.verifier
+        terms = self.rewards.terms(Tick(*judgement, motion, belief, np.asarray(action)))
         terminated = verifier.over
-        truncated = not terminated and self._steps >= self.max_steps
+        truncated = not terminated and self.simulator.steps >= self.max_steps
         if truncated:
             verifier.out_of_time()
         if self.render_mode == "human":
             self.render()
-        info = self._info(pose, terms, terminated or truncated)
-        return self._observation(), sum(terms.values()), terminated, truncated, info
+        info = self.judge.info | {
+            "in_contact": motion.in_contact,
+            "reward_terms": terms,
+            "pose": motion.pose,
+        }
+        if terminated or truncated:
+            info |= self._end()
+        return self._observation(belief), sum(terms.values()), terminated, truncated, info
 
     def render(self) -> NDArray[np.uint8] | None:
         """The picture, shape (height, width, 3), or a window in "human" mode."""
@@ -210,61 +233,78 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self._renderer.close()
 
     @property
+    def robot(self) -> RobotSpec:
+        """The body of this episode."""
+        return self.setup.robot
+
+    @property
+    def lidar_spec(self) -> LidarSpec:
+        """The lidar of this episode."""
+        return self.setup.lidar
+
+    @property
+    def world(self) -> World:
+        """The physics."""
+        return self.simulator.world
+
+    @property
     def believed_pose(self) -> Pose:
-        """Where the robot believes to be, seen from its start; on the truth, in the world."""
-        return self.perception.pose
+        """Pose that the robot believes, seen from its start; on the truth, in the world."""
+        return self.belief.pose
 
     @property
     def seconds(self) -> float:
         """Simulated time since the start of the episode."""
-        return self._steps / CONTROL_HZ
+        return self.simulator.steps / self.setup.control_hz
 
-    def _enter(self, floor_plan: FloorPlan) -> None:
-        """Set everything up that belongs to one floor plan."""
-        self.floor_plan = floor_plan
-        self.world = World(floor_plan, self.robot, CONTROL_HZ, dynamics=self.plan_source.dynamics)
-        self.task = CommandTask(floor_plan, self.robot, self.rewards)
+    def _enter(self, floor_plan: FloorPlan, setup: RobotSetup) -> None:
+        """Set everything up that belongs to one floor plan and one robot."""
+        self.floor_plan, self.setup = floor_plan, setup
+        self.simulator = Simulator(floor_plan, setup, self.plan_source.dynamics)
+        self._missions = MissionMaker(floor_plan, setup.robot)
+        self._actions = Actions(setup.robot)
         self._renderer = Renderer(self.world.still)
-        self._truth = self._observer.mode == "truth"
-        exact = replace(self.lidar_spec, sigma=0.0, dropout=0.0, systematic=0.0)
-        spec = exact if self._truth else self.lidar_spec
-        lidar = Lidar(self.world.still, spec, self.robot.lidar_mount, self.world.moving_shapes)
-        corrected = self.odometry.settings.corrected
-        self.perception: Perception = Perception(lidar, self.extractor, corrected)
-        if self._truth:
-            self.perception = TruePerception(lidar, self.extractor, floor_plan.scene)
+        self.tracker = BeliefTracker(
+            setup.lidar,
+            setup.robot.lidar_mount,
+            self.extractor,
+            corrects_drift=self.corrects_drift and not setup.exact,
+            known_scene=floor_plan.scene if setup.exact else None,
+        )
 
-    def _sense(self, pose: Pose, velocity: Pose) -> None:
-        key = self._noise_seed, 0, self._steps
-        odometry = pose if self._truth else self.odometry.pose
-        self.perception.sense(pose, odometry, velocity, key, self.world.touches)
+    def _begin(self, mission: Mission) -> None:
+        """Give a mission to the judge, and its command to the robot."""
+        self.judge = EpisodeJudge(mission)
+        self._tokens = encode(mission.command, self.floor_plan.room_names)
+        odometry_frame = (0.0, 0.0, 0.0) if self.setup.exact else mission.start
+        ways = {clause: way.seen_from(odometry_frame) for clause, way in mission.ways.items()}
+        self.tracker.begin(mission.command, ways)
+        self._renderer.begin(mission.start)
 
-    def _observation(self) -> dict[str, NDArray[Any]]:
-        return self._observer.pack(self.perception.row, self.task.verifier.tokens)
+    def _believe(self, sensed: Sensed) -> Belief:
+        self.belief = self.tracker.update(
+            sensed.ranges, sensed.odometry, sensed.velocity, sensed.bumps
+        )
+        return self.belief
 
-    def _reset_info(self, start: Pose) -> dict[str, Any]:
-        verifier = self.task.verifier
-        return {
-            "command": str(verifier.command),
+    def _observation(self, belief: Belief) -> Any:
+        command = self.judge.verifier.mission.command
+        return self.observation_type.observe(Moment(belief, self.tracker, command, self._tokens))
+
+    def _reset_info(self, request: EpisodeRequest) -> dict[str, Any]:
+        mission = self.judge.verifier.mission
+        info = {
+            "command": str(mission.command),
             "floor_plan": self.floor_plan,
             "robot_spec": self.robot,
             "lidar_spec": self.lidar_spec,
-            "pose": start,
-            **verifier.true_route(),
-            **self._asked.info,
+            "pose": mission.start,
+            **mission.info,
         }
+        return info | ({"episode_id": request.episode_id} if request.episode_id else {})
 
-    def _info(self, pose: Pose, terms: dict[str, float], over: bool) -> dict[str, Any]:
-        verifier = self.task.verifier
-        info: dict[str, Any] = {
-            "verdicts": verifier.verdicts,
-            "collisions": verifier.collisions,
-            "in_contact": self.world.in_contact,
-            "path_length": verifier.path_length,
-            "reward_terms": terms,
-            "pose": pose,
-        }
-        if over:
-            info |= verifier.outcome() | self.world.social()
-            info["impossible"] = self.perception.follower.impossible
-        return info
+    def _end(self) -> dict[str, Any]:
+        """What is known at the end, for `info`; a task that learns is told."""
+        if self._asked_by_task and isinstance(self.task, AdaptiveTask):
+            self.task.note(self.judge.verifier.success)
+        return self.judge.outcome | self.world.social() | {"impossible": self.belief.impossible}

@@ -62,17 +62,17 @@ def ghost(
         pause: seconds to stand still at each point.
         stand: seconds to stand still at the end.
     """
-    speed, start = float(rng.uniform(0.5, 1.5)), verifier.start[:2]
+    speed, start = float(rng.uniform(0.5, 1.5)), verifier.mission.start[:2]
     aside = rng.uniform(-1e-3, 1e-3, 2)  # not through the very jambs, which lie on the grid
     path = np.array([start])
     for a, b in pairwise([start, *points]):
-        leg = _timed(verifier.geodesic.to(b).way(a) + aside, speed)
+        leg = _timed(verifier.mission.geodesic.to(b).way(a) + aside, speed)
         if wobble > 0.0:
             errors = np.cumsum(rng.normal(0.0, 0.1 * wobble, leg.shape), axis=0)
             leg += np.clip(errors, -wobble, wobble)
         path = np.vstack((path, leg, np.repeat(leg[-1:], round(pause / PERIOD), axis=0)))
     path = np.vstack((path, np.repeat(path[-1:], round(stand / PERIOD), axis=0)))
-    poses = np.column_stack((path, _headings(path, verifier.start[2])))
+    poses = np.column_stack((path, _headings(path, verifier.mission.start[2])))
     velocities = np.zeros((len(path), 3))
     velocities[1:, 0] = np.hypot(*np.diff(path, axis=0).T) / PERIOD
     turns = [wrap_angle(turn) for turn in np.diff(poses[:, 2]).tolist()]
@@ -85,7 +85,7 @@ def ghost(
 
 def targets(plan: FloorPlan, verifier: Verifier, rng: np.random.Generator) -> list[Point]:
     """The places of the goals, or with errors: others, too few, another door first."""
-    points = [_beyond(goal) for goal in verifier.planned_goals]
+    points = [_beyond(goal) for goal in verifier.mission.goals]
     kind = rng.integers(5)
     door = plan.doors[rng.integers(len(plan.doors))].midpoint
     if kind == 1:

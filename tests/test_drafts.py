@@ -34,10 +34,10 @@ from semnav_env.features.frames import Pose, to_local
 from semnav_env.grounding import Goal, ReachGoal
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import is_clear, placement_error
-from semnav_env.recheck import recheck
 from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.tasks.sampling import LEAST_AHEAD, WIDEST_HALF, in_junction, sample_start
-from semnav_env.verifier import Verdict, Verifier, plan_goals
+from semnav_env.verifier import Verdict, Verifier, plan_goals, plan_mission
+from semnav_env.verifier.recheck import recheck
 from tests.erring import ghost, targets
 
 OFFICE = "office:medium:2000017"
@@ -144,7 +144,7 @@ def test_both_judges_agree_on_drafted_conditions(clauses: int) -> None:
         assert len(command.clauses) == clauses
         for language in ("en", "de"):
             assert parse(command.say(language), language) == command
-        judge = Verifier(SITE.plan, SITE.geodesic, command, draft.start)
+        judge = Verifier(plan_mission(SITE.plan, SITE.geodesic, command, draft.start))
         recording = ghost(judge, targets(SITE.plan, judge, rng), rng, stand=11.0)
         assert recheck(recording, SITE.plan, judge.goals).verdict == judge.verdict
         verdicts.add(judge.verdict)

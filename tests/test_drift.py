@@ -19,7 +19,7 @@ from semnav_env.features.kernels.memory import REMEMBERED_WALL
 from semnav_env.features.memory import SceneMemory
 from semnav_env.lidar import Lidar
 from semnav_env.maps import load_floor_plan
-from semnav_env.odometry import OdometrySettings
+from semnav_env.simulator.odometry import OdometrySettings
 
 ROOM = np.array([(4, 3, -4, 3), (-4, 3, -4, -3), (-4, -3, 4, -3), (4, -3, 4, 3)], dtype=float)
 CORRIDOR = ROOM[[0, 2]]
@@ -117,7 +117,7 @@ def test_corrected_odometry_is_nearer_to_the_truth() -> None:
         for _ in steps(env, agent, *begun):
             pass
         true = relative(start, env.world.pose)
-        off.append([_apart(env.odometry.pose, true), _apart(env.believed_pose, true)])
+        off.append([_apart(env.simulator.odometry.pose, true), _apart(env.believed_pose, true)])
     raw, corrected = np.mean(off, axis=0)
     assert (corrected < 0.3 * raw).all()
 
@@ -127,13 +127,14 @@ def _apart(pose: Pose, other: Pose) -> tuple[float, float]:
 
 
 def test_uncorrected_odometry_is_left_as_it_is() -> None:
-    settings = OdometrySettings(corrected=False)
-    env = SemNavEnv(odometry=settings)
+    env = SemNavEnv(corrects_drift=False)
     env.reset(seed=0)
     for _ in range(40):
         observation, *_ = env.step(env.action_space.high)
-        assert env.believed_pose == env.odometry.pose
-        assert observation["odometry"][:2] == pytest.approx(env.odometry.pose[:2], abs=1e-5)
+        assert env.believed_pose == env.simulator.odometry.pose
+        assert observation["odometry"][:2] == pytest.approx(
+            env.simulator.odometry.pose[:2], abs=1e-5
+        )
 
 
 def test_on_the_truth_the_robot_is_where_it_believes_to_be() -> None:

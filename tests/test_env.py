@@ -72,14 +72,14 @@ def test_a_robot_that_came_to_rest_has_looked_from_there(monkeypatch) -> None:
     """What it could not see on the way it may see from where it stands now."""
     env = fresh("semantic", command="go to the end of the hallway", pose=START["pose"])
     monkeypatch.setattr(SceneMemory, "size", property(lambda memory: (1, 1)))  # nothing new
-    follower, looked_from = env.perception.follower, []
+    follower, looked_from = env.tracker.follower, []
     look = follower.look
     monkeypatch.setattr(
         follower, "look", lambda scene, pose: (looked_from.append(pose), look(scene, pose))
     )
     for forward in np.repeat((0.0, 0.3, 0.0), (60, 20, 60)):
         env.step(np.array([forward, 0.0], dtype=np.float32))
-    at_rest = env.odometry.pose
+    at_rest = env.simulator.odometry.pose
     assert math.hypot(*at_rest[:2]) > 0.4
     assert math.dist(looked_from[-1][:2], at_rest[:2]) < 0.2
 
@@ -171,9 +171,9 @@ def test_bad_arguments_list_what_would_have_worked(arguments: dict, words: str) 
         ("floor_plan", "name"),
         ("observation", "there are: semantic"),
         ("lidar", "there are: tim561"),
-        ("odometry", "it must be a semnav_env.odometry.OdometrySettings"),
+        ("odometry", "it must be a semnav_env.simulator.odometry.OdometrySettings"),
         ("extractor", "it must be a semnav_env.features.settings.ExtractorSettings"),
-        ("rewards", "it must be a semnav_env.tasks.rewards.RewardWeights"),
+        ("rewards", "it must be a semnav_env.tasks.RewardWeights"),
         ("dynamics", "it must be a semnav_env.dynamics.settings.Dynamics"),
         ("render_mode", "there are: rgb_array"),
         ("episodes", "name of a split|no split|Episode"),

@@ -159,11 +159,11 @@ def test_events_doors_and_collisions_are_those_of_the_verifier() -> None:
     for action in actions(450, 2, seed=3):
         env.step(action)
         recorder.note()
-    recording, verifier = recorder.recording(), env.task.verifier
+    recording, judge = recorder.recording(), env.judge
     events = events_of(recording, env.floor_plan)
-    assert [e.door for e in events if isinstance(e, DoorCrossed)] == verifier.crossed
-    assert recording.collisions == verifier.collisions > 0
-    assert len([e for e in events if isinstance(e, ContactBegun)]) == verifier.collisions
+    assert [e.door for e in events if isinstance(e, DoorCrossed)] == judge.verifier.crossed
+    assert recording.collisions == judge.journey.collisions > 0
+    assert len([e for e in events if isinstance(e, ContactBegun)]) == judge.journey.collisions
     assert [e.step for e in events] == sorted(e.step for e in events)
 
 

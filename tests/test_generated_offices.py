@@ -21,8 +21,8 @@ from semnav_env.maps.doorways import DoorState, clear_width, door_state
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.rules import check_plan
 from semnav_env.robots import ROBOTS, WHEELCHAIR
-from semnav_env.tasks.rewards import RewardWeights
-from semnav_env.tasks.task import CommandTask
+from semnav_env.tasks import EpisodeRequest, MissionMaker
+from semnav_env.verifier import RemainingWay, Verifier
 from tests.offices import every_distribution, names, seeds
 
 
@@ -171,12 +171,13 @@ def test_an_environment_runs_in_a_generated_office(name: str) -> None:
 def test_random_commands_are_found_and_their_ways_are_finite(name: str) -> None:
     for seed in range(3):
         plan = generate_office(seed, name)
-        task = CommandTask(plan, WHEELCHAIR, RewardWeights())
+        missions = MissionMaker(plan, WHEELCHAIR)
         for episode in range(2):
-            task.begin({}, np.random.default_rng(episode))
-            assert math.isfinite(task.verifier.route_length)
-            assert math.isfinite(task.verifier.remaining)
-            for goal in task.verifier.planned_goals:
+            mission = missions.make(EpisodeRequest(), np.random.default_rng(episode))
+            assert math.isfinite(mission.route_length)
+            way = RemainingWay(Verifier(mission), mission.geodesic)
+            assert math.isfinite(way.length(mission.start))
+            for goal in mission.goals:
                 at_desk = len(plan.furniture.query(Point(goal.pose[:2]), "covered_by"))
                 assert not (isinstance(goal, ReachGoal) and at_desk)
 

@@ -18,7 +18,7 @@ from semnav_env.agents.learning.files import AGENT, POLICY, Description, replace
 from semnav_env.agents.learning.policy import Policy
 from semnav_env.agents.learning.presets import PRESETS, preset
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import FAR, GOAL_SIZE
+from semnav_env.observations import GOAL, UNBOUNDED
 from semnav_env.robots import ROBOTS
 
 pytest.importorskip("safetensors", reason='needs the extra "rl"')
@@ -28,7 +28,7 @@ WIDTHS = (COMPACT_SIZE, 16, 2)
 
 def observation(scan, goal=None, velocity=(0, 0, 0)):
     odometry = np.array([0, 0, 1, 0, *velocity], np.float32)
-    goal = np.zeros(GOAL_SIZE, np.float32) if goal is None else goal
+    goal = np.zeros(GOAL.size, np.float32) if goal is None else goal
     return {"scan": np.asarray(scan, np.float32), "odometry": odometry, "goal": goal}
 
 
@@ -56,7 +56,7 @@ def saved(tmp_path):
 
 @given(
     arrays(np.float32, st.integers(1, 900), elements=st.floats(0, 50, width=32)),
-    arrays(np.float32, GOAL_SIZE, elements=st.floats(-FAR, FAR, width=32)),
+    arrays(np.float32, GOAL.size, elements=st.floats(-UNBOUNDED, UNBOUNDED, width=32)),
     st.tuples(*[st.floats(-3, 3)] * 3),
 )
 def test_every_value_lies_between_minus_one_and_one(scan, goal, velocity):
@@ -79,7 +79,7 @@ def test_the_nearest_hit_shows_in_its_sector_alone(beams, data):
 
 
 def test_a_place_keeps_its_direction():
-    goal = np.zeros(GOAL_SIZE, np.float32)
+    goal = np.zeros(GOAL.size, np.float32)
     goal[4:6] = 30.0, 40.0
     x, y = compact(observation(np.ones(54), goal))[4:6]
     assert (x, y) == pytest.approx((30 / 51, 40 / 51))

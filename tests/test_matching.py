@@ -15,11 +15,11 @@ from shapely import box
 
 from semnav_env.features import Scan
 from semnav_env.features.frames import compose, relative
+from semnav_env.features.lidar_spec import TIM561
 from semnav_env.features.mapping import MatchError, MatchSettings, match_scans
 from semnav_env.features.mapping.matching import without_place
 from semnav_env.features.readers import open_log
 from semnav_env.lidar import Lidar
-from semnav_env.lidar.spec import TIM561
 from semnav_env.maps import FloorPlan, Surface, load_floor_plan
 from semnav_env.maps.importers import load_vector_map
 from studies.matching.drift import drift_of

@@ -29,7 +29,7 @@ from semnav_env.metrics import (
     worst,
 )
 from semnav_env.robots import SPOT
-from semnav_env.verifier import Verifier
+from semnav_env.verifier import Verifier, plan_mission
 from tests.erring import ghost
 from tests.small_plans import empty_hall, plan_of
 
@@ -105,7 +105,7 @@ START = (1.3, 9.1, 0.0)
 
 
 def glided(command: str, *points: tuple[float, float]) -> tuple[Verifier, Metrics]:
-    judge = Verifier(PLAN, GEODESIC, parse(command), START)
+    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(command), START))
     recording = ghost(judge, list(points), np.random.default_rng(0))
     return judge, measure(recording, judge, SPOT)
 
@@ -124,7 +124,9 @@ def test_the_neighbouring_door_is_near_and_yet_no_success() -> None:
 
 def test_to_pass_the_goal_is_success_only_for_the_oracle() -> None:
     """A wrong room first: the episode has failed when the right door is crossed."""
-    judge = Verifier(PLAN, GEODESIC, parse("go through the first door on the right"), START)
+    judge = Verifier(
+        plan_mission(PLAN, GEODESIC, parse("go through the first door on the right"), START)
+    )
     path = [START[:2], (3.4, 9.0), (3.4, 7.0)]
     poses = np.array([(x, y, -math.pi / 2) for x, y in path])
     rows = len(poses)
@@ -139,8 +141,8 @@ def test_to_pass_the_goal_is_success_only_for_the_oracle() -> None:
 
 def test_waiting_at_the_start_is_waiting_nowhere_else() -> None:
     command = "go through the second door on the left and wait for 2 seconds"
-    judge = Verifier(PLAN, GEODESIC, parse(command), START)
-    there = judge.planned_goals[-1].pose
+    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(command), START))
+    there = judge.mission.goals[-1].pose
     rows = 31  # two seconds
     for place, met in ((START, False), (there, True)):
         still = np.zeros((rows, 3))
@@ -150,8 +152,10 @@ def test_waiting_at_the_start_is_waiting_nowhere_else() -> None:
 
 
 def test_the_shortest_way_scores_near_one_everywhere() -> None:
-    judge = Verifier(PLAN, GEODESIC, parse("go through the fourth door on the left"), START)
-    recording = ghost(judge, [judge.planned_goals[0].pose[:2]], np.random.default_rng(0))
+    judge = Verifier(
+        plan_mission(PLAN, GEODESIC, parse("go through the fourth door on the left"), START)
+    )
+    recording = ghost(judge, [judge.mission.goals[0].pose[:2]], np.random.default_rng(0))
     found = measure(recording, judge, SPOT)
     assert judge.success
     assert found.success
@@ -188,7 +192,9 @@ def test_mean_collisions_per_100m_are_those_of_the_whole_way() -> None:
 
 
 def test_a_recording_survives_a_file(tmp_path) -> None:  # type: ignore[no-untyped-def]
-    judge = Verifier(PLAN, GEODESIC, parse("go through the first door on the right"), START)
+    judge = Verifier(
+        plan_mission(PLAN, GEODESIC, parse("go through the first door on the right"), START)
+    )
     recording = ghost(judge, [(3.4, 7.0)], np.random.default_rng(0))
     recording.save(tmp_path / "a.npz")
     again = Recording.load(tmp_path / "a.npz")

@@ -21,7 +21,7 @@ seeds = pytest.mark.parametrize("seed", range(3))
 
 def rearranged(seed: int, pose: tuple[float, float, float] | None = None) -> FloorPlan:
     stage = PlanSource("office_cross", MUCH, WHEELCHAIR)
-    return stage.plan({"pose": pose}, np.random.default_rng(seed))
+    return stage.plan(pose=pose, rng=np.random.default_rng(seed))
 
 
 def pieces(plan: FloorPlan) -> list[Polygon]:

@@ -11,7 +11,7 @@ from semnav_env.commands import decode
 from semnav_env.env import SemNavEnv
 from semnav_env.features.extract import to_scene
 from semnav_env.grounding import GoalKind
-from semnav_env.observations import ENTRIES, MODES, SeenGoal, table
+from semnav_env.observations import MODES, TABLES, SeenGoal, table
 from tests.episodes import START, actions, fresh, rollout
 
 
@@ -23,7 +23,7 @@ def test_every_mode_has_the_entries_it_is_said_to_have() -> None:
 def test_tables_hold_the_features_of_the_scan_in_the_robot_frame() -> None:
     env = fresh("semantic")
     observation = list(rollout(env, actions(12, 2)))[-1]
-    scene = to_scene(env.perception.features).placed(env.robot.lidar_mount)
+    scene = to_scene(env.tracker.features).placed(env.robot.lidar_mount)
     walls = [(*wall.start, *wall.end) for wall in scene.walls]
     assert len(walls) > 3
     assert table(observation, "walls") == pytest.approx(np.array(walls), abs=1e-4)
@@ -39,17 +39,17 @@ def test_an_unknown_table_is_an_error_that_lists_the_known_ones() -> None:
 def test_masks_are_zero_or_one_and_what_they_leave_out_is_zero() -> None:
     env = fresh("semantic")
     for observation in rollout(env, actions(5, 2)):
-        for entry in (entry for entry in ENTRIES if entry.columns > 1):
+        for entry in TABLES:
             mask = observation[f"{entry.name}_mask"]
             assert set(np.unique(mask)) <= {0.0, 1.0}
-            rows = observation[entry.name].reshape(-1, entry.columns)
+            rows = observation[entry.name].reshape(-1, len(entry.columns))
             assert not rows[mask == 0].any()
 
 
 def test_the_tokens_are_those_of_the_command() -> None:
     env = fresh("semantic")
     observation, _ = env.reset(seed=0, options=START)
-    assert decode(observation["command"].reshape(8, 5)) == env.task.verifier.command
+    assert decode(observation["command"].reshape(8, 5)) == env.judge.verifier.mission.command
 
 
 def test_the_seen_goal_leads_to_the_true_door() -> None:

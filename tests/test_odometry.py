@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.features.frames import Pose, compose, relative
-from semnav_env.odometry import EXACT, Odometry, OdometrySettings
+from semnav_env.simulator.odometry import EXACT, Odometry, OdometrySettings
 
 START: Pose = (3.0, -2.0, 0.7)
 moves = st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2), st.floats(-0.3, 0.3))

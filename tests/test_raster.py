@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.lidar_spec import BARBRET, TIM561, LidarSpec
 from semnav_env.lidar.culling import CELL, MOST_CELLS, Culling, cell_of
 from semnav_env.lidar.raster import cast
-from semnav_env.lidar.spec import BARBRET, TIM561, LidarSpec
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
 from tests.brute_force_caster import cast_plainly
 from tests.small_plans import closed, empty_hall, furnished_hall, plan_of

@@ -27,11 +27,11 @@ from semnav_env.maps import bundled_names, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import sample_pose
 from semnav_env.metrics import Recording
-from semnav_env.recheck import recheck
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.tasks.sampling import sample_feasible
-from semnav_env.verifier import FAILURES, Verdict, Verifier, astray, verifier
+from semnav_env.verifier import FAILURES, Verdict, Verifier, astray, plan_mission, verifier
 from semnav_env.verifier.astray import ASTRAY
+from semnav_env.verifier.recheck import recheck
 from semnav_env.verifier.verifier import STILL, STILL_FOR
 from tests.erring import ErringAgent, ghost, targets
 
@@ -64,7 +64,7 @@ def judge_of_any(name: str, start: Pose, rng: np.random.Generator) -> Verifier |
         rooms = PLANS[name].rooms
         command = Command((GoToRoom(plain_name(rooms[rng.integers(len(rooms))].name)),))
     try:
-        return command and Verifier(PLANS[name], GEODESICS[name], command, start)
+        return command and Verifier(plan_mission(PLANS[name], GEODESICS[name], command, start))
     except GroundingError:
         return None
 
@@ -77,8 +77,8 @@ def test_both_judge_gliding_ghosts_alike(name: str) -> None:
         if glided is None:
             continue
         judge, recording = glided
-        found = recheck(recording, judge.floor_plan, judge.goals)
-        assert found.verdict == judge.verdict, f"seed {seed}: {judge.command}"
+        found = recheck(recording, judge.mission.floor_plan, judge.goals)
+        assert found.verdict == judge.verdict, f"seed {seed}: {judge.mission.command}"
         early = judge.verdict is Verdict.STOPPED_SHORT or not judge.goals  # nothing to do
         assert abs(found.step - recording.steps) <= 1 or early  # sums of periods are not exact
         seen[judge.verdict] += 1
@@ -117,7 +117,7 @@ def test_a_verifier_that_judges_otherwise_is_found_out(
     monkeypatch.setattr(module, name, value)
     glides = [glide("office_cross", seed) for seed in range(60)]
     verdicts = [
-        (judge.verdict, recheck(recording, judge.floor_plan, judge.goals).verdict)
+        (judge.verdict, recheck(recording, judge.mission.floor_plan, judge.goals).verdict)
         for judge, recording in filter(None, glides)
     ]
     assert any(one != other for one, other in verdicts)
@@ -155,19 +155,21 @@ def test_plain_walks_are_judged_as_by_hand(
     command: str, points: list[tuple[float, float]], verdict: str
 ) -> None:
     start = (1.3, 9.1, 0.0)
-    judge = Verifier(PLANS["office_cross"], GEODESICS["office_cross"], parse(command), start)
+    judge = Verifier(
+        plan_mission(PLANS["office_cross"], GEODESICS["office_cross"], parse(command), start)
+    )
     recording = walked(start[:2], *points)
-    assert recheck(recording, judge.floor_plan, judge.goals).verdict == verdict
+    assert recheck(recording, judge.mission.floor_plan, judge.goals).verdict == verdict
 
 
 @given(st.integers(0, 10_000))
 def test_what_comes_after_the_end_changes_nothing(seed: int) -> None:
     start = (1.3, 9.1, 0.0)
     command = parse("go through the first door on the right")
-    judge = Verifier(PLANS["office_cross"], GEODESICS["office_cross"], command, start)
+    judge = Verifier(plan_mission(PLANS["office_cross"], GEODESICS["office_cross"], command, start))
     more = np.random.default_rng(seed).uniform(0.0, 25.0, (5, 2)).tolist()
     recording = walked(start[:2], (3.4, 9.0), (3.4, 7.0), *map(tuple, more))
-    found = recheck(recording, judge.floor_plan, judge.goals)
+    found = recheck(recording, judge.mission.floor_plan, judge.goals)
     assert (found.verdict, found.step) == ("done", 2)
 
 

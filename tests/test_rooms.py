@@ -36,7 +36,7 @@ from semnav_env.grounding.ways import PACE, Trail, Way, paced
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.room_guide import RoomGuide
-from semnav_env.verifier import Motion, Verdict, Verifier, plan_goals
+from semnav_env.verifier import Motion, Verdict, Verifier, plan_goals, plan_mission
 from tests.hand_made import corridor
 
 PLAN = load_floor_plan("office_cross")
@@ -183,7 +183,7 @@ def test_without_a_way_a_room_is_refused() -> None:
 
 
 def judged(command: str, *walk: tuple[float, float], start: Pose = WEST) -> Verifier:
-    judge = Verifier(PLAN, GEODESIC, parse(command, rooms=PLAN.room_names), start)
+    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(command, rooms=PLAN.room_names), start))
     x, y = start[:2]
     for bx, by in walk:
         for share in np.linspace(0.0, 1.0, max(2, int(math.dist((x, y), (bx, by)) / 0.1)))[1:]:
@@ -224,7 +224,7 @@ def test_after_coming_back_counting_begins_as_at_the_start() -> None:
 
 @pytest.mark.parametrize("seconds", [1, 12, 40])
 def test_waiting_takes_its_time_and_is_not_stopping_short(seconds: int) -> None:
-    judge = Verifier(PLAN, GEODESIC, parse(f"wait for {seconds} seconds"), WEST)
+    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(f"wait for {seconds} seconds"), WEST))
     steps = 0
     while not judge.over:
         judge.update(Motion(WEST, 0.0, 0.0, in_contact=False, seconds=1 / 15))

@@ -11,14 +11,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from semnav_env.belief import BeliefTracker
 from semnav_env.commands import parse
-from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Point, Pose, compose, relative, to_parent
 from semnav_env.grounding import GroundingError
 from semnav_env.grounding.doors import STAND_OFF
 from semnav_env.grounding.goal import door_of
 from semnav_env.lidar import Lidar
-from semnav_env.perception import Perception
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.routes.route import Route
 from semnav_env.verifier import plan_goals
@@ -73,13 +72,15 @@ def way(row: Row) -> Iterator[Pose]:
 def made_out(row: Row) -> list[Point]:
     """The middles of the doors that such a robot takes for the one meant, as it goes."""
     plan, command = situation(row.situation), parse(row.command)
-    perception = Perception(Lidar(plan, mount=WHEELCHAIR.lidar_mount), ExtractorSettings())
-    perception.begin(command)
+    lidar = Lidar(plan, mount=WHEELCHAIR.lidar_mount)
+    tracker = BeliefTracker(lidar.spec, lidar.mount)
+    tracker.begin(command)
     doors = []
     for step, pose in enumerate(way(row)):
-        perception.sense(pose, relative(row.begin, pose), (0.75, 0.0, 0.0), (0, 0, step))
-        door = door_of(perception.follower.goal)
-        if perception.follower.active == len(command.clauses) - 1 and door is not None:
+        ranges = lidar.ranges(pose, (0, 0, step))
+        belief = tracker.update(ranges, relative(row.begin, pose), (0.75, 0.0, 0.0))
+        door = door_of(belief.goal)
+        if belief.clause == len(command.clauses) - 1 and door is not None:
             doors.append(to_parent(row.begin, door.midpoint))
     return doors
 

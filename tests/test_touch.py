@@ -12,27 +12,28 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.agents.registry import make_agent
+from semnav_env.belief.bump_map import LIMITS, MOST_PIECES, BumpMap
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Pose, points_to_parent, to_parent
+from semnav_env.features.frames import Contact, Pose, points_to_parent, to_parent
+from semnav_env.features.lidar_spec import lidar_spec
 from semnav_env.features.scene import Door, Scene
-from semnav_env.lidar.spec import lidar_spec
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_env.observations import table
 from semnav_env.robots import ROBOTS
-from semnav_env.touch import GAP, GROWN, MOST_PIECES, PIECE, Felt, Touch
 from semnav_env.world import World
 from tests.small_plans import closed, plan_of
 
 SPEC = lidar_spec("tim561")
 HERE: Pose = (0.0, 0.0, 0.0)
-FRONT: Touch = (0.6, 0.0, 0.0)
+FRONT: Contact = (0.6, 0.0, 0.0)
+HALF = LIMITS.piece_length / 2
 NOTHING_NEAR = np.full(SPEC.beams, 5.0)
 
 poses = st.tuples(st.floats(-9, 9), st.floats(-9, 9), st.floats(-math.pi, math.pi))
 
 
-def felt() -> Felt:
-    return Felt(SPEC, HERE)
+def bump_map() -> BumpMap:
+    return BumpMap(SPEC, HERE)
 
 
 def pane_across(east: float = 6.0) -> FloorPlan:
@@ -45,35 +46,35 @@ def pane_across(east: float = 6.0) -> FloorPlan:
 
 @given(poses)
 def test_a_touch_that_the_lidar_sees_through_is_a_wall_across_it(odometry: Pose) -> None:
-    known = felt()
+    known = bump_map()
     assert known.note([FRONT], NOTHING_NEAR, odometry)
     (ends,) = known.ends.reshape(-1, 2, 2)
-    expected = points_to_parent(odometry, np.array([(0.6, -PIECE / 2), (0.6, PIECE / 2)]))
+    expected = points_to_parent(odometry, np.array([(0.6, -HALF), (0.6, HALF)]))
     np.testing.assert_allclose(ends, expected, atol=1e-9)
 
 
 @pytest.mark.parametrize("distance", [0.1, 0.6, 0.8, -math.inf])
 def test_what_the_lidar_sees_is_not_felt_as_well(distance: float) -> None:
-    known = felt()
+    known = bump_map()
     assert not known.note([FRONT], np.full(SPEC.beams, distance), HERE)
     assert len(known) == 0
 
 
 def test_touches_outside_the_view_are_bumps() -> None:
-    known = felt()
+    known = bump_map()
     assert known.note([(-0.6, 0.0, math.pi)], np.full(SPEC.beams, 0.1), HERE)
 
 
 def test_a_full_circle_lidar_sees_what_is_touched_behind() -> None:
     round_spec = replace(SPEC, beams=720, angle_min=-math.pi, angle_increment=math.tau / 720)
     behind = [(-0.6, 0.0, math.pi)]
-    assert not Felt(round_spec, HERE).note(behind, np.full(720, 0.6), HERE)
-    assert Felt(round_spec, HERE).note(behind, np.full(720, 5.0), HERE)
+    assert not BumpMap(round_spec, HERE).note(behind, np.full(720, 0.6), HERE)
+    assert BumpMap(round_spec, HERE).note(behind, np.full(720, 5.0), HERE)
 
 
 @given(poses, st.floats(-0.04, 0.04))
 def test_the_same_touch_again_tells_nothing_new(odometry: Pose, aside: float) -> None:
-    known = felt()
+    known = bump_map()
     known.note([FRONT], NOTHING_NEAR, odometry)
     known.note([(0.6, 1.0, 0.0)], NOTHING_NEAR, odometry)
     ends = known.ends
@@ -84,13 +85,13 @@ def test_the_same_touch_again_tells_nothing_new(odometry: Pose, aside: float) ->
 
 def test_touches_at_both_ends_of_the_front_are_one_wall() -> None:
     """A robot touches one wall with both ends of its front."""
-    known = felt()
+    known = bump_map()
     known.note([(0.6, -0.45, 0.0), (0.6, 0.45, 0.0)], NOTHING_NEAR, HERE)
     assert len(known) == 1
 
 
 def test_a_piece_that_the_robot_gets_through_is_forgotten() -> None:
-    known = felt()
+    known = bump_map()
     known.note([FRONT], NOTHING_NEAR, HERE)
     known.note([(0.6, 1.0, 0.0)], NOTHING_NEAR, HERE)
     known.pass_on((0.0, 0.0, 0.0), (0.5, 0.0, 0.0))
@@ -101,26 +102,27 @@ def test_a_piece_that_the_robot_gets_through_is_forgotten() -> None:
 
 @given(poses, st.floats(-0.6, 0.6))
 def test_pieces_that_no_robot_gets_between_are_one(odometry: Pose, aside: float) -> None:
-    known = felt()
+    known = bump_map()
     known.note([FRONT], NOTHING_NEAR, odometry)
     known.note([(0.6, aside, 0.0)], NOTHING_NEAR, odometry)
     assert len(known) == 1
     length = math.dist(known.ends[0, :2], known.ends[0, 2:])
-    assert length == pytest.approx(PIECE + (abs(aside) if abs(aside) > GROWN else 0.0), abs=1e-6)
-    assert min(robot.width for robot in ROBOTS.values()) > GAP
+    grown = abs(aside) if abs(aside) > LIMITS.least_growth else 0.0
+    assert length == pytest.approx(LIMITS.piece_length + grown, abs=1e-6)
+    assert min(robot.width for robot in ROBOTS.values()) > LIMITS.piece_gap
 
 
 @given(poses)
 def test_pieces_farther_apart_or_at_an_angle_stay_two(odometry: Pose) -> None:
     for other in ((0.6, 1.0, 0.0), (0.6, 0.1, 0.6), (1.0, 0.0, 0.0)):
-        known = felt()
+        known = bump_map()
         known.note([FRONT], NOTHING_NEAR, odometry)
         known.note([other], NOTHING_NEAR, odometry)
         assert len(known) == 2
 
 
 def test_a_full_bump_map_drops_its_oldest_piece() -> None:
-    known = felt()
+    known = bump_map()
     for k in range(MOST_PIECES + 3):
         known.note([FRONT], NOTHING_NEAR, (2.0 * k, 0.0, 0.0))
     assert len(known) == MOST_PIECES
@@ -139,7 +141,7 @@ def test_a_bumped_door_no_longer_counts_but_its_neighbour_does(odometry: Pose) -
         door(0.15, 1.1),
         Door(*[to_parent(odometry, p) for p in ((0.6, -0.5), (1.5, -0.5))]),
     )
-    known = felt()
+    known = bump_map()
     known.note([FRONT], NOTHING_NEAR, odometry)
     scene = known.join(Scene((), (barred, beside, behind)))
     assert scene.doors == (beside, behind)
@@ -148,7 +150,7 @@ def test_a_bumped_door_no_longer_counts_but_its_neighbour_does(odometry: Pose) -
 
 def test_nothing_felt_changes_nothing() -> None:
     scene = Scene((), (Door((1.0, 0.0), (2.0, 0.0)),))
-    assert felt().join(scene) is scene
+    assert bump_map().join(scene) is scene
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
@@ -163,14 +165,14 @@ def test_bumped_panes_are_kept_for_the_episode(
     forward[0] = 1.0
     info = {"in_contact": False}
     while not info["in_contact"]:
-        assert len(table(observation, "felt")) == 0
+        assert len(table(observation, "bumps")) == 0
         observation, _, _, _, info = env.step(forward)
-    (piece,) = table(observation, "felt")
+    (piece,) = table(observation, "bumps")
     front = env.robot.length / 2
     assert piece[[0, 2]] == pytest.approx(front, abs=0.05)
     assert env.observation_space.contains(observation)
     observation, _ = env.reset(seed=1, options=options)
-    assert len(table(observation, "felt")) == 0
+    assert len(table(observation, "bumps")) == 0
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
@@ -183,7 +185,7 @@ def test_a_robot_feels_no_wall_that_it_sees(robot: str) -> None:
     for _ in range(60):
         observation, _, _, _, info = env.step(forward)
         touched |= info["in_contact"]
-        assert len(table(observation, "felt")) == 0
+        assert len(table(observation, "bumps")) == 0
     assert touched
 
 
@@ -199,7 +201,7 @@ def test_the_scripted_agent_finds_its_way_around_a_pane(robot: str) -> None:
         observation, _, over, truncated, info = env.step(agent.act(observation))
         over |= truncated
     assert info["is_success"]
-    assert len(table(observation, "felt")) > 0
+    assert len(table(observation, "bumps")) > 0
 
 
 @pytest.mark.parametrize("heading", [0.0, 0.5, math.pi / 2, 2.0, math.pi, -1.0])

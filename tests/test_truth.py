@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from shapely import Point, union_all
 
 from semnav_env.features import CornerKind, extract
+from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.lidar.lidar import Lidar
-from semnav_env.lidar.spec import TIM561, LidarSpec
 from semnav_env.maps import Material, PlanDoor, Surface, bundled_names, load_floor_plan
 from studies.doors.door_sightings import Gate, View, matches
 from studies.features.cases import draw_cases

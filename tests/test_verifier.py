@@ -13,7 +13,7 @@ from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError, PassGoal
 from semnav_env.maps import PlanDoor, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
-from semnav_env.verifier import Motion, Verdict, Verifier
+from semnav_env.verifier import Journey, Motion, RemainingWay, Verdict, Verifier, plan_mission
 from semnav_env.verifier.verdict import verdicts
 
 PLAN = load_floor_plan("office_cross")
@@ -22,12 +22,12 @@ WEST: Pose = (1.3, 9.1, 0.0)
 
 
 def verifier(command: str, start: Pose = WEST) -> Verifier:
-    return Verifier(PLAN, GEODESIC, parse(command), start)
+    return Verifier(plan_mission(PLAN, GEODESIC, parse(command), start))
 
 
 def walk(judge: Verifier, *points: tuple[float, float], step: float = 0.1) -> Verifier:
     """Move the robot's centre along straight lines, facing the way it goes."""
-    x, y = judge.start[:2]
+    x, y = judge.mission.start[:2]
     for px, py in points:
         heading = math.atan2(py - y, px - x)
         for share in np.linspace(0.0, 1.0, max(2, int(math.dist((x, y), (px, py)) / step)))[1:]:
@@ -76,15 +76,15 @@ def test_crossing_an_opening_that_is_too_wide_for_a_door_is_no_wrong_door() -> N
     gate = PlanDoor("gate", (14.0, 8.0), (14.0, 10.2))
     plan = replace(PLAN, doors=(*PLAN.doors, gate))
     command = parse("follow the hallway until the intersection")
-    judge = walk(Verifier(plan, GEODESIC, command, WEST), (15.0, 9.1))
+    judge = walk(Verifier(plan_mission(plan, GEODESIC, command, WEST)), (15.0, 9.1))
     assert judge.success
     assert judge.crossed == ["gate"]
 
 
 def test_a_closed_door_is_not_counted() -> None:
     judge = verifier("go through the second door on the left", (28.6, 9.1, math.pi))
-    assert isinstance(judge.planned_goals[0], PassGoal)
-    assert judge.planned_goals[0].door.name == "east_south_1"
+    assert isinstance(judge.mission.goals[0], PassGoal)
+    assert judge.mission.goals[0].door.name == "east_south_1"
 
 
 def test_what_is_not_there_is_named_with_what_is() -> None:
@@ -93,10 +93,17 @@ def test_what_is_not_there_is_named_with_what_is() -> None:
 
 
 def test_contacts_are_counted_when_they_begin() -> None:
-    judge = verifier("go through the first door on the right")
+    journey = Journey(WEST)
     for touching in (False, True, True, False, True):
-        judge.update(Motion(WEST, 0.1, 0.0, touching, 1 / 15))
-    assert judge.collisions == 2
+        journey.add(Motion(WEST, 0.1, 0.0, touching, 1 / 15))
+    assert journey.collisions == 2
+
+
+def test_the_path_is_as_long_as_what_was_driven() -> None:
+    journey = Journey((0.0, 0.0, 0.0))
+    for x, y in ((3.0, 0.0), (3.0, 4.0), (0.0, 0.0)):
+        journey.add(Motion((x, y, 0.0), 1.0, 0.0, in_contact=False, seconds=1.0))
+    assert journey.path_length == pytest.approx(12.0)
 
 
 def test_standing_still_for_ten_seconds_is_stopping_short() -> None:
@@ -111,23 +118,23 @@ def test_standing_still_for_ten_seconds_is_stopping_short() -> None:
 
 def test_the_route_leads_through_every_goal_and_is_never_longer_than_a_walk() -> None:
     judge = verifier("turn right at the intersection and go through the first door on the left")
-    assert judge.route[0] == pytest.approx(WEST[:2])
-    assert judge.route[-1] == pytest.approx((16.0, 2.7))
+    assert judge.mission.route[0] == pytest.approx(WEST[:2])
+    assert judge.mission.route[-1] == pytest.approx((16.0, 2.7))
     walk(judge, (15.0, 9.1), (15.0, 2.7), (16.3, 2.7))
-    assert judge.route_length <= judge.path_length * 1.09
-    assert judge.path_length == pytest.approx(13.7 + 6.4 + 1.3)
+    assert judge.mission.route_length <= 1.09 * (13.7 + 6.4 + 1.3)
 
 
 def test_the_way_that_remains_shrinks_on_the_way_and_is_zero_at_the_end() -> None:
     judge = verifier("go through the first door on the right")
-    lengths = [judge.remaining]
+    way = RemainingWay(judge, GEODESIC)
+    lengths = [way.length(WEST)]
     for x, y in ((2.4, 9.0), (3.4, 8.8), (3.4, 8.3)):
         judge.update(Motion((x, y, 0.0), 1.0, 0.0, False, 1.0))
-        lengths.append(judge.remaining)
+        lengths.append(way.length((x, y, 0.0)))
     assert lengths == sorted(lengths, reverse=True)
     judge.update(Motion((3.4, 7.9, 0.0), 1.0, 0.0, False, 1.0))
     assert judge.success
-    assert judge.remaining == 0.0
+    assert way.length((3.4, 7.9, 0.0)) == 0.0
 
 
 def test_a_failure_shows_even_if_the_last_clause_was_done_in_that_step() -> None:
@@ -184,7 +191,7 @@ def test_what_no_one_can_find_on_the_plan_is_refused() -> None:
     start: Pose = (1.0426539, 0.685958, -2.890914)
     command = "turn left at the first corner and go down the hallway until the end of the hallway"
     with pytest.raises(GroundingError, match="the end of the hallway: the floor plan shows none"):
-        Verifier(plan, Geodesic(plan), parse(command), start)
+        Verifier(plan_mission(plan, Geodesic(plan), parse(command), start))
 
 
 def test_after_a_stop_the_next_clause_begins_where_the_stop_did_not_where_the_robot_stands() -> (
@@ -194,7 +201,7 @@ def test_after_a_stop_the_next_clause_begins_where_the_stop_did_not_where_the_ro
     walk(judge, (3.6, 9.6))
     judge.update(Motion((3.6, 9.6, 0.0), 0.0, 0.0, in_contact=False, seconds=1 / 15))
     assert [str(verdict) for verdict in judge.verdicts] == ["done", "done", "active"]
-    assert judge.follower.goal.pose == pytest.approx(judge.planned_goals[-1].pose)
+    assert judge.follower.goal.pose == pytest.approx(judge.mission.goals[-1].pose)
 
 
 def test_a_door_that_was_closed_when_it_was_counted_is_a_wrong_one_all_the_same() -> None:

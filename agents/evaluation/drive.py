@@ -12,9 +12,9 @@ from semnav_env.env import SemNavEnv
 from semnav_env.metrics import Metrics, Recorder, Recording, measure
 from semnav_env.metrics.event_log import events_of
 from semnav_env.metrics.events import Event
-from semnav_env.recheck import recheck
 from semnav_env.robots import RobotSpec
 from semnav_env.verifier import Verdict, Verifier
+from semnav_env.verifier.recheck import recheck
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class Drive:
     @property
     def kind(self) -> str:
         """The kind of the clause that failed, as "Turn"; empty after success."""
-        clauses = self.verifier.command.clauses
+        clauses = self.verifier.mission.command.clauses
         active = min(self.verifier.follower.active, len(clauses) - 1)
         return "" if self.metrics.success else type(clauses[active]).__name__
 
@@ -60,19 +60,19 @@ class Drive:
     def rechecked(self) -> str:
         """The verdict of the second opinion where it is not the verifier's; else empty."""
         verifier = self.verifier
-        found = recheck(self.recording, verifier.floor_plan, verifier.goals)
+        found = recheck(self.recording, verifier.mission.floor_plan, verifier.goals)
         return "" if found.verdict == verifier.verdict else found.verdict
 
     def events(self) -> tuple[Event, ...]:
         """What happened, in the order of time."""
-        return events_of(self.recording, self.verifier.floor_plan)
+        return events_of(self.recording, self.verifier.mission.floor_plan)
 
     def save_picture(self, path: str | Path, title: str = "") -> None:
         """Write a picture: the plan, the true route, the way driven, contacts and goals."""
         from semnav_env.metrics.picture import save_episode  # matplotlib only when it is wanted
 
-        verifier = self.verifier
-        plan, route, goals = verifier.floor_plan, verifier.route, verifier.planned_goals
+        mission = self.verifier.mission
+        plan, route, goals = mission.floor_plan, mission.route, mission.goals
         save_episode(path, plan, self.recording, self.robot, route, goals, title)
 
 
@@ -90,7 +90,7 @@ def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> D
     for step in steps(env, agent, *started):
         recorder.note()
         info = step.info
-    verifier, recording = env.task.verifier, recorder.recording()
+    verifier, recording = env.judge.verifier, recorder.recording()
     metrics = measure(recording, verifier, env.robot)
     impossible = info["impossible"]
     cause = cause_of(verifier, metrics, impossible)

@@ -131,7 +131,7 @@ def run_trial(
     env: SemNavEnv, agent: Agent, trial: Trial, seed: int, extras: Extras = NO_EXTRAS
 ) -> Result:
     """One episode from a start pose that the seed scatters."""
-    drawn = env.plan_source.plan({"floor_plan": trial.floor_plan})  # furniture keeps off the pose
+    drawn = env.plan_source.plan(trial.floor_plan)  # furniture keeps off the pose
     pose = scattered(trial, drawn, env.robot, np.random.default_rng(seed))
     options = {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
     driven = drive(env, agent, seed, options)
@@ -180,7 +180,7 @@ def conclude(
         episode=episode,
         group=group or command,
         kind=driven.kind,
-        floor_plan=driven.verifier.floor_plan.name,
+        floor_plan=driven.verifier.mission.floor_plan.name,
     )
     if extras.pictures is not None and not result.success:
         name = picture_name(driven, episode or command, seed)
@@ -194,7 +194,7 @@ def picture_name(driven: Drive, command: str, seed: int) -> str:
     words = re.sub("[^a-z0-9]+", "_", command.lower()).strip("_")
     if len(words) > MAX_NAME_LENGTH:
         words = f"{words[:MAX_NAME_LENGTH]}_{zlib.crc32(command.encode()):08x}"
-    return f"{driven.verifier.floor_plan.name}-{words}-{driven.robot.name}-seed{seed}.png"
+    return f"{driven.verifier.mission.floor_plan.name}-{words}-{driven.robot.name}-seed{seed}.png"
 
 
 def scattered(

@@ -6,17 +6,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
-from semnav_env.observations import GOAL_SIZE
+from semnav_env.observations.layout import GOAL, GOAL_KINDS
 
 Array = NDArray[np.float32]
 
 SECTORS = 54
 """Parts of the scan of which the nearest hit counts: 5 degrees each for a lidar of 270 degrees."""
 
-COMPACT_SIZE = GOAL_SIZE + 3 + SECTORS
+COMPACT_SIZE = GOAL.size + 3 + SECTORS
 """Length of what `compact` returns: the goal, the velocity, the scan."""
 
-_KINDS = GOAL_SIZE - 9
+_KINDS = len(GOAL_KINDS)
 
 
 def compact(observation: Observation) -> Array:

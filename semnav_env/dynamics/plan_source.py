@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +11,9 @@ from semnav_env.dynamics.furniture import furnished
 from semnav_env.dynamics.leaves import with_leaves
 from semnav_env.dynamics.settings import Dynamics
 from semnav_env.features.frames import Point
+from semnav_env.features.validation import check_kind
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.robots import RobotSpec
-from semnav_env.settings import check_kind
 
 
 class PlanSource:
@@ -38,26 +37,26 @@ class PlanSource:
 
     def plan(
         self,
-        options: Mapping[str, Any] | None = None,
+        floor_plan: str | Path | FloorPlan | None = None,
+        pose: object = None,
         rng: np.random.Generator | None = None,
     ) -> FloorPlan:
         """The plan of an episode; the very plan that was loaded if nothing of it changes.
 
         Args:
-            options: "floor_plan" (a name, a path or a plan), and "pose" where the robot
-                is asked to start; each optional.
+            floor_plan: a name, a path or a plan; the default if not given.
+            pose: at which the robot is asked to start, if at any.
             rng: of the furniture, which stays where it is without it.
 
         Raises:
             FloorPlanError: see `load_floor_plan`.
         """
-        options = options or {}
-        plan = load_floor_plan(options.get("floor_plan") or self._default)
+        plan = load_floor_plan(floor_plan or self._default)
         if self.dynamics.changing_doors:
             plan = self._hung_with_leaves(plan)
         if rng is None or not self.dynamics.furnishes:
             return plan
-        return furnished(plan, self.dynamics, self._robot, rng, _point(options.get("pose")))
+        return furnished(plan, self.dynamics, self._robot, rng, _point(pose))
 
     def _hung_with_leaves(self, plan: FloorPlan) -> FloorPlan:
         """The same object for the same plan."""

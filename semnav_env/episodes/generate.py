@@ -29,7 +29,7 @@ from semnav_env.maps.placement import is_clear, placement_error, sample_pose
 from semnav_env.maps.reach import Reach, reach
 from semnav_env.robots import ROBOTS, WHEELCHAIR
 from semnav_env.tasks.sampling import sample_start
-from semnav_env.verifier import Verifier, place
+from semnav_env.verifier import Verifier, place, plan_mission
 
 STARTS, DRAFTS = 15, 4
 """Starts tried for what an episode should be about, before it is about something else, and commands
@@ -239,15 +239,15 @@ def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
 
 def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | None:
     """The true route, if bodies get along and the verifier accepts it."""
-    verifier = Verifier(site.plan, site.geodesic, command, start)
-    if not SHORTEST <= verifier.route_length <= LONGEST:
+    verifier = Verifier(plan_mission(site.plan, site.geodesic, command, start))
+    if not SHORTEST <= verifier.mission.route_length <= LONGEST:
         return None
-    places = [shapely.Point(place(goal)) for goal in verifier.planned_goals]
+    places = [shapely.Point(place(goal)) for goal in verifier.mission.goals]
     if not all(site.reach.near(point, NEAR) for point in places):
         return None
-    if not all(_has_room(site.plan, goal) for goal in verifier.planned_goals):
+    if not all(_has_room(site.plan, goal) for goal in verifier.mission.goals):
         return None
-    route = _simple(verifier.route)
+    route = _simple(verifier.mission.route)
     return route if carries_out(verifier) else None
 
 

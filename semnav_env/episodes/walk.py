@@ -25,7 +25,7 @@ def carries_out(verifier: Verifier) -> bool:
 
     A point goes, so this says nothing of bodies. The verifier is used up.
     """
-    pose = verifier.start
+    pose = verifier.mission.start
     for _ in range(MOST_LEGS):
         if verifier.over:
             break
@@ -43,7 +43,7 @@ def _leg(verifier: Verifier, pose: Pose, goal: Goal) -> Iterator[Pose]:
     if isinstance(goal, StopGoal):
         yield from (pose,) * (round(goal.wait / PERIOD) + 2)
         return
-    way = verifier.geodesic.to(place(goal)).way(pose[:2])
+    way = verifier.mission.geodesic.to(place(goal)).way(pose[:2])
     facing = goal.pose[2] if isinstance(goal, ReachGoal) and goal.fixes_heading else None
     if isinstance(goal, PassGoal):
         behind = to_parent((*place(goal), goal.pose[2]), (BEHIND, 0.0))

@@ -9,12 +9,12 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose, compose
+from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.scan import Scan
 from semnav_env.lidar.culling import Culling
 from semnav_env.lidar.moving import NOTHING, cast_moving
 from semnav_env.lidar.noise import corrupt
 from semnav_env.lidar.raster import cast
-from semnav_env.lidar.spec import LidarSpec, lidar_spec
 from semnav_env.maps.floor_plan import FloorPlan
 
 Key: TypeAlias = tuple[int, int, int]

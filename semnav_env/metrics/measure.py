@@ -30,14 +30,14 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
         verifier: that judged it; it knows the plan, the route and the goals.
         robot: that drove.
     """
-    path, route = recording.path, verifier.route
-    driven_length, route_length = path_length(path), verifier.route_length
-    goals = verifier.planned_goals
-    goal = place(goals[-1]) if goals else verifier.start[:2]
-    distances = geodesic_distances(verifier.geodesic.to(goal), path)
+    path, route = recording.path, verifier.mission.route
+    driven_length, route_length = path_length(path), verifier.mission.route_length
+    goals = verifier.mission.goals
+    goal = place(goals[-1]) if goals else verifier.mission.start[:2]
+    distances = geodesic_distances(verifier.mission.geodesic.to(goal), path)
     driven, wanted = resampled(path), resampled(route)
     alike = ndtw(driven, wanted)
-    clear = clearances(recording.poses, robot, verifier.floor_plan)
+    clear = clearances(recording.poses, robot, verifier.mission.floor_plan)
     success, verdicts = verifier.success, verifier.verdicts
     return Metrics(
         success=success,

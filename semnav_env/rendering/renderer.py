@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.belief import Belief, BeliefTracker
 from semnav_env.commands.command import reference_of
 from semnav_env.commands.references import DoorReference
 from semnav_env.features.extract import to_scene
@@ -17,27 +18,29 @@ from semnav_env.grounding.doors import doors_along
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.perception import Perception
 from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.viewer import Viewer
 from semnav_env.robots import RobotSpec
-from semnav_env.tasks import CommandTask
-from semnav_env.verifier import Verdict, Verifier
+from semnav_env.tasks.judge import EpisodeJudge
+from semnav_env.verifier import Verdict
 from semnav_env.world import World
 
 
 class RenderedEnvironment(Protocol):
     """What of an environment is shown."""
 
-    robot: RobotSpec
-    world: World
-    perception: Perception
-    task: CommandTask
+    tracker: BeliefTracker
+    belief: Belief
+    judge: EpisodeJudge
     metadata: dict[str, Any]
 
     @property
-    def believed_pose(self) -> Pose:
-        """Where the robot believes to be, in the frame of its memory."""
+    def robot(self) -> RobotSpec:
+        """The body."""
+
+    @property
+    def world(self) -> World:
+        """The physics."""
 
     @property
     def seconds(self) -> float:
@@ -82,28 +85,27 @@ class Renderer:
 
     def frame(self, env: RenderedEnvironment) -> Frame:
         """This moment of the episode, world frame."""
-        perception, verifier, pose = env.perception, env.task.verifier, env.world.pose
-        believed = env.believed_pose
-        odometry_frame = compose(pose, relative(believed, (0.0, 0.0, 0.0)))
-        lidar = compose(pose, perception.lidar.mount)
-        remembered = perception.scene()
+        tracker, verifier, pose = env.tracker, env.judge.verifier, env.world.pose
+        odometry_frame = compose(pose, relative(env.belief.pose, (0.0, 0.0, 0.0)))
+        lidar = compose(pose, tracker.mount)
+        remembered = tracker.scene()
         people, leaves = env.world.moving_shapes
         return Frame(
             floor_plan=env.world.still,
             robot=env.robot,
             pose=pose,
             lidar=lidar[:2],
-            hits=points_to_parent(lidar, perception.hits()),
-            scene=to_scene(perception.features).placed(lidar),
+            hits=points_to_parent(lidar, tracker.hits()),
+            scene=to_scene(tracker.features).placed(lidar),
             remembered=remembered.placed(odometry_frame),
-            door_numbers=door_numbers(remembered, perception.follower),
-            goal=_moved(perception.follower.goal, odometry_frame),
+            door_numbers=door_numbers(remembered, tracker.follower),
+            goal=_moved(tracker.follower.goal, odometry_frame),
             trail=np.array(self._trail),
-            route=verifier.route,
-            command=tuple(str(clause) for clause in verifier.command.clauses),
+            route=verifier.mission.route,
+            command=tuple(str(clause) for clause in verifier.mission.command.clauses),
             active_clause=verifier.follower.active,
             skipped=verifier.follower.skipped,
-            status=_status(env.seconds, verifier),
+            status=_status(env.seconds, env.judge),
             people=people.copy(),
             leaves=leaves.copy(),
             in_contact=env.world.in_contact,
@@ -138,10 +140,10 @@ def _moved(goal: Goal, frame: Pose) -> Goal:
 _SETTLED = (Verdict.DONE, Verdict.SKIPPED, Verdict.PENDING)
 
 
-def _status(seconds: float, verifier: Verifier) -> tuple[str, ...]:
-    current = [v for v in verifier.verdicts if v not in _SETTLED]
+def _status(seconds: float, judge: EpisodeJudge) -> tuple[str, ...]:
+    current = [v for v in judge.verifier.verdicts if v not in _SETTLED]
     verdict = str(current[0]) if current else "done"
     return (
         f"t = {seconds:.1f} s   {verdict}",
-        f"collisions: {verifier.collisions}",
+        f"collisions: {judge.journey.collisions}",
     )

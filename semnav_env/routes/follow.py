@@ -14,7 +14,7 @@ from semnav_env.grounding.doors import STAND_OFF
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.route import Route, RouteError
-from semnav_env.verifier import Motion, Verifier
+from semnav_env.verifier import Motion, Verifier, plan_mission
 
 BEHIND_DOOR = 2.0
 """A route that ends so near behind a door leads through that door, metres."""
@@ -38,7 +38,7 @@ def follows(floor_plan: FloorPlan, command: Command, route: Route) -> bool:
     Raises:
         GroundingError: the command cannot be carried out from the start of the route.
     """
-    verifier = Verifier(floor_plan, Geodesic(floor_plan), command, route.start)
+    verifier = Verifier(plan_mission(floor_plan, Geodesic(floor_plan), command, route.start))
     poses = with_rest(route).tolist()
     for k, (x, y, heading) in enumerate(poses[1:], 1):
         speed = 1.0 if k < len(poses) - REST else 0.0

@@ -1,6 +1,31 @@
-"""What an episode is about: its start, its command, its rewards and its end."""
+"""What episodes are about: what is asked for, what is to be done, and what it is worth."""
 
-from semnav_env.tasks.rewards import RewardWeights
-from semnav_env.tasks.task import CommandTask
+from semnav_env.tasks.frozen import Episodes, FrozenEpisodes, spelled_out
+from semnav_env.tasks.judge import EpisodeJudge, Judgement
+from semnav_env.tasks.mission_maker import MissionMaker
+from semnav_env.tasks.request import EpisodeRequest
+from semnav_env.tasks.rewards import AddedTerms, Rewards, RewardTerm, RewardWeights, Tick
+from semnav_env.tasks.task import AdaptiveTask, CommandTask, SampledTask, Task, as_task
+from semnav_env.tasks.wrapping import Curriculum, RandomisedRobot
 
-__all__ = ["CommandTask", "RewardWeights"]
+__all__ = [
+    "AdaptiveTask",
+    "AddedTerms",
+    "CommandTask",
+    "Curriculum",
+    "EpisodeJudge",
+    "EpisodeRequest",
+    "Episodes",
+    "FrozenEpisodes",
+    "Judgement",
+    "MissionMaker",
+    "RandomisedRobot",
+    "RewardTerm",
+    "RewardWeights",
+    "Rewards",
+    "SampledTask",
+    "Task",
+    "Tick",
+    "as_task",
+    "spelled_out",
+]

@@ -1,14 +1,55 @@
-"""Rewards as named terms; the reward of a step is their weighted sum."""
+"""Rewards as named terms; the reward of a step is their sum."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from typing import NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.belief import Belief
+from semnav_env.simulator.sensed import Motion
+
+
+class Tick(NamedTuple):
+    """What a reward may depend on: one control period as it was judged.
+
+    Attributes:
+        progress: by how much the shortest way to the active clause's goal got shorter, metres.
+        clause: whether a clause was completed.
+        success: whether the whole command was completed.
+        failure: whether the episode failed, but for running out of time.
+        motion: true pose, speed and contact.
+        belief: what the robot believes now.
+        action: that the agent gave, as it gave it.
+    """
+
+    progress: float
+    clause: bool
+    success: bool
+    failure: bool
+    motion: Motion
+    belief: Belief
+    action: NDArray[np.floating]
+
+
+@runtime_checkable
+class Rewards(Protocol):
+    """Says what a step is worth."""
+
+    def terms(self, tick: Tick) -> dict[str, float]:
+        """The terms of a step by name; their sum is the reward."""
+
+
+RewardTerm = Callable[[Tick], float]
+"""One term of a reward."""
 
 
 @dataclass(frozen=True)
 class RewardWeights:
-    """What each term is worth.
+    """The rewards of `SemNav-v0`: what each term is worth.
 
     Attributes:
         progress: per metre by which the shortest way to the active clause's goal gets shorter.
@@ -26,24 +67,40 @@ class RewardWeights:
     contact: float = -0.1
     time: float = -0.01
 
-    def apply(self, terms: RewardTerms) -> dict[str, float]:
-        """Each term times its weight, by name."""
-        progress, clause, success, failure, contact = terms
+    def terms(self, tick: Tick) -> dict[str, float]:
+        """The terms of a step by name, each times its weight."""
         return {
-            "progress": self.progress * progress,
-            "clause": self.clause * clause,
-            "success": self.success * success,
-            "failure": self.failure * failure,
-            "contact": self.contact * contact,
+            "progress": self.progress * tick.progress,
+            "clause": self.clause * tick.clause,
+            "success": self.success * tick.success,
+            "failure": self.failure * tick.failure,
+            "contact": self.contact * tick.motion.in_contact,
             "time": self.time,
         }
 
 
-class RewardTerms(NamedTuple):
-    """One step before weighting; see `RewardWeights` for the meaning of each term."""
+@dataclass(frozen=True)
+class AddedTerms:
+    """Rewards with terms of one's own beside them.
 
-    progress: float
-    clause: float
-    success: float
-    failure: float
-    contact: float
+        AddedTerms({"smooth": lambda tick: -0.1 * abs(tick.motion.yaw_rate)})
+
+    Attributes:
+        added: the terms by name; functions of a module, where the environment is to be pickled.
+        base: the rewards that they are added to.
+
+    Raises:
+        ValueError: a name is taken by the base.
+    """
+
+    added: Mapping[str, RewardTerm]
+    base: Rewards = RewardWeights()
+
+    def __post_init__(self) -> None:
+        taken = {each.name for each in fields(RewardWeights)} & set(self.added)
+        if isinstance(self.base, RewardWeights) and taken:
+            raise ValueError(f"reward terms {sorted(taken)} are there already; name yours anew")
+
+    def terms(self, tick: Tick) -> dict[str, float]:
+        """The terms of the base and the added ones."""
+        return {**self.base.terms(tick), **{k: float(f(tick)) for k, f in self.added.items()}}

@@ -8,8 +8,7 @@ from typing import Any
 
 import pymunk
 
-from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
-from semnav_env.touch import Touch
+from semnav_env.features.frames import Contact, Point, Pose, to_local, wrap_angle
 
 MOST_TOUCHES = 8
 """Of a step's touches only the first so many are looked at: substeps repeat them."""
@@ -60,7 +59,7 @@ class ContactLog:
         """Of this step."""
         return Contacts(len(self.impulses), math.fsum(self.impulses))
 
-    def touches(self, pose: Pose) -> list[Touch]:
+    def touches(self, pose: Pose) -> list[Contact]:
         """Where a robot at a pose touches what cannot move, robot frame."""
         return [
             (*to_local(pose, place), wrap_angle(inward - pose[2])) for place, inward in self._places

@@ -10,11 +10,10 @@ import numpy as np
 import pymunk
 
 from semnav_env.dynamics import OFF, Dynamics, Moving
-from semnav_env.features.frames import FloatArray, Pose, wrap_angle
+from semnav_env.features.frames import Contact, FloatArray, Pose, wrap_angle
 from semnav_env.lidar.moving import NOTHING
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
-from semnav_env.touch import Touch
 from semnav_env.world.bodies import driving_joints, robot_body, solid_space
 from semnav_env.world.contacts import ContactLog, Contacts
 from semnav_env.world.movers import Movers
@@ -152,7 +151,7 @@ class World:
         return bool(self._log.impulses)
 
     @property
-    def touches(self) -> list[Touch]:
+    def touches(self) -> list[Contact]:
         """Where the robot touched what cannot move during the last step, robot frame."""
         return self._log.touches(self.pose)
 

@@ -15,9 +15,9 @@ from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features import ExtractorSettings, Scan, extract
 from semnav_env.features.frames import Point, Pose
+from semnav_env.features.lidar_spec import TIM561
 from semnav_env.features.scene import Door, Scene
 from semnav_env.lidar import Lidar, LidarSpec
-from semnav_env.lidar.spec import TIM561
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.importers import (
     OccupancyMap,

@@ -23,10 +23,10 @@ from scipy.optimize import minimize
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.door_evidence import EVIDENCE
+from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Door
 from semnav_env.lidar.lidar import Lidar
-from semnav_env.lidar.spec import TIM561, LidarSpec
 from studies.door_scorer.door_candidates import apart, candidates_of
 from studies.door_scorer.random_offices import random_office
 

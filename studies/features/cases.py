@@ -11,10 +11,10 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features.frames import Pose
+from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Scene
 from semnav_env.lidar.lidar import Lidar
-from semnav_env.lidar.spec import TIM561, LidarSpec
 from semnav_env.maps.floor_plan import FloorPlan
 from studies.features.clutter import cluttered, free_floor
 from studies.truth import TrueView

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,7 +15,7 @@ from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode, evenly, load_episodes
 from semnav_env.features.frames import compose, relative
 from semnav_env.maps.draw import draw_floor_plan
-from semnav_env.odometry import OdometrySettings
+from semnav_env.simulator.odometry import OdometrySettings
 from studies.figures import IMAGES
 
 ERRORS = OdometrySettings(turn_bias=0.02, turn_noise=0.02, veer_noise=0.01)
@@ -31,15 +30,16 @@ VIEW = (8.0, 30.0), (6.0, 21.5)
 
 def draw(ax: Axes, corrected: bool) -> None:
     """The plan, what is remembered, and the ways believed and driven, put on each other's start."""
-    errors = replace(ERRORS, corrected=corrected)
-    env = SemNavEnv(floor_plan="office_cross", observation="all", odometry=errors)
+    env = SemNavEnv(
+        floor_plan="office_cross", observation="all", odometry=ERRORS, corrects_drift=corrected
+    )
     begun = env.reset(seed=1, options={"command": COMMAND, "pose": START})
     ways = [
         (env.world.pose[:2], compose(START, env.believed_pose)[:2])
         for _ in steps(env, make_agent("scripted"), *begun)
     ]
     draw_floor_plan(env.floor_plan, ax, names=False)
-    for wall in env.perception.scene().placed(START).walls:
+    for wall in env.tracker.scene().placed(START).walls:
         ax.plot(*zip(wall.start, wall.end, strict=True), color="tab:red", lw=1.0)
     true, believed = np.array(ways).transpose(1, 2, 0)
     ax.plot(*true, color="tab:green", lw=1.8, label="driven")
@@ -57,7 +57,7 @@ def strayed(env: SemNavEnv, episode: Episode) -> tuple[float, ...]:
     for _ in steps(env, make_agent("scripted"), *begun):
         pass
     true, off = relative(start, env.world.pose), []
-    for pose in (env.odometry.pose, env.believed_pose):
+    for pose in (env.simulator.odometry.pose, env.believed_pose):
         turned = abs(math.remainder(pose[2] - true[2], math.tau))
         off += [math.dist(pose[:2], true[:2]), math.degrees(turned)]
     return tuple(off)

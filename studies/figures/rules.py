@@ -16,15 +16,14 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from semnav_env.belief import BeliefTracker
 from semnav_env.commands import parse
-from semnav_env.features import ExtractorSettings
 from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Point, Pose, compose
 from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import ground
 from semnav_env.lidar import Lidar
 from semnav_env.maps import load_floor_plan
-from semnav_env.perception import Perception
 from semnav_env.robots import WHEELCHAIR
 from studies.figures import IMAGES
 from studies.figures.rule_marks import (
@@ -200,15 +199,15 @@ def _perceived(metres: float) -> Draw:
 
     def draw(ax: Axes) -> None:
         start = (-2.5, -0.3, 0.24)
-        perception = Perception(
-            Lidar(HEIDELBERG_PLAN, mount=WHEELCHAIR.lidar_mount), ExtractorSettings()
-        )
-        perception.begin(parse("go through the third door on the right"))
+        lidar = Lidar(HEIDELBERG_PLAN, mount=WHEELCHAIR.lidar_mount)
+        tracker = BeliefTracker(lidar.spec, lidar.mount)
+        tracker.begin(parse("go through the third door on the right"))
         for step, along in enumerate(np.arange(0.0, metres, 0.05)):
             odometry = (float(along), 0.0, 0.0)
-            perception.sense(compose(start, odometry), odometry, (0.75, 0.0, 0.0), (0, 0, step))
+            ranges = lidar.ranges(compose(start, odometry), (0, 0, step))
+            belief = tracker.update(ranges, odometry, (0.75, 0.0, 0.0))
         page = (0.0, 0.0, start[2])
-        scene, goal = perception.scene().placed(page), perception.follower.goal
+        scene, goal = belief.scene.placed(page), belief.goal
         draw_scene(ax, HEIDELBERG_PLAN.scene.seen_from(start).placed(page), "0.8", doors=False)
         draw_scene(ax, scene, "tab:red")
         draw_doors(ax, scene, corridor_at(scene, page))

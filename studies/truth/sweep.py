@@ -15,7 +15,7 @@ import shapely
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.lidar.spec import LidarSpec
+from semnav_env.features.lidar_spec import LidarSpec
 
 NARROWEST = 1e-7
 """Directions closer together than this are one, radians."""

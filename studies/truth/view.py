@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 
 from semnav_env.features.frames import FloatArray, Pose, compose, points_to_local
+from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Arc, Scene, Wall
 from semnav_env.features.settings import ExtractorSettings
 from semnav_env.lidar.lidar import Lidar
-from semnav_env.lidar.spec import LidarSpec, lidar_spec
 from semnav_env.maps.floor_plan import FloorPlan
 from studies.truth.corners import find_joints
 from studies.truth.corridors import true_corridors

@@ -94,7 +94,7 @@ def follow(
 
 
 def _leads_there(env: SemNavEnv, trial: Unsaid) -> bool:
-    found = env.task.verifier.planned_goals
+    found = env.judge.verifier.mission.goals
     meant = plan_goals(env.floor_plan, trial.meant, trial.pose)
     return bool(found) and math.dist(place(found[-1]), place(meant[-1])) < 0.1
 

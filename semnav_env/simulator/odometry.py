@@ -29,7 +29,6 @@ class OdometrySettings:
         distance_noise: of the distance travelled forward, and of that sideways, m per sqrt(m).
         turn_noise: of the angle turned, rad per sqrt(rad).
         veer_noise: of the heading, by the distance travelled, rad per sqrt(m).
-        corrected: the robot corrects it by walls that it sees again (`kernels.drift`).
 
     Raises:
         ValueError: one of them is negative or not finite; names it.
@@ -40,16 +39,15 @@ class OdometrySettings:
     distance_noise: float = 0.01
     turn_noise: float = 0.01
     veer_noise: float = 0.005
-    corrected: bool = True
 
     def __post_init__(self) -> None:
-        for field in (each for each in fields(self) if each.name != "corrected"):
+        for field in fields(self):
             value = getattr(self, field.name)
             if not 0.0 <= value < math.inf:
                 raise ValueError(f"{field.name} is {value}; it must be finite and not negative")
 
 
-EXACT = OdometrySettings(0.0, 0.0, 0.0, 0.0, 0.0, corrected=False)
+EXACT = OdometrySettings(0.0, 0.0, 0.0, 0.0, 0.0)
 """Odometry without drift."""
 
 

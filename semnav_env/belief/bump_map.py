@@ -1,46 +1,66 @@
-"""What a robot has run into without seeing it: glass, and what lies where no beam looks."""
+"""Walls that a robot has bumped into without seeing them: glass, and what no beam looks at."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point, Pose, compose, to_local, to_parent
+from semnav_env.features.frames import (
+    Contact,
+    FloatArray,
+    Point,
+    Pose,
+    compose,
+    to_local,
+    to_parent,
+)
+from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.features.scene import Door, PlainWalls, Scene, ends_of
 from semnav_env.grounding.crossing import first_crossed
-from semnav_env.lidar.spec import LidarSpec
-
-PIECE, GROWN = 0.2, 0.05
-"""Each touch tells of so much of a pane, and something new if that is so much longer, metres."""
-
-GAP = 0.45
-"""Pieces that are nearer to one another are one: no robot gets between them, metres."""
-
-LEVEL, PARALLEL = 0.15, 0.3
-"""Pieces are on one line up to so many metres, and radians: odometry drifts."""
 
 MOST_PIECES = 16
 """When so many pieces are known, a new one replaces the oldest."""
 
-BEYOND, CLEAR, BEAMS = 0.03, 0.25, 3
-"""What is touched is looked at so far inside it; it is not seen if that beam, and so many to each
-side, end so far behind it, metres."""
 
-IN_OPENING = 0.15
-"""A piece that lies so far inside a door's opening shows that it is none, metres."""
+@dataclass(frozen=True)
+class BumpLimits:
+    """What a contact tells.
 
-Touch = tuple[float, float, float]
-"""Where a robot touches something, x and y in metres, and the direction from there into it,
-radians, robot frame."""
+    Attributes:
+        piece_length: length of wall that one contact tells of, metres.
+        least_growth: a contact is new if it makes a known piece longer by this, metres.
+        piece_gap: pieces nearer to one another are one, metres: no robot gets between them.
+        line_offset: largest distance of two pieces from one line, metres: odometry drifts.
+        line_slope: largest slope between two pieces on one line, as a tangent.
+        look_depth: the place to look for is this far inside what was touched, metres.
+        seen_depth: it is seen if a beam ends at most this far behind that place, metres.
+        seen_beams: beams to each side that are asked as well.
+        opening_overlap: a piece this far inside the opening of a door shows that it is no door,
+            metres.
+    """
+
+    piece_length: float = 0.2
+    least_growth: float = 0.05
+    piece_gap: float = 0.45
+    line_offset: float = 0.15
+    line_slope: float = 0.3
+    look_depth: float = 0.03
+    seen_depth: float = 0.25
+    seen_beams: int = 3
+    opening_overlap: float = 0.15
 
 
-class Felt:
-    """Pieces of invisible walls, in the odometry frame.
+LIMITS = BumpLimits()
 
-    A touch makes one where the lidar sees through it or does not look; what it sees is known.
-    A piece is forgotten when the robot's centre gets through it, which shows that it was an error.
+
+class BumpMap:
+    """Pieces of walls that were bumped into, in the odometry frame.
+
+    A contact makes a piece where the lidar sees through it or does not look. A piece is forgotten
+    when the robot's centre passes through it, which shows that it was an error.
 
     Args:
         spec: the lidar.
@@ -63,18 +83,24 @@ class Felt:
         """Forget everything."""
         self._pieces = []
 
-    def note(self, touches: Iterable[Touch], ranges: FloatArray, odometry: Pose) -> bool:
-        """Take in what was touched in one step; returns whether something new is known.
+    def copy(self) -> BumpMap:
+        """What is known now, unchanged by later contacts."""
+        copy = BumpMap(self._spec, self._mount)
+        copy._pieces = list(self._pieces)
+        return copy
+
+    def note(self, contacts: Iterable[Contact], ranges: FloatArray, pose: Pose) -> bool:
+        """Take in the contacts of one step; returns whether something new is known.
 
         Args:
-            touches: of the robot.
+            contacts: of the robot, robot frame.
             ranges: of the scan from the same place, metres.
-            odometry: pose of the robot, odometry frame.
+            pose: of the robot, odometry frame.
         """
-        felt = [_piece(compose(odometry, t)) for t in touches if not self._is_seen(t, ranges)]
-        fresh = [piece for piece in _united(felt, math.inf) if not self._covers(piece)]
+        unseen = [_piece(compose(pose, c)) for c in contacts if not self._is_seen(c, ranges)]
+        fresh = [piece for piece in _united(unseen, math.inf) if not self._covers(piece)]
         if fresh:
-            self._pieces = _united([*self._pieces, *fresh], GAP)[-MOST_PIECES:]
+            self._pieces = _united([*self._pieces, *fresh], LIMITS.piece_gap)[-MOST_PIECES:]
         return bool(fresh)
 
     def pass_on(self, before: Pose, after: Pose) -> None:
@@ -90,30 +116,32 @@ class Felt:
         doors = [d for d in scene.doors if not any(_bars(piece, d) for piece in self._pieces)]
         return Scene(PlainWalls(walls), tuple(doors))
 
-    def _is_seen(self, touch: Touch, ranges: FloatArray) -> bool:
+    def _is_seen(self, contact: Contact, ranges: FloatArray) -> bool:
         """Whether the beams that look there end there."""
-        inside = to_parent(touch, (BEYOND, 0.0))
+        inside = to_parent(contact, (LIMITS.look_depth, 0.0))
         x, y = to_local(self._mount, inside)
-        turn = (math.atan2(y, x) - self._spec.angle_min) % math.tau
-        beams = round(turn / self._spec.angle_increment) + np.arange(-BEAMS, BEAMS + 1)
+        bearing = (math.atan2(y, x) - self._spec.angle_min) % math.tau
+        around = np.arange(-LIMITS.seen_beams, LIMITS.seen_beams + 1)
+        beams = round(bearing / self._spec.angle_increment) + around
         if len(ranges) * self._spec.angle_increment > math.tau - 1e-6:
             beams %= len(ranges)
         elif beams[0] < 0 or beams[-1] >= len(ranges):
             return False
-        return float(ranges[beams].min()) < math.hypot(x, y) + CLEAR
+        return float(ranges[beams].min()) < math.hypot(x, y) + LIMITS.seen_depth
 
     def _covers(self, piece: FloatArray) -> bool:
         """Whether a piece adds hardly anything to one that is known."""
-        joined = ((other, _joined(other, piece, GAP)) for other in self._pieces)
+        joined = ((other, _joined(other, piece, LIMITS.piece_gap)) for other in self._pieces)
         return any(
-            whole is not None and _along(whole)[1] < _along(other)[1] + GROWN
+            whole is not None and _along(whole)[1] < _along(other)[1] + LIMITS.least_growth
             for other, whole in joined
         )
 
 
-def _piece(touch: Pose) -> FloatArray:
-    """The piece across a touch."""
-    return np.array((*to_parent(touch, (0.0, -PIECE / 2)), *to_parent(touch, (0.0, PIECE / 2))))
+def _piece(contact: Pose) -> FloatArray:
+    """The piece of wall across a contact."""
+    half = LIMITS.piece_length / 2
+    return np.array((*to_parent(contact, (0.0, -half)), *to_parent(contact, (0.0, half))))
 
 
 def _united(pieces: Iterable[FloatArray], gap: float) -> list[FloatArray]:
@@ -135,8 +163,8 @@ def _joined(one: FloatArray, other: FloatArray, gap: float) -> FloatArray | None
     """Two pieces as one, along the first; None if they are not on one line and near."""
     frame, length = _along(one)
     (first, offset), (last, last_offset) = sorted(_seen_from(frame, other))
-    level = max(abs(offset), abs(last_offset)) < LEVEL
-    parallel = abs(last_offset - offset) <= PARALLEL * (last - first)
+    level = max(abs(offset), abs(last_offset)) < LIMITS.line_offset
+    parallel = abs(last_offset - offset) <= LIMITS.line_slope * (last - first)
     if not (level and parallel and first < length + gap and last > -gap):
         return None
     stretch = min(first, 0.0), max(last, length)
@@ -147,8 +175,9 @@ def _bars(piece: FloatArray, door: Door) -> bool:
     """Whether a piece lies in the opening of a door."""
     frame, width = _along(np.array((*door.start, *door.end)))
     (first, offset), (last, last_offset) = sorted(_seen_from(frame, piece))
-    level = max(abs(offset), abs(last_offset)) < 2.0 * LEVEL
-    return level and first < width - IN_OPENING and last > IN_OPENING
+    level = max(abs(offset), abs(last_offset)) < 2.0 * LIMITS.line_offset
+    inside = LIMITS.opening_overlap
+    return level and first < width - inside and last > inside
 
 
 def _along(ends: FloatArray) -> tuple[Pose, float]:

@@ -8,8 +8,8 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import ArrayLike
 
-from semnav_env.features.frames import Pose
-from semnav_env.robots import RobotSpec
+from semnav_env.features.frames import Twist
+from semnav_env.robots.spec import RobotSpec
 
 
 class Actions:
@@ -26,8 +26,8 @@ class Actions:
         self._speeds = robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate
         self.space = Box(-1.0, 1.0, (robot.action_size,), np.float32)
 
-    def velocity(self, action: ArrayLike) -> Pose:
-        """An action as (forward, left, turn) in m/s and rad/s; cut to [-1, 1] first.
+    def twist(self, action: ArrayLike) -> Twist:
+        """An action as a velocity: shares of the robot's largest speeds; cut to [-1, 1] first.
 
         Raises:
             ValueError: it is not finite or has another shape.

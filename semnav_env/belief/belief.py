@@ -1,0 +1,51 @@
+"""What a robot believes after a scan."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol
+
+from semnav_env.features.frames import Pose, Twist
+from semnav_env.features.scene import Scene
+from semnav_env.grounding.goal import Goal
+
+
+class SceneSource(Protocol):
+    """Makes a scene when it is asked for, because few beliefs are asked."""
+
+    def scene(self) -> Scene:
+        """All walls and doors that count."""
+
+
+class Belief(NamedTuple):
+    """What a robot believes after a scan, in the odometry frame.
+
+    The origin of the odometry frame is where odometry was zero, as a rule the start.
+
+    Attributes:
+        pose: of the robot's centre.
+        velocity: of the robot, as odometry gives it.
+        clause: index of the clause under way; the number of clauses when all are done.
+        goal: where that clause leads.
+        target: where to drive now: the goal, or while the known way there is long a place on it.
+        impossible: why the clause cannot be carried out; None if it can.
+        memory: what `scene` is made of.
+    """
+
+    pose: Pose
+    velocity: Twist
+    clause: int
+    goal: Goal
+    target: Goal
+    impossible: str | None
+    memory: SceneSource
+
+    @property
+    def scene(self) -> Scene:
+        """The remembered walls and doors that count, and the walls that were bumped into."""
+        return self.memory.scene()
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """What the goal was understood from; after it, why the clause cannot be carried out."""
+        goal = (self.goal.because,)
+        return goal if self.impossible in (None, *goal) else (*goal, str(self.impossible))

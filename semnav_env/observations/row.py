@@ -1,0 +1,165 @@
+"""Kernels that write what a robot believes into the row of an observation.
+
+The row holds the entries of `layout.ENTRIES` one after the other, and then the scan.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.belief.understand import Senses
+from semnav_env.commands import MAX_CLAUSES
+from semnav_env.features.frames import FloatArray, Pose, Twist, points_to_local
+from semnav_env.features.kernels.door_memory import door_counts
+from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
+from semnav_env.features.kernels.scratch import Features
+from semnav_env.observations.layout import (
+    BUMP_ROWS,
+    CORNER_ROWS,
+    DOOR_ROWS,
+    GOAL,
+    ODOMETRY,
+    PROBE_ROWS,
+    REMEMBERED_ROWS,
+    ROW_SIZE,
+    STARTS,
+    WALL_ROWS,
+    column,
+)
+
+DoorEnds = tuple[float, float, float, float]
+"""X and y of the jambs of a door, metres."""
+
+_WALLS, _WALLS_MASK = STARTS["walls"], STARTS["walls_mask"]
+_DOORS, _DOORS_MASK = STARTS["doors"], STARTS["doors_mask"]
+_CORNERS, _CORNERS_MASK = STARTS["corners"], STARTS["corners_mask"]
+_CORRIDORS, _CORRIDORS_MASK = STARTS["corridors"], STARTS["corridors_mask"]
+_REMEMBERED, _REMEMBERED_MASK = STARTS["remembered_doors"], STARTS["remembered_doors_mask"]
+_BUMPS, _BUMPS_MASK = STARTS["bumps"], STARTS["bumps_mask"]
+_CLAUSE = STARTS["clause"]
+_POSE, _TWIST = column(ODOMETRY, "x"), column(ODOMETRY, "forward")
+_KIND, _PLACE = STARTS["goal"], column(GOAL, "x")
+_JAMBS, _HAS_DOOR = column(GOAL, "door_start_x"), column(GOAL, "has_door")
+
+
+@njit(cache=True, error_model="numpy")
+def write_row(
+    row: NDArray[np.float32],
+    senses: Senses,
+    pose: Pose,
+    velocity: Twist,
+    clause: int,
+    kind: int,
+    place: Pose,
+    door: DoorEnds,
+    has_door: bool,
+) -> None:
+    """Write all entries but the bumps, and the scan.
+
+    Args:
+        row: shape (ROW_SIZE + beams,).
+        senses: arrays of the belief.
+        pose: believed pose, odometry frame.
+        velocity: of the robot.
+        clause: index of the clause under way; the number of clauses when all are done.
+        kind: number of the goal's kind, an index into `layout.GOAL_KINDS`.
+        place: pose of the goal, odometry frame.
+        door: jambs of the goal's door, odometry frame; zeros without one.
+        has_door: whether the goal has a door.
+    """
+    _write_features(row, senses.features, senses.mount)
+    _, doors, used = senses.remembered
+    _write_remembered(row, doors, used[1], pose)
+    limits = senses.limits[0]
+    _write_scan(row[ROW_SIZE:], senses.ranges, limits.range_min, limits.range_max)
+    row[_CLAUSE:ROW_SIZE] = 0.0
+    if clause < MAX_CLAUSES:
+        row[_CLAUSE + clause] = 1.0
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    row[_POSE], row[_POSE + 1], row[_POSE + 2], row[_POSE + 3] = pose[0], pose[1], c, s
+    row[_TWIST], row[_TWIST + 1], row[_TWIST + 2] = velocity
+    row[_KIND + kind] = 1.0
+    row[_PLACE], row[_PLACE + 1] = _local(place[0], place[1], pose, c, s)
+    row[_PLACE + 2], row[_PLACE + 3] = math.cos(place[2] - pose[2]), math.sin(place[2] - pose[2])
+    if has_door:
+        row[_JAMBS], row[_JAMBS + 1] = _local(door[0], door[1], pose, c, s)
+        row[_JAMBS + 2], row[_JAMBS + 3] = _local(door[2], door[3], pose, c, s)
+        row[_HAS_DOOR] = 1.0
+
+
+def write_bumps(row: NDArray[np.float32], walls: FloatArray, pose: Pose) -> None:
+    """Write walls that were bumped into, given in the odometry frame, shape (n, 4)."""
+    row[_BUMPS:_CLAUSE] = 0.0
+    n = min(len(walls), BUMP_ROWS)
+    row[_BUMPS : _BUMPS + 4 * n] = points_to_local(pose, walls[:n].reshape(-1, 2)).ravel()
+    row[_BUMPS_MASK : _BUMPS_MASK + n] = 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def _write_features(row: NDArray[np.float32], features: Features, mount: Pose) -> None:
+    """Write the features of a scan, given in the lidar frame, in the robot frame."""
+    c, s = math.cos(mount[2]), math.sin(mount[2])
+    row[:_REMEMBERED] = 0.0
+    for i in range(min(features.counts[WALLS], WALL_ROWS)):
+        _write_ends(row, _WALLS + 4 * i, features.walls[i], mount[0], mount[1], c, s)
+        row[_WALLS_MASK + i] = 1.0
+    for i in range(min(features.counts[DOORS], DOOR_ROWS)):
+        _write_ends(row, _DOORS + 4 * i, features.doors[i], mount[0], mount[1], c, s)
+        row[_DOORS_MASK + i] = 1.0
+    for i in range(min(features.counts[CORNERS], CORNER_ROWS)):
+        corner = features.corners[i]
+        row[_CORNERS + 3 * i] = mount[0] + c * corner.x - s * corner.y
+        row[_CORNERS + 3 * i + 1] = mount[1] + s * corner.x + c * corner.y
+        row[_CORNERS + 3 * i + 2] = corner.kind
+        row[_CORNERS_MASK + i] = 1.0
+    for i in range(min(features.counts[CORRIDORS], PROBE_ROWS)):
+        probe = features.corridors[i]
+        x, y = 0.5 * (probe.start_x + probe.end_x), 0.5 * (probe.start_y + probe.end_y)
+        row[_CORRIDORS + 2 * i] = mount[0] + c * x - s * y
+        row[_CORRIDORS + 2 * i + 1] = mount[1] + s * x + c * y
+        row[_CORRIDORS_MASK + i] = 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def _write_remembered(row: NDArray[np.float32], doors: np.ndarray, used: int, pose: Pose) -> None:
+    """Write the remembered doors that count, given in the odometry frame, in the robot frame."""
+    row[_REMEMBERED:_BUMPS] = 0.0
+    c, s = math.cos(pose[2]), -math.sin(pose[2])
+    x, y = -(c * pose[0] - s * pose[1]), -(s * pose[0] + c * pose[1])
+    k = 0
+    for i in range(used):
+        if k < REMEMBERED_ROWS and door_counts(doors[:used], i):
+            _write_ends(row, _REMEMBERED + 4 * k, doors[i], x, y, c, s)
+            row[_REMEMBERED_MASK + k] = 1.0
+            k += 1
+
+
+@njit(cache=True, error_model="numpy")
+def _write_scan(
+    row: NDArray[np.float32], ranges: FloatArray, range_min: float, range_max: float
+) -> None:
+    """Write the ranges, and `range_max` where a beam has no return."""
+    for i in range(np.uint64(len(ranges))):  # unsigned, or it is tested for counting from the end
+        measured = ranges[i]
+        row[i] = measured if (measured >= range_min) & (measured < range_max) else range_max
+
+
+@njit(cache=True, inline="always")
+def _write_ends(
+    row: NDArray[np.float32], at: int, item: Any, x: float, y: float, c: float, s: float
+) -> None:
+    row[at] = x + c * item.start_x - s * item.start_y
+    row[at + 1] = y + s * item.start_x + c * item.start_y
+    row[at + 2] = x + c * item.end_x - s * item.end_y
+    row[at + 3] = y + s * item.end_x + c * item.end_y
+
+
+@njit(cache=True, inline="always")
+def _local(x: float, y: float, pose: Pose, c: float, s: float) -> tuple[float, float]:
+    dx, dy = x - pose[0], y - pose[1]
+    return c * dx + s * dy, c * dy - s * dx

@@ -1,0 +1,97 @@
+"""From what an episode is asked to be to a mission; what is not asked for is drawn."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import shapely
+
+from semnav_env.commands import Command
+from semnav_env.features.frames import Pose
+from semnav_env.grounding import GroundingError
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.geodesic import Geodesic
+from semnav_env.maps.placement import placement_error
+from semnav_env.robots import RobotSpec
+from semnav_env.routes.room_guide import RoomGuide
+from semnav_env.tasks.implicit import with_implicit_steps
+from semnav_env.tasks.request import EpisodeRequest
+from semnav_env.tasks.sampling import sample_feasible, sample_start
+from semnav_env.verifier import Mission, plan_goals, plan_mission
+
+MOST_DRAWS = 200
+"""Start poses drawn before a floor plan is found unfit for commands."""
+
+
+class MissionMaker:
+    """Makes missions in one floor plan for one body.
+
+    Args:
+        floor_plan: where.
+        robot: which body must find room.
+    """
+
+    def __init__(self, floor_plan: FloorPlan, robot: RobotSpec) -> None:
+        self.floor_plan, self.robot = floor_plan, robot
+        self.geodesic = Geodesic(floor_plan)
+
+    def make(self, request: EpisodeRequest, rng: np.random.Generator) -> Mission:
+        """Choose or check the start pose and the command of an episode.
+
+        Args:
+            request: what is asked for.
+            rng: draws what is not.
+
+        Raises:
+            ValueError: the pose is not free, or the command is not understood or not feasible.
+        """
+        command, pose = request.checked_command(self.floor_plan.room_names), request.checked_pose()
+        if pose is not None:
+            error = placement_error(self.floor_plan, self.robot, pose)
+            if error is not None:
+                raise ValueError(f"start pose {pose}: {error}")
+        start, command = self._complete(pose, command, rng)
+        if request.implicit_steps:
+            command = self._with_implicit_steps(command, start)
+        return plan_mission(self.floor_plan, self.geodesic, command, start, request.feasible)
+
+    def _complete(
+        self, pose: Pose | None, command: Command | None, rng: np.random.Generator
+    ) -> tuple[Pose, Command]:
+        """Draw what is missing until the command can be carried out."""
+        if pose is not None and command is not None:
+            return pose, command
+        objections: Counter[str] = Counter()
+        for _ in range(MOST_DRAWS):
+            start = pose or sample_start(self.floor_plan, self.robot, rng)
+            drawn = command or sample_feasible(self.floor_plan, start, rng)
+            if drawn is None:
+                continue
+            objection = self._objection(drawn, start) if command is not None else ""
+            if not objection:
+                return start, drawn
+            objections[objection] += 1
+        name = self.floor_plan.name
+        if command is not None:
+            [(why, _)] = objections.most_common(1)
+            raise ValueError(
+                f'no start found in {name} from which "{command}" can be carried out: {why}'
+            )
+        raise ValueError(f"no command found that can be carried out in {name} from {pose or 'it'}")
+
+    def _with_implicit_steps(self, command: Command, start: Pose) -> Command:
+        here = shapely.Point(start[:2])
+        in_room = any(room.polygon.contains(here) for room in self.floor_plan.rooms)
+        return with_implicit_steps(
+            command, lambda each: not self._objection(each, start), in_room=in_room
+        )
+
+    def _objection(self, command: Command, start: Pose) -> str:
+        """Why a command cannot be carried out from there; empty if it can."""
+        try:
+            guide = RoomGuide(self.floor_plan, command, self.geodesic)
+            plan_goals(self.floor_plan, command, start, guide)
+        except GroundingError as error:
+            return str(error)
+        return ""

@@ -1,0 +1,91 @@
+"""What is to be done in an episode and the true way there, as only the floor plan tells."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from semnav_env.commands import Command
+from semnav_env.features.frames import FloatArray, Pose, path_length
+from semnav_env.grounding.goal import Goal
+from semnav_env.grounding.situation import GroundingError
+from semnav_env.grounding.ways import Way
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.geodesic import Geodesic
+from semnav_env.routes.room_guide import RoomGuide
+from semnav_env.verifier.goals import goals_in_turn, place
+
+
+@dataclass(frozen=True, eq=False)
+class Mission:
+    """A command at a place, and what it asks for there.
+
+    Attributes:
+        floor_plan: the truth.
+        geodesic: its shortest ways.
+        command: what the robot is told.
+        start: pose of the robot's centre, world frame.
+        goals: of the clauses on the true scene, each grounded where the one before ends.
+        ways: to the rooms that the command names, by the number of the clause, world frame.
+    """
+
+    floor_plan: FloorPlan
+    geodesic: Geodesic = field(repr=False)
+    command: Command
+    start: Pose
+    goals: tuple[Goal, ...]
+    ways: Mapping[int, Way] = field(repr=False)
+
+    @cached_property
+    def route(self) -> FloatArray:
+        """The true route as points, shape (k, 2), world frame."""
+        points = [self.start[:2], *(place(goal) for goal in self.goals)]
+        ways = [self.geodesic.to(b).way(a) for a, b in pairwise(points)]
+        return np.vstack(ways) if ways else np.array([self.start[:2]])
+
+    @cached_property
+    def route_length(self) -> float:
+        """Length of the true route, metres."""
+        return path_length(self.route)
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """The true route for `info`, as plain points: vector environments stack arrays."""
+        points = tuple((x, y) for x, y in self.route.tolist())
+        return {"route": points, "route_length": self.route_length}
+
+
+def plan_mission(
+    floor_plan: FloorPlan,
+    geodesic: Geodesic,
+    command: Command,
+    start: Pose,
+    feasible: bool = True,
+) -> Mission:
+    """Ground a command on the floor plan.
+
+    Args:
+        floor_plan: the truth.
+        geodesic: its shortest ways.
+        command: what the robot is told.
+        start: its pose, world frame.
+        feasible: whether the command must be one that can be carried out. If not, goals and route
+            of one that cannot lead as far as it can.
+
+    Raises:
+        GroundingError: the command cannot be carried out from there; says what there is.
+    """
+    guide = RoomGuide(floor_plan, command, geodesic)
+    goals: tuple[Goal, ...] = ()
+    try:
+        for goal in goals_in_turn(floor_plan, command, start, guide):
+            goals += (goal,)
+    except GroundingError:
+        if feasible:
+            raise
+    return Mission(floor_plan, geodesic, command, start, goals, dict(guide.ways))
