@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env import recheck as second
+from semnav_env.verifier import recheck as second
 from semnav_env.agents.evaluation import drive
 from semnav_env.agents.oracle import OracleAgent
 from semnav_env.commands import Command, GoBack, GoToRoom, parse
