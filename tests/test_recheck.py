@@ -12,7 +12,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.verifier import recheck as second
 from semnav_env.agents.evaluation import drive
 from semnav_env.agents.oracle import OracleAgent
 from semnav_env.commands import Command, GoBack, GoToRoom, parse
@@ -30,6 +29,7 @@ from semnav_env.metrics import Recording
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.tasks.sampling import sample_feasible
 from semnav_env.verifier import FAILURES, Verdict, Verifier, astray, plan_mission, verifier
+from semnav_env.verifier import recheck as second
 from semnav_env.verifier.astray import ASTRAY
 from semnav_env.verifier.recheck import recheck
 from semnav_env.verifier.verifier import STILL, STILL_FOR
