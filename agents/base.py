@@ -1,4 +1,4 @@
-"""The one face of all agents."""
+"""The interface of all agents, and the loop that lets one drive an episode."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ Observation = dict[str, NDArray[Any]]
 
 
 class Agent(Protocol):
-    """Drives a robot through an episode.
+    """What drives a robot; any object with these members is an agent.
 
     Attributes:
-        observation: the `observation=` of the environment that it needs.
+        observation: the `observation=` of the environment that the agent needs.
     """
 
     observation: str
@@ -25,7 +25,7 @@ class Agent(Protocol):
         """Begin an episode.
 
         Args:
-            info: what `env.reset` returned.
+            info: the second value that `env.reset` returned.
         """
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
@@ -46,13 +46,13 @@ class Step(NamedTuple):
 def steps(
     env: gym.Env[Any, Any], agent: Agent, observation: Observation, info: dict[str, Any]
 ) -> Iterator[Step]:
-    """Let an agent drive an episode to its end.
+    """Let an agent drive an episode to its end, step by step.
 
     Args:
-        env: whose `observation=` is the agent's.
-        agent: the driver; it is reset.
-        observation: what `env.reset` returned.
-        info: likewise.
+        env: an environment with the `observation=` of the agent.
+        agent: the driver; it is reset first.
+        observation: the first value that `env.reset` returned.
+        info: the second one.
     """
     agent.reset(info)
     over = False

@@ -1,4 +1,4 @@
-"""Drives as it was trained to; needs no more than NumPy and safetensors."""
+"""The learned agent, which runs a trained policy with NumPy and safetensors alone."""
 
 from __future__ import annotations
 
@@ -10,20 +10,21 @@ from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
 from semnav_env.agents.learning.compact import COMPACT_SIZE, compact
-from semnav_env.agents.learning.files import AGENT, POLICY, Description, load_tensors
+from semnav_env.agents.learning.files import AGENT_FILE, POLICY_FILE, AgentDescription, load_tensors
 from semnav_env.agents.learning.policy import Policy
 from semnav_env.robots import robot_spec
 
-PRETRAINED = Path(__file__).with_name("pretrained")
+PRETRAINED_FOLDER = Path(__file__).with_name("pretrained")
+"""Folder of the trained agents that come with the package."""
 
 
 def pretrained_names() -> tuple[str, ...]:
     """Names of the trained agents that come with the package, sorted."""
-    return tuple(sorted(path.parent.name for path in PRETRAINED.glob(f"*/{AGENT}")))
+    return tuple(sorted(path.parent.name for path in PRETRAINED_FOLDER.glob(f"*/{AGENT_FILE}")))
 
 
 class LearnedAgent:
-    """A trained policy, without the noise it explored with.
+    """A trained policy, without the noise with which it explored.
 
     Args:
         policy: from a compact observation to an action.
@@ -47,8 +48,8 @@ class LearnedAgent:
             OSError: a file cannot be read.
             ImportError: safetensors is not installed.
         """
-        folder = PRETRAINED / path if path in pretrained_names() else Path(path)
-        description = Description.read(folder)
+        folder = PRETRAINED_FOLDER / path if path in pretrained_names() else Path(path)
+        description = AgentDescription.read(folder)
         fitting = (COMPACT_SIZE, robot_spec(description.robot).action_size)
         widths = description.widths
         if (widths[0], widths[-1]) != fitting:
@@ -56,18 +57,18 @@ class LearnedAgent:
                 f"{folder}: the policy takes {widths[0]} values and gives {widths[-1]}; this "
                 f"version has {fitting[0]} and {fitting[1]}: train it anew"
             )
-        tensors = load_tensors(folder / POLICY)
+        tensors = load_tensors(folder / POLICY_FILE)
         try:
             policy = Policy.from_tensors(tensors, widths)
         except ValueError as error:
-            raise ValueError(f"{folder / POLICY}: {error}") from None
+            raise ValueError(f"{folder / POLICY_FILE}: {error}") from None
         return cls(policy, description.robot, description.repeat)
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode.
 
         Raises:
-            ValueError: it is to drive another robot.
+            ValueError: the robot is not the one that it was trained on.
         """
         robot = info["robot_spec"].name
         if robot != self.robot:
@@ -75,7 +76,7 @@ class LearnedAgent:
         self._held = 0
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
-        """The action: a new one every `repeat` steps."""
+        """The action; a new one is chosen every `repeat` steps."""
         if self._held == 0:
             self._action = self.policy.act(compact(observation))
         self._held = (self._held + 1) % self.repeat

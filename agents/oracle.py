@@ -1,4 +1,4 @@
-"""The oracle: knows the floor plan and where it is; what can be reached, it reaches."""
+"""The oracle: an agent that knows the floor plan and its own true pose."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The scripted agent: sees only the observation, so only what a robot would see."""
+"""The scripted agent: it uses the observation alone, which a real robot would have as well."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from semnav_env.observations import SeenGoal, read_odometry, table
 
 
 class ScriptedAgent:
-    """Drives to the goal that the robot makes out, around what its lidar and its body have hit.
+    """Drives to the observed goal, around obstacles that the lidar has hit or the body has touched.
 
     Goal, odometry and scan come from the observation; body and lidar from `reset`.
     """

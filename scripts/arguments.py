@@ -1,4 +1,4 @@
-"""Command lines into frozen dataclasses, with one-line errors."""
+"""Reads command lines as frozen dataclasses, with one-line errors."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ import tyro
 
 
 class Runnable(Protocol):
-    """The arguments of a sub-command, which know how to run it."""
+    """The arguments of a sub-command, with the method that runs it."""
 
     def run(self) -> int:
-        """Do it, and return the exit code."""
+        """Run the sub-command and return its exit code."""
 
 
-class Help(Exception):  # noqa: N818 - not an error: the help was asked for and printed
+class HelpShown(Exception):  # noqa: N818 - not an error: the help was asked for and printed
     """The help was printed; there is nothing to run."""
 
 
@@ -27,12 +27,12 @@ def parse(arguments: Any, words: Sequence[str], prog: str) -> Runnable:
 
     Args:
         arguments: a dataclass with a `run` method, or a union of such.
-        words: what follows the name of the command.
-        prog: how help and errors call the command.
+        words: the words after the name of the command.
+        prog: name of the command in help and errors.
 
     Raises:
-        Help: the help was asked for and printed.
-        ValueError: the words do not fit; one line says which and what would.
+        HelpShown: the help was asked for and printed.
+        ValueError: the words do not fit; one line says which word, and what would be right.
     """
     box = io.StringIO()
     try:
@@ -40,7 +40,7 @@ def parse(arguments: Any, words: Sequence[str], prog: str) -> Runnable:
             return cast(Runnable, tyro.cli(arguments, args=list(words), prog=prog))
     except SystemExit as stop:
         if not stop.code:
-            raise Help from None
+            raise HelpShown from None
         raise ValueError(f"{_unboxed(box.getvalue())} (see {prog} --help)") from None
 
 

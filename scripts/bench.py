@@ -1,4 +1,4 @@
-"""`semnav bench`: how fast the environment is here."""
+"""`semnav bench`: measure how fast the environment is on this machine."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class Arguments:
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         robot: wheelchair or spot.
         observation: semantic, raw, truth or all.
-        runs: how often each part is timed; the median counts.
-        steps: calls per run.
+        runs: number of timings of each part, of which the median is shown.
+        steps: number of calls in a timing.
         json: print as JSON.
     """
 

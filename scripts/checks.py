@@ -1,4 +1,4 @@
-"""What `semnav doctor` looks at: the installation, one check each."""
+"""The checks of `semnav doctor`, one for each part of the installation."""
 
 from __future__ import annotations
 
@@ -16,18 +16,19 @@ from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
 
 _PACKAGE = "semnav-env"
+"""Name of the installed distribution."""
 
 
 @dataclass(frozen=True)
-class Check:
+class InstallationCheck:
     """The outcome of one check.
 
     Attributes:
-        name: what was looked at.
-        ok: whether it is as it should be.
+        name: of the part that was checked.
+        ok: whether the part is as it should be.
         detail: what was found.
         fix: what to do if it is not ok.
-        needed: whether semnav-env works without it.
+        needed: whether semnav-env does not work without the part.
     """
 
     name: str
@@ -37,28 +38,30 @@ class Check:
     needed: bool = True
 
 
-def python_version() -> Check:
-    """Is this Python new enough?"""
+def python_version() -> InstallationCheck:
+    """Check that this Python is new enough."""
     wanted = metadata.metadata(_PACKAGE)["Requires-Python"]
     found = platform.python_version()
-    return Check("Python", SpecifierSet(wanted).contains(found), found, f"use Python {wanted}")
+    return InstallationCheck(
+        "Python", SpecifierSet(wanted).contains(found), found, f"use Python {wanted}"
+    )
 
 
-def requirements() -> list[Check]:
-    """Are the packages that semnav-env needs installed, in versions that it knows?"""
+def requirements() -> list[InstallationCheck]:
+    """Check that the packages which semnav-env needs are installed, in supported versions."""
     return [_requirement(r) for r in _requirements() if r.marker is None]
 
 
-def extras() -> list[Check]:
-    """Which optional parts are installed?"""
+def extras() -> list[InstallationCheck]:
+    """Check which optional parts are installed."""
     names = metadata.metadata(_PACKAGE).get_all("Provides-Extra") or []
     return [_extra(name) for name in names if name != "all"]
 
 
-def single_pygame() -> Check:
-    """Is there only one of the two packages that both install the module pygame?"""
+def single_pygame() -> InstallationCheck:
+    """Check that only one of the two packages which install the module pygame is there."""
     there = [name for name in ("pygame", "pygame-ce") if _version(name)]
-    return Check(
+    return InstallationCheck(
         "one pygame",
         len(there) < 2,
         " and ".join(there) or "none installed",
@@ -66,10 +69,10 @@ def single_pygame() -> Check:
     )
 
 
-def headless_drawing() -> Check:
-    """Can pictures be drawn where there is no display?
+def headless_drawing() -> InstallationCheck:
+    """Check that pictures can be drawn without a display.
 
-    Tried in a process of its own, for a broken SDL may take its process down.
+    The check runs in a process of its own, because a broken SDL may end its process.
     """
     program = (
         "from semnav_env.rendering.backend import load_pygame\n"
@@ -87,11 +90,13 @@ def headless_drawing() -> Check:
     )
     detail = "works" if run.returncode == 0 else (run.stderr.splitlines() or ["crashed"])[-1]
     fix = f'pip install "{_PACKAGE}[render]"'
-    return Check("drawing without a display", run.returncode == 0, detail, fix, needed=False)
+    return InstallationCheck(
+        "drawing without a display", run.returncode == 0, detail, fix, needed=False
+    )
 
 
-def kernels() -> list[Check]:
-    """Do the compiled kernels work, and are they kept between runs?"""
+def kernels() -> list[InstallationCheck]:
+    """Check that the compiled kernels work, and that they are kept between runs."""
     from semnav_env.features import extract
     from semnav_env.features.kernels.chain import extract_arrays
     from semnav_env.lidar import Lidar
@@ -102,7 +107,7 @@ def kernels() -> list[Check]:
     scan = Lidar(load_floor_plan("heidelberg_hallway")).scan(pose, key=(0, 0, 0))
     walls = len(extract(scan).walls)
     seconds = time.perf_counter() - start
-    works = Check(
+    works = InstallationCheck(
         "compiled kernels",
         walls > 0,
         f"a simulated scan shows {walls} walls; ready after {seconds:.1f} s",
@@ -111,30 +116,32 @@ def kernels() -> list[Check]:
     return [works, _writable_cache(Path(extract_arrays.stats.cache_path or ""))]
 
 
-def _writable_cache(folder: Path) -> Check:
+def _writable_cache(folder: Path) -> InstallationCheck:
     fix = "set NUMBA_CACHE_DIR to a folder that you may write to, or every start compiles anew"
     ok = folder != Path() and os.access(folder, os.W_OK)
-    return Check("kernel cache", ok, f"{folder} is {'' if ok else 'not '}writable", fix, False)
+    return InstallationCheck(
+        "kernel cache", ok, f"{folder} is {'' if ok else 'not '}writable", fix, False
+    )
 
 
 def _requirements() -> list[Requirement]:
     return [Requirement(text) for text in metadata.requires(_PACKAGE) or []]
 
 
-def _requirement(wanted: Requirement) -> Check:
+def _requirement(wanted: Requirement) -> InstallationCheck:
     found = _version(wanted.name)
     ok = found is not None and wanted.specifier.contains(found, prereleases=True)
     plain = f"{wanted.name}{wanted.specifier}"
-    return Check(wanted.name, ok, found or "not installed", f'pip install "{plain}"')
+    return InstallationCheck(wanted.name, ok, found or "not installed", f'pip install "{plain}"')
 
 
-def _extra(name: str) -> Check:
+def _extra(name: str) -> InstallationCheck:
     pattern = re.compile(rf"""extra == ['"]{re.escape(name)}['"]""")
     checks = [_requirement(r) for r in _requirements() if pattern.search(str(r.marker))]
     missing = [check.name for check in checks if not check.ok]
     detail = f"missing: {', '.join(missing)}" if missing else "installed"
     fix = f'pip install "{_PACKAGE}[{name}]"'
-    return Check(f"extra {name}", not missing, detail, fix, needed=False)
+    return InstallationCheck(f"extra {name}", not missing, detail, fix, needed=False)
 
 
 def _version(package: str) -> str | None:

@@ -1,4 +1,4 @@
-"""`semnav demo`: one command, one robot, one agent; with a film or a picture of it."""
+"""`semnav demo`: let one robot carry out one command, with a film or a picture of it."""
 
 from __future__ import annotations
 
@@ -21,29 +21,30 @@ from semnav_env.features.frames import Pose
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
 
-FRAME_EVERY = 3
-"""Steps between the frames of a film."""
+STEPS_PER_FRAME = 3
+"""Steps of the environment for each frame of a film: 5 frames a second are enough to follow it."""
 
 
 @dataclass(frozen=True)
 class Arguments:
     """Let a robot carry out a command.
 
-    Exit code 0 if it got there, 1 if not, 2 if the command makes no sense there.
+    The exit code is 0 if the robot got there, 1 if it did not, and 2 if the command cannot be
+    carried out from its start.
 
     Attributes:
-        command: what to say to it.
+        command: what to say to the robot.
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         language: of the command: en or de (english, german).
         robot: wheelchair or spot.
         agent: scripted, oracle, quick, office (trained ones), the folder of a trained agent, or
             package.module:Class.
-        pose: where it starts, x,y,heading in metres and radians; drawn from the seed if not given.
-        seed: of everything that is drawn.
+        pose: where the robot starts, x,y,heading in metres and radians; random if not given.
+        seed: of everything that is random.
         dynamics: what else moves.
-        save: film of it (.gif or .mp4).
-        picture: picture of the end (.png).
-        show: watch it in a window.
+        save: film to write (.gif or .mp4).
+        picture: picture of the end to write (.png).
+        show: show the drive in a window.
         json: print the outcome as JSON.
     """
 
@@ -87,15 +88,15 @@ class Arguments:
         )
         for number, step in enumerate(driven):
             info = step.info
-            if filmed and (number % FRAME_EVERY == 0 or "is_success" in info):
+            if filmed and (number % STEPS_PER_FRAME == 0 or "is_success" in info):
                 frames.append(env.render())  # type: ignore[arg-type]
         env.close()
-        self._save(frames, env.metadata["render_fps"] / FRAME_EVERY)
+        self._save(frames, env.metadata["render_fps"] / STEPS_PER_FRAME)
         self._report(start, info, env.seconds, for_json(env.world.social()))
         return 0 if info["is_success"] else 1
 
     def _check_files(self) -> None:
-        """Before the drive, which takes its time."""
+        """Refuse bad paths before the drive, which takes a while."""
         from semnav_env.rendering.video import check_suffix
 
         check_file(self.save, "--save")

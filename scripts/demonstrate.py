@@ -1,4 +1,4 @@
-"""`semnav demonstrate`: what an agent sees and does, as a dataset to learn from."""
+"""`semnav demonstrate`: write what an agent sees and does as a dataset to learn from."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from semnav_env.scripts.progress import tracked
 class Arguments:
     """Write an agent's observations, actions and rewards in frozen episodes as a Minari dataset.
 
-    Each episode is on disk when it has been driven, so an interruption loses none of them.
+    Each episode is written as soon as it has been driven, so an interruption loses none.
 
     Attributes:
         split: a split (`semnav episodes list`), or a file of episodes.
-        out: name of the dataset, as semnav/train-scripted-v0, or a new folder.
+        out: name of the dataset, such as semnav/train-scripted-v0, or a new folder.
         agent: scripted, oracle, quick, office (trained ones), the folder of a trained agent, or
             package.module:Class.
         robot: wheelchair or spot.
-        episodes: how many, evenly spaced; all if not given.
+        episodes: number of episodes, evenly spaced; all if not given.
         failures: keep failed episodes as well.
-        max_seconds: of simulated time, for each episode.
+        max_seconds: time limit of an episode, simulated seconds.
         json: print JSON.
     """
 
@@ -43,7 +43,7 @@ class Arguments:
     json: bool = False
 
     def run(self) -> int:
-        """Drive, write, and make sure that all is on disk."""
+        """Drive, write, and check that everything is on disk."""
         if self.episodes is not None and self.episodes < 1:
             raise ValueError(f"--episodes is {self.episodes}; it must be at least 1")
         episodes = load_episodes(self.split)

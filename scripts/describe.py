@@ -1,4 +1,4 @@
-"""`semnav describe`: what to say to a robot that is to go somewhere."""
+"""`semnav describe`: say the command that leads a robot somewhere."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ class Arguments:
         start: where the robot stands, x,y,heading in metres and radians.
         to: name of a door, a room or a corridor, or x,y in metres.
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
-        approach: through a door that is named, or to it.
+        approach: go through a door that is named, or only to it.
         robot: wheelchair or spot.
         language: of the words: en or de (english, german).
-        paraphrases: how many other wordings to print.
-        seed: of the wordings.
+        paraphrases: number of other wordings to print.
+        seed: of the other wordings.
         plot: picture of the route to write (.png, .pdf or .svg).
         json: print as JSON.
     """
@@ -55,7 +55,7 @@ class Arguments:
     json: bool = False
 
     def run(self) -> int:
-        """Find the way, and the words for it."""
+        """Find the route and describe it."""
         for name in ("seed", "paraphrases"):
             if getattr(self, name) < 0:
                 raise ValueError(f"--{name} is {getattr(self, name)}; it must be 0 or more")
@@ -96,7 +96,7 @@ class Arguments:
 
 
 def _goal(text: str) -> str | Point:
-    """A point if it is two numbers, else a name."""
+    """A point if the text is two numbers, otherwise a name."""
     number = r"\s*([-+]?\d+(?:\.\d*)?)\s*"
     match = re.fullmatch(f"{number},{number}", text)
     return (float(match[1]), float(match[2])) if match else text

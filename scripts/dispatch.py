@@ -1,4 +1,4 @@
-"""A command with sub-commands: finds the one that is asked for, and returns an exit code.
+"""A command with sub-commands: runs one of them and returns an exit code.
 
 Exit codes: 0 done; 1 not achieved; 2 bad input, with one line on stderr that names what is wrong
 and what would be right; 130 interrupted.
@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from importlib import import_module, metadata
 
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
+"""Exit codes; the last two are those of a shell for SIGINT and SIGPIPE."""
 
 
 @dataclass(frozen=True)
@@ -21,9 +22,9 @@ class CommandTable:
     """A command and its sub-commands.
 
     Attributes:
-        prog: how the command is called.
-        about: one sentence on it.
-        commands: name of a sub-command: (module, help). The module's `Arguments` have
+        prog: name of the command.
+        about: one sentence that says what it is for.
+        commands: module and help of each sub-command, by its name. The module's `Arguments` have
             `run() -> int`.
     """
 
@@ -73,12 +74,12 @@ class CommandTable:
             near = difflib.get_close_matches(name, self.commands, n=1)
             hint = f"did you mean {near[0]!r}? " if near else ""
             raise ValueError(f"no command {name!r}; {hint}there are: {known}")
-        from semnav_env.scripts.arguments import Help, parse
+        from semnav_env.scripts.arguments import HelpShown, parse
 
         module = import_module(self.commands[name][0])
         try:
             command = parse(module.Arguments, rest, prog=f"{self.prog} {name}")
-        except Help:
+        except HelpShown:
             return 0
         return command.run()
 
@@ -107,5 +108,5 @@ def in_one_line(error: Exception) -> str:
 
 
 def _with_notes(said: str, error: BaseException) -> str:
-    """With what an error was told on its way up, such as where the work so far is."""
+    """The message with the notes of the error, such as where the results so far are."""
     return "; ".join([said, *getattr(error, "__notes__", ())])

@@ -7,14 +7,15 @@ from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 
 from semnav_env.scripts import checks
-from semnav_env.scripts.checks import Check
+from semnav_env.scripts.checks import InstallationCheck
 
 
 @dataclass(frozen=True)
 class Arguments:
     """Check the installation, and say how to mend it.
 
-    Exit code 0 if all that is needed works, else 1. Optional parts do not count.
+    The exit code is 0 if everything that is needed works, and 1 otherwise. Optional parts do not
+    count.
 
     Attributes:
         json: print JSON.
@@ -32,7 +33,7 @@ class Arguments:
         return 0 if all(check.ok or not check.needed for check in done) else 1
 
 
-def _examine() -> Iterator[Check]:
+def _examine() -> Iterator[InstallationCheck]:
     yield checks.python_version()
     yield from checks.requirements()
     yield from checks.extras()
@@ -41,19 +42,19 @@ def _examine() -> Iterator[Check]:
         try:
             yield from examine()
         except Exception as error:
-            yield Check(name, False, f"{type(error).__name__}: {error}", _ADVICE)
+            yield InstallationCheck(name, False, f"{type(error).__name__}: {error}", _ADVICE)
 
 
 _ADVICE = "set NUMBA_CACHE_DIR to a folder that you may write to, or reinstall semnav-env"
 
-_TRIALS: dict[str, Callable[[], list[Check]]] = {
+_TRIALS: dict[str, Callable[[], list[InstallationCheck]]] = {
     "drawing without a display": lambda: [checks.headless_drawing()],
     "compiled kernels": checks.kernels,
 }
-"""Checks that run code which may fail in ways of its own."""
+"""Checks that run other code, whose errors are reported as the outcome of the check."""
 
 
-def _line(check: Check) -> str:
+def _line(check: InstallationCheck) -> str:
     mark = "ok" if check.ok else "FAIL" if check.needed else "--"
     advice = "" if check.ok else f" ({check.fix})"
     return f"{mark:<5}{check.name:<28}{check.detail}{advice}"

@@ -16,12 +16,12 @@ from semnav_env.episodes import SPLITS, Episode, Split, load_episodes, write_epi
 from semnav_env.episodes.check import faults
 from semnav_env.episodes.generate import generate_split
 from semnav_env.episodes.splits import SEED, SUFFIX
-from semnav_env.scripts.episodes_import import Import
+from semnav_env.scripts.episodes_import import EpisodesImport
 from semnav_env.scripts.progress import tracked
 
 
 @dataclass(frozen=True)
-class List:
+class EpisodesList:
     """Print the splits.
 
     Attributes:
@@ -31,7 +31,7 @@ class List:
     json: bool = False
 
     def run(self) -> int:
-        """One line a split."""
+        """Print one line for each split."""
         if self.json:
             rows = ({"name": s.name, "episodes": s.episodes} for s in SPLITS.values())
             print(json.dumps(list(rows)))
@@ -45,14 +45,14 @@ class List:
 
 
 @dataclass(frozen=True)
-class Generate:
-    """Make episodes anew; the same seed gives the same ones, whatever the number of processes.
+class EpisodesGenerate:
+    """Generate episodes; the same seed gives the same ones with any number of processes.
 
     Attributes:
-        splits: which; all if none is named.
-        out: folder for a file of each split.
+        splits: names of splits; all if none is named.
+        out: folder for the files, one for each split.
         seed: of the episodes; that of the frozen ones if not given.
-        workers: processes.
+        workers: number of processes.
     """
 
     splits: Positional[tuple[str, ...]] = ()
@@ -91,12 +91,12 @@ class Generate:
 
 
 @dataclass(frozen=True)
-class Check:
-    """Find out anew whether episodes are what they say; the exit code is 1 if one is not.
+class EpisodesCheck:
+    """Check again that episodes are what they say; the exit code is 1 if one is not.
 
     Attributes:
         splits: names of splits or paths of files; all splits if none is named.
-        stride: check every so many-th episode.
+        stride: check only every Nth episode.
         json: print JSON.
     """
 
@@ -105,7 +105,7 @@ class Check:
     json: bool = False
 
     def run(self) -> int:
-        """Print every fault, and counts."""
+        """Check, and print every fault and how many there are."""
         if self.stride < 1:
             raise ValueError(f"--stride is {self.stride}; it must be at least 1")
         checked, found = 0, list[str]()
@@ -145,8 +145,8 @@ def _chosen(names: tuple[str, ...]) -> list[Split]:
 
 
 Arguments = (
-    Annotated[List, subcommand("list")]
-    | Annotated[Check, subcommand("check")]
-    | Annotated[Generate, subcommand("generate")]
-    | Annotated[Import, subcommand("import")]
+    Annotated[EpisodesList, subcommand("list")]
+    | Annotated[EpisodesCheck, subcommand("check")]
+    | Annotated[EpisodesGenerate, subcommand("generate")]
+    | Annotated[EpisodesImport, subcommand("import")]
 )

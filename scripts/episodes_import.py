@@ -1,4 +1,4 @@
-"""`semnav episodes import`: episodes in maps of real floors."""
+"""`semnav episodes import`: make episodes in maps of real floors."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from semnav_env.maps import load_floor_plan, save_floor_plan
 from semnav_env.maps.importers.opening import import_map
 from semnav_env.scripts.progress import tracked
 
-NAME = "test_real_floors"
+SPLIT_NAME = "test_real_floors"
 
 
 @dataclass(frozen=True)
-class Import:
+class EpisodesImport:
     """Make episodes like those of test_real in maps that are not part of the package.
 
     Attributes:
         maps: files as `semnav map import` reads them.
         out: folder for the floor plans and the file of episodes.
-        episodes: how many in each.
+        episodes: number of episodes in each map.
         seed: of the episodes.
     """
 
@@ -36,7 +36,7 @@ class Import:
     seed: int = SEED
 
     def run(self) -> int:
-        """Import every map, and write one file of episodes for all."""
+        """Import every map, and write the episodes of all maps to one file."""
         if not self.maps or self.episodes < 1 or self.seed < 0:
             raise ValueError("give at least one map, --episodes at least 1 and --seed at least 0")
         self.out.mkdir(parents=True, exist_ok=True)
@@ -45,13 +45,13 @@ class Import:
         label = f"{{}} of {total} episodes".format
         for episode in tracked(self._made(), label, lambda: len(made) / total):
             made.append(episode)
-        path = self.out / f"{NAME}{SUFFIX}"
+        path = self.out / f"{SPLIT_NAME}{SUFFIX}"
         write_episodes(made, path)
         print(f"wrote {path}: {len(made)} episodes in {len(self.maps)} floors")
         return 0
 
     def _made(self) -> Iterator[Episode]:
-        split = replace(SPLITS["test_real"], name=NAME)
+        split = replace(SPLITS["test_real"], name=SPLIT_NAME)
         for index, source in enumerate(self.maps):
             plan = import_map(source).plan
             path = self.out / f"{plan.name}-{index}{PLAN}"

@@ -1,4 +1,4 @@
-"""`semnav evaluate`: many episodes, one table."""
+"""`semnav evaluate`: drive many episodes, and print one table."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from semnav_env.scripts.jsonl import JsonLines
 from semnav_env.scripts.outputs import check_file, check_folder, counted
 from semnav_env.scripts.progress import tracked
 
-SHOWN = {
+SHOWN_MEASURES = {
     "success": "success",
     "contact_free": "no contact",
     "spl": "SPL",
@@ -41,7 +41,7 @@ SHOWN = {
     "clauses": "clauses",
     "seconds": "seconds",
 }
-"""Measures of each command that are shown, and their headings."""
+"""The measures that are shown for each command, and their headings."""
 
 
 @dataclass(frozen=True)
@@ -49,20 +49,20 @@ class Arguments:
     """Run a suite of commands many times, or the episodes of a split once, and count.
 
     Attributes:
-        suite: heidelberg, office_cross, or "all"; a split (`semnav episodes list`), or a file of
-            episodes.
+        suite: heidelberg, office_cross, or "all" of these; a split (`semnav episodes list`); or a
+            file of episodes.
         agent: scripted, oracle, quick, office (trained ones), the folder of a trained agent, or
             package.module:Class.
         robot: wheelchair or spot.
-        seeds: how many start poses and noises per command of a suite.
-        first_seed: of them.
-        episodes: how many of a split, evenly spaced; all if not given.
-        workers: processes.
+        seeds: number of start poses, each with its own noise, for every command of a suite.
+        first_seed: number of the first seed.
+        episodes: number of episodes of a split, evenly spaced; all if not given.
+        workers: number of processes.
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
         dynamics: what else moves.
-        out: file for every episode, one JSON object a line, as they are driven; named
-            `.part` until the end or an interruption.
+        out: file for the episodes, one JSON object a line, written as they are driven; its name
+            ends in `.part` until the end or an interruption.
         json: print the table as JSON.
     """
 
@@ -106,7 +106,7 @@ class Arguments:
         return 0
 
     def _drive(self, episodes: Iterator[Result], total: int) -> list[Result]:
-        """All results; each is written as it comes, so that an interruption loses none."""
+        """All results; each is written at once, so that an interruption loses none."""
         results: list[Result] = []
         with JsonLines(self.out) if self.out else nullcontext() as out:
             for result in tracked(
@@ -128,7 +128,7 @@ class Arguments:
         return found if self.episodes is None else evenly(found, self.episodes)
 
     def _ask(self, episodes: Sequence[Episode]) -> int:
-        """What the grammar makes of commands that can mean several things."""
+        """Count the ambiguous commands whose readings the grammar finds."""
         wrong = {episode: cause for episode in episodes if (cause := asked(episode))}
         right = len(episodes) - len(wrong)
         failures = [
@@ -179,13 +179,15 @@ class Arguments:
 
 
 def _commands_table(summaries: list[Summary]) -> Table:
-    """The numbers first, so that narrow windows wrap the words of the commands only."""
+    """A row for each command; numbers come first, so that only the words wrap in narrow windows."""
     table = Table("n", box=None, padding=(0, 1, 0, 0))
-    for heading in SHOWN.values():
+    for heading in SHOWN_MEASURES.values():
         table.add_column(heading, width=7, justify="right")
     table.add_column("command")
     for row in summaries:
-        table.add_row(str(row.episodes), *(_written(row.means[name]) for name in SHOWN), row.name)
+        table.add_row(
+            str(row.episodes), *(_written(row.means[name]) for name in SHOWN_MEASURES), row.name
+        )
     return table
 
 

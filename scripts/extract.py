@@ -1,4 +1,4 @@
-"""`semnav extract`: a log of lidar scans into scenes."""
+"""`semnav extract`: turn a log of lidar scans into scenes."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ from semnav_env.scripts.jsonl import JsonLines
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
 from semnav_env.scripts.sampling import EvenSample
-from semnav_env.scripts.scene_report import Tally, document
+from semnav_env.scripts.scene_report import ExtractionTally, document
 
 
 @dataclass(frozen=True)
 class Arguments:
     """Turn a log of lidar scans into walls, doors, corners and corridors.
 
-    Reads CARMEN logs, CSV and BreezySLAM's logs (text or gz), npz archives, ROS 1 bags, ROS 2
-    bags (folder, .db3 or .mcap). A log that is cut short is processed as far as it goes; the
-    exit code is then 2.
+    It reads CARMEN logs, CSV and BreezySLAM's logs (text or gz), npz archives, ROS 1 bags, and
+    ROS 2 bags (folder, .db3 or .mcap). A log that is cut short is processed up to its last whole
+    scan; the exit code is then 2.
 
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag.
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
         out: file for the scenes, one JSON object a line, in the frame of the lidar.
         plot: picture of some scans with what was found in them (.png, .pdf or .svg).
-        scans: how many scans the picture shows, spread evenly over the log.
-        every: take only each Nth scan.
-        limit: stop after so many scans.
-        range_max: no return at and beyond it, metres.
+        scans: number of scans in the picture, spread evenly over the log.
+        every: take only every Nth scan.
+        limit: stop after this number of scans.
+        range_max: range from which a beam counts as no return, metres.
         beam_spacing: degrees between beams, for FLASER lines with an unusual number of them.
         angle_min: direction of the first beam in CSV and npz logs that leave it out, radians.
         angle_increment: angle between the beams of such logs, radians.
@@ -58,12 +58,12 @@ class Arguments:
     json: bool = False
 
     def run(self) -> int:
-        """Extract, and say how it went."""
+        """Extract the scenes, and print a summary."""
         self._check()
         page = EvenSample[tuple[str, Scan, Scene]](self.scans)
         damage: TruncatedLogError | None = None
         with open_log(self.log, self._geometry, self.topic) as log:
-            tally = Tally(log)
+            tally = ExtractionTally(log)
             try:
                 self._extract(log, tally, page)
             except TruncatedLogError as error:
@@ -86,7 +86,7 @@ class Arguments:
         return Geometry(self.range_max, self.beam_spacing, self.angle_min, self.angle_increment)
 
     def _extract(
-        self, log: ScanLog, tally: Tally, page: EvenSample[tuple[str, Scan, Scene]]
+        self, log: ScanLog, tally: ExtractionTally, page: EvenSample[tuple[str, Scan, Scene]]
     ) -> None:
         stop = None if self.limit is None else (self.limit - 1) * self.every + 1
         records = islice(log, 0, stop, self.every)

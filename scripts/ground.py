@@ -1,4 +1,4 @@
-"""`semnav ground`: what a command refers to in a floor plan."""
+"""`semnav ground`: say what a command refers to in a floor plan."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ from semnav_env.robots import robot_spec
 from semnav_env.scripts.demo import parse_pose
 from semnav_env.verifier import plan_goals
 
-HEADINGS = f"{'goal':<6}{'x, m':>9}{'y, m':>9}{'heading, rad':>14}  clause"
+TABLE_HEADINGS = f"{'goal':<6}{'x, m':>9}{'y, m':>9}{'heading, rad':>14}  clause"
 
 
 @dataclass(frozen=True)
 class Arguments:
     """Say what a command refers to in a floor plan, clause by clause.
 
-    Each clause gives a goal: "reach" a place, "pass" the door that is named, or "stop". Then
-    follow where the robot's centre should come to be, in the frame of the floor plan, what was
-    understood, and the door. A place behind a door to pass heads away from it.
+    Each clause gives a goal: "reach" a place, "pass" the door that is named, or "stop". A line
+    shows the goal, the place where the robot's centre is to go, in the frame of the floor plan,
+    what was understood, and the door. Behind a door to pass, the heading points away from the door.
 
     Attributes:
-        command: a command, or just a place: "the second door on the right".
+        command: a command, or only a place, such as "the second door on the right".
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         pose: where the robot stands, x,y,heading in metres and radians.
         robot: wheelchair or spot.
@@ -51,7 +51,7 @@ class Arguments:
     json: bool = False
 
     def run(self) -> int:
-        """Ground it on the true scene."""
+        """Ground the command on the true scene."""
         floor_plan, pose = load_floor_plan(self.map), parse_pose(self.pose)
         error = placement_error(floor_plan, robot_spec(self.robot), pose)
         if error is not None:
@@ -70,7 +70,7 @@ class Arguments:
         if self.json:
             print(json.dumps(rows))
         else:
-            print("\n".join([HEADINGS, *map(_line, rows)]))
+            print("\n".join([TABLE_HEADINGS, *map(_line, rows)]))
         return 0
 
 
@@ -81,10 +81,10 @@ def _line(row: dict[str, Any]) -> str:
 
 
 def understood(text: str, language: str = "en", rooms: tuple[str, ...] = ()) -> Command:
-    """The command, or for a mere place the command to go there.
+    """The command that a text says; for a place alone, the command to go there.
 
     Raises:
-        CommandError: it is neither.
+        CommandError: the text is neither a command nor a place.
     """
     try:
         return parse(text, language, rooms)
@@ -104,7 +104,7 @@ def understood(text: str, language: str = "en", rooms: tuple[str, ...] = ()) -> 
 
 
 def _is_place(command: Command) -> bool:
-    """Whether a command is no more than to go to a door."""
+    """Whether a command only says to go to a door."""
     match command.clauses:
         case (GoToDoor(_, Approach.TO),):
             return True

@@ -1,4 +1,4 @@
-"""JSON Lines files that are never half written."""
+"""JSON Lines files that are never left half written."""
 
 from __future__ import annotations
 
@@ -13,16 +13,14 @@ from semnav_env.scripts.outputs import counted
 
 
 class JsonLines:
-    """A file of one JSON object a line, in place only once it is whole.
+    """A file of one JSON object a line, which replaces an older file only at the end.
 
-    Lines go to a neighbour named `.part`, each in a single write, and the neighbour takes the
-    file's place at the end, be it by an error or an interruption: finished lines stay, half
-    lines never come to be. Without any line an older file is left as it is. An error or an
-    interruption is given a note that says where the lines are.
+    Until then the lines are written to a file beside it, whose name ends in `.part`. Each line is
+    a single write, so no line is ever cut. The end may also be an error or an interruption; the
+    error then gets a note that says where the lines are. Without any line an older file stays.
 
     Args:
-        path: the file; missing folders are made. What is not a regular file (a pipe, a
-            terminal) is written directly.
+        path: of the file; missing folders are made. A pipe or a terminal is written directly.
 
     Raises:
         OSError: it cannot be written.

@@ -12,16 +12,16 @@ from tyro.conf import Positional, subcommand
 from semnav_env.features.plot import check_suffix
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
 from semnav_env.maps.doorways import door_state
-from semnav_env.scripts.map_build import Build
-from semnav_env.scripts.map_check import Check
-from semnav_env.scripts.map_export import Export
-from semnav_env.scripts.map_generate import Generate
-from semnav_env.scripts.map_import import Import
+from semnav_env.scripts.map_build import MapBuild
+from semnav_env.scripts.map_check import MapCheck
+from semnav_env.scripts.map_export import MapExport
+from semnav_env.scripts.map_generate import MapGenerate
+from semnav_env.scripts.map_import import MapImport
 from semnav_env.scripts.outputs import counted
 
 
 @dataclass(frozen=True)
-class List:
+class MapList:
     """List the floor plans that come with the package.
 
     Attributes:
@@ -38,7 +38,7 @@ class List:
 
 
 @dataclass(frozen=True)
-class Show:
+class MapShow:
     """Show what a floor plan holds.
 
     Attributes:
@@ -65,13 +65,13 @@ class Show:
 
 
 Arguments = (
-    Annotated[List, subcommand("list")]
-    | Annotated[Show, subcommand("show")]
-    | Annotated[Check, subcommand("check")]
-    | Annotated[Generate, subcommand("generate")]
-    | Annotated[Build, subcommand("build")]
-    | Annotated[Import, subcommand("import")]
-    | Annotated[Export, subcommand("export")]
+    Annotated[MapList, subcommand("list")]
+    | Annotated[MapShow, subcommand("show")]
+    | Annotated[MapCheck, subcommand("check")]
+    | Annotated[MapGenerate, subcommand("generate")]
+    | Annotated[MapBuild, subcommand("build")]
+    | Annotated[MapImport, subcommand("import")]
+    | Annotated[MapExport, subcommand("export")]
 )
 
 

@@ -1,4 +1,4 @@
-"""`semnav map build`: a log of lidar scans into a floor plan."""
+"""`semnav map build`: build a floor plan from a log of lidar scans."""
 
 from __future__ import annotations
 
@@ -29,23 +29,23 @@ from semnav_env.scripts.progress import tracked
 
 
 @dataclass(frozen=True)
-class Build:
+class MapBuild:
     """Build a floor plan of walls and doors from a log of lidar scans.
 
-    Reads what `semnav extract` reads. A log that is cut short is mapped as far as it goes; the
-    exit code is then 2.
+    It reads the same logs as `semnav extract`. A log that is cut short is mapped up to its last
+    whole scan; the exit code is then 2.
 
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag.
         out: the floor plan to write (.geojson).
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
-        poses: where the scans were taken: "log" believes the log's poses, "match" matches each
-            scan with those before, from (0, 0, 0) on, guided by the wheels' odometry if the log
+        poses: where the scans were taken: "log" takes the poses of the log; "match" matches each
+            scan with the earlier ones, starts at (0, 0, 0), and uses wheel odometry if the log
             has it.
-        every: take only each Nth scan.
-        limit: stop after so many scans.
+        every: take only every Nth scan.
+        limit: stop after this number of scans.
         picture: of the plan (.png, .pdf or .svg).
-        range_max: no return at and beyond it, metres.
+        range_max: range from which a beam counts as no return, metres.
         beam_spacing: degrees between beams, for FLASER lines with an unusual number of them.
         angle_min: direction of the first beam in CSV and npz logs that leave it out, radians.
         angle_increment: angle between the beams of such logs, radians.
@@ -70,7 +70,7 @@ class Build:
     json: bool = False
 
     def run(self) -> int:
-        """Build the plan, and say what it holds."""
+        """Build the plan, and print what it holds."""
         self._check()
         geometry = Geometry(self.range_max, self.beam_spacing, self.angle_min, self.angle_increment)
         line_map = LineMap(self.map_settings)
@@ -129,7 +129,7 @@ class Build:
 
 def _as_logged(record: LogRecord) -> tuple[LogRecord, Pose]:
     if record.pose is None:
-        raise ValueError("the log says no poses; find them with --poses match")
+        raise ValueError("the log has no poses; find them with --poses match")
     return record, record.pose
 
 

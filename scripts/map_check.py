@@ -15,12 +15,12 @@ from semnav_env.robots import robot_spec
 
 
 @dataclass(frozen=True)
-class Check:
+class MapCheck:
     """Say what is wrong with a floor plan; the exit code is 1 if anything is.
 
     Attributes:
         plan: name of a bundled plan, of a generated one (office:medium:17), or path of a file.
-        robot: wheelchair or spot, whose body has to reach open doors and rooms.
+        robot: wheelchair or spot; its body has to reach every open door and every room.
         plot: picture to write (.png, .pdf or .svg), with the faults marked.
         json: print JSON.
     """
@@ -31,7 +31,7 @@ class Check:
     json: bool = False
 
     def run(self) -> int:
-        """Print one line for each fault."""
+        """Check the plan, and print one line for each fault."""
         if self.plot:
             check_suffix(self.plot)
         plan, robot = load_floor_plan(self.plan), robot_spec(self.robot)

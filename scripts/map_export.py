@@ -1,4 +1,4 @@
-"""`semnav map export`: a floor plan as a map of ROS's map_server."""
+"""`semnav map export`: write a floor plan as a map of ROS's map_server."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from semnav_env.maps.occupancy_export import export_map
 
 
 @dataclass(frozen=True)
-class Export:
+class MapExport:
     """Write a floor plan as a map of ROS's map_server.
 
-    Beside the YAML file and its image lie doors.yaml and locations.yaml, so that `semnav map
-    import` gets the doors and places back.
+    Beside the YAML file and its image it writes doors.yaml and locations.yaml, from which `semnav
+    map import` reads the doors and places back.
 
     Attributes:
         plan: name of a bundled plan, of a generated one (office:medium:17), or path of a file.
         out: the map to write (.yaml), in a folder of its own.
-        resolution: metres a pixel.
-        image: kind of the image, pgm or png.
+        resolution: metres per pixel.
+        image: format of the image, pgm or png.
         json: print the report as JSON.
     """
 

@@ -1,4 +1,4 @@
-"""`semnav map generate`: a generated office as a file."""
+"""`semnav map generate`: write a generated office to a file."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from semnav_env.scripts.outputs import counted
 
 
 @dataclass(frozen=True)
-class Generate:
+class MapGenerate:
     """Generate an office; the same distribution and seed always give the same one.
 
     Attributes:
         distribution: small, medium, large or hard.
         seed: 0 or more.
-        out: GeoJSON file to write; any command takes office:DISTRIBUTION:SEED without a file, too.
+        out: GeoJSON file to write; all commands also take office:DISTRIBUTION:SEED without a file.
         plot: picture to write (.png, .pdf or .svg).
         json: print JSON.
     """
@@ -30,7 +30,7 @@ class Generate:
     json: bool = False
 
     def run(self) -> int:
-        """Generate, write what was asked for, and say what there is."""
+        """Generate the office, write the files, and print what it holds."""
         if self.plot:
             check_suffix(self.plot)
         plan = generate_office(self.seed, self.distribution)

@@ -1,4 +1,4 @@
-"""`semnav map import`: a floor plan from somebody else's map."""
+"""`semnav map import`: make a floor plan from a map of another program."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from semnav_env.maps.importers import Drawing, Tracing, import_map
 
 
 @dataclass(frozen=True)
-class Import:
-    """Make a floor plan of somebody else's map, and say what was understood of it.
+class MapImport:
+    """Make a floor plan from a map of another program, and say what was understood of it.
 
-    Reads maps of ROS's map_server (.yaml, with doors.yaml and locations.yaml beside it if there
-    are any; or the image alone), drawings (.dxf, .svg), vector maps and houses of HouseExpo
-    (.json), and lists of wall segments (.csv).
+    It reads maps of ROS's map_server (.yaml, with doors.yaml and locations.yaml beside it if they
+    exist; or the image alone), drawings (.dxf, .svg), vector maps and houses of HouseExpo (.json),
+    and lists of wall segments (.csv).
 
     Attributes:
         source: the map.
         out: the floor plan to write (.geojson).
-        resolution: of an image alone, metres a pixel.
-        tracing: how walls are made of the pixels of an occupancy map.
+        resolution: of an image without .yaml file, metres per pixel.
+        tracing: how the pixels of an occupancy map become walls.
         drawing: scale and layers of a drawing.
-        picture: of the plan (.png, .pdf or .svg).
+        picture: picture of the plan to write (.png, .pdf or .svg).
         json: print the report as JSON.
     """
 

@@ -1,4 +1,4 @@
-"""Where results are to go, looked at before the work that makes them."""
+"""Checks of the paths of results, made before the work that produces them."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ def check_file(path: Path | None, option: str) -> None:
     """Refuse a path at which no file can be written; None is no file, and fine.
 
     Args:
-        path: of the file; it and the folders on the way to it may be missing.
-        option: that gave it, for the message.
+        path: of the file; the file and its folders may be missing.
+        option: name of the option that gave the path, for the message.
 
     Raises:
-        ValueError: it is a folder, or lies under a file.
+        ValueError: the path is a folder, or lies under a file.
     """
     if path is None:
         return
@@ -23,10 +23,14 @@ def check_file(path: Path | None, option: str) -> None:
 
 
 def check_folder(path: Path | None, option: str) -> None:
-    """Refuse a path at which no folder is nor can be made; as `check_file`.
+    """Refuse a path at which there is no folder and none can be made; None is fine.
+
+    Args:
+        path: of the folder; it may be missing.
+        option: name of the option that gave the path, for the message.
 
     Raises:
-        ValueError: it is a file, or lies under one.
+        ValueError: the path is a file, or lies under one.
     """
     if path is None:
         return
@@ -36,5 +40,5 @@ def check_folder(path: Path | None, option: str) -> None:
 
 
 def counted(number: int, thing: str) -> str:
-    """A number of things, as "1 door" and "2 doors"."""
+    """A number of things in words, such as "1 door" and "2 doors"."""
     return f"{number} {thing}{'' if number == 1 else 's'}"

@@ -12,24 +12,24 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 T = TypeVar("T")
 
-PATIENCE = 2.0
-"""Seconds before the bar appears."""
+BAR_DELAY = 2.0
+"""Time before the bar appears, seconds: what ends sooner needs none."""
 
 
 def tracked(
     items: Iterable[T], label: Callable[[int], str], fraction: Callable[[], float | None]
 ) -> Iterator[T]:
-    """The items, with a progress bar once they have taken longer than `PATIENCE`.
+    """The items, with a progress bar once they have taken longer than `BAR_DELAY`.
 
     Args:
-        items: what to go through.
-        label: from the number of items so far to the words before the bar.
-        fraction: how much is done, 0 to 1; None where it is not known.
+        items: to go through.
+        label: gives the words before the bar for a number of items so far.
+        fraction: gives the share that is done, 0 to 1, or None where it is not known.
     """
     columns = (BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     progress = Progress(TextColumn("{task.description}"), *columns, console=Console(stderr=True))
     task = progress.add_task(label(0), total=None)
-    with _shown_after(PATIENCE, progress):
+    with _shown_after(BAR_DELAY, progress):
         for count, item in enumerate(items, start=1):
             yield item
             done = fraction()

@@ -1,4 +1,4 @@
-"""What `semnav extract` writes: scenes as JSON, and how the run went."""
+"""The output of `semnav extract`: scenes as JSON, and a summary of the run."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ def _door(door: Door) -> dict[str, Any]:
     }
 
 
-class Tally:
-    """Counts of what a run has found, and how fast.
+class ExtractionTally:
+    """Counts of what a run has found, and its speed.
 
     Attributes:
-        scenes: how many scans were turned into scenes.
-        found: features by kind.
+        scenes: number of scans that were turned into scenes.
+        found: number of features of each kind.
     """
 
     def __init__(self, log: ScanLog) -> None:
@@ -71,7 +71,7 @@ class Tally:
 
     @property
     def rate(self) -> float | None:
-        """Scans per second, reading and writing included, compiling before the first left out."""
+        """Scans per second, reading and writing included; compiling at the start is left out."""
         elapsed = self._last - self._first
         return (self.scenes - 1) / elapsed if elapsed > 0 else None
 
@@ -92,7 +92,7 @@ class Tally:
         return "\n".join(lines)
 
     def as_json(self, whole: bool, written: list[Path]) -> str:
-        """The summary for programs: whether the log was read to its end, and the files made."""
+        """The summary for programs, with whether the log was whole and which files were written."""
         return json.dumps(
             {
                 "scans": self.scenes,

@@ -15,32 +15,31 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from tyro.conf import Positional
 
-from semnav_env.agents.learning.files import AGENT
+from semnav_env.agents.learning.files import AGENT_FILE
 from semnav_env.agents.learning.presets import Preset, preset
+from semnav_env.scripts.dispatch import INTERRUPTED
 
 if TYPE_CHECKING:
-    from semnav_env.agents.learning.training import Report, Trainer
+    from semnav_env.agents.learning.training import Trainer, TrainingReport
 
-SAVE_EVERY = 30.0
-"""Seconds between checkpoints."""
-
-INTERRUPTED = 130
+SAVE_INTERVAL = 30.0
+"""Time between checkpoints, seconds: as much as a crash may cost."""
 
 
 @dataclass(frozen=True)
 class Arguments:
     """Train an agent on a preset with proximal policy optimisation (extra `rl`).
 
-    Ends at the first of --steps and --minutes. Ctrl-C ends it after the update under way; what was
-    learned is saved, and --resume goes on from there.
+    Training ends when --steps or --minutes is reached, whichever comes first. Ctrl-C ends it after
+    the current update; what was learned is saved, and --resume continues from there.
 
     Attributes:
         preset: what to learn: quick or office.
         out: folder of the agent; runs/PRESET if not given.
-        steps: decisions to have trained for at the end; the preset's own number if not given.
-        minutes: to train for, this time.
-        seed: of weights, trials, noise and exploration; a resumed training has its own.
-        resume: go on with the training in the folder.
+        steps: number of decisions in all, at the end; that of the preset if not given.
+        minutes: time limit of this run.
+        seed: of weights, trials, noise and exploration; a resumed training keeps its own.
+        resume: continue the training in the folder.
     """
 
     preset: Positional[str] = "quick"
@@ -57,7 +56,7 @@ class Arguments:
         self._check(folder)
         trainer = self._trainer(wanted, folder)
         console = Console(stderr=True)
-        limits = Limits(wanted.steps if self.steps is None else self.steps, self.minutes)
+        limits = TrainingLimits(wanted.steps if self.steps is None else self.steps, self.minutes)
         with _stopped_by_signals() as stop, _bar(console) as bar:
             report = _train(trainer, limits, stop, bar)
         trainer.close()
@@ -72,7 +71,7 @@ class Arguments:
             raise ValueError(f"--minutes is {self.minutes}; it must be positive and finite")
         if self.seed < 0:
             raise ValueError(f"--seed is {self.seed}; it must be at least 0")
-        if not self.resume and (folder / AGENT).exists():
+        if not self.resume and (folder / AGENT_FILE).exists():
             raise ValueError(
                 f"{folder} holds a trained agent; go on with it by --resume, or give another --out"
             )
@@ -88,25 +87,27 @@ class Arguments:
 
 
 @dataclass(frozen=True)
-class Limits:
-    """When to end.
+class TrainingLimits:
+    """When a training ends.
 
     Attributes:
-        steps: decisions in all.
-        minutes: of this run, if it is bounded.
+        steps: number of decisions in all.
+        minutes: time limit of this run; None for none.
     """
 
     steps: int
     minutes: float | None
 
     def fraction(self, first: int, steps: int, seconds: float) -> float:
-        """How much is done, at least 1 when it is time to end."""
+        """Share of the training that is done; 1 or more when it is time to end."""
         by_steps = 1.0 if steps >= self.steps else (steps - first) / (self.steps - first)
         return max(by_steps, seconds / (60 * self.minutes) if self.minutes else 0.0)
 
 
-def _train(trainer: Trainer, limits: Limits, stop: list[int], bar: Progress) -> Report | None:
-    """Learn until a limit or a signal; checkpoints on the way and at the end."""
+def _train(
+    trainer: Trainer, limits: TrainingLimits, stop: list[int], bar: Progress
+) -> TrainingReport | None:
+    """Learn until a limit or a signal, with checkpoints on the way and at the end."""
     task = bar.add_task("learning", total=1.0)
     first, start = trainer.steps, time.monotonic()
     saved, report = start, None
@@ -115,7 +116,7 @@ def _train(trainer: Trainer, limits: Limits, stop: list[int], bar: Progress) -> 
         report = trainer.advance()
         done = limits.fraction(first, trainer.steps, time.monotonic() - start)
         bar.update(task, completed=min(done, 1.0), description=_line(report))
-        if time.monotonic() - saved > SAVE_EVERY:
+        if time.monotonic() - saved > SAVE_INTERVAL:
             trainer.save()
             saved = time.monotonic()
             if not bar.console.is_terminal:
@@ -129,7 +130,7 @@ def _bar(console: Console) -> Progress:
     return Progress(TextColumn("{task.description}"), *columns, console=console)
 
 
-def _line(report: Report) -> str:
+def _line(report: TrainingReport) -> str:
     return (
         f"{report.steps} decisions, {report.rate:.0f}/s, "
         f"success {report.success:.0%}, no contact {report.contact_free:.0%}, "
@@ -137,7 +138,7 @@ def _line(report: Report) -> str:
     )
 
 
-def _learned(report: Report | None) -> str:
+def _learned(report: TrainingReport | None) -> str:
     if report is None:
         return ""
     return (
@@ -147,7 +148,7 @@ def _learned(report: Report | None) -> str:
 
 @contextmanager
 def _stopped_by_signals() -> Iterator[list[int]]:
-    """A list that is filled by the first Ctrl-C or SIGTERM; the second one ends the process."""
+    """A list that the first Ctrl-C or SIGTERM fills; the second one ends the process."""
     stop: list[int] = []
     names = (signal.SIGINT, signal.SIGTERM)
     before = {name: signal.getsignal(name) for name in names}

@@ -11,7 +11,7 @@ import shapely
 from semnav_env.agents.planning.doorway import target_behind
 from semnav_env.agents.planning.driver import Driver
 from semnav_env.agents.planning.obstacles import ObstacleMemory, points_of_segments
-from semnav_env.agents.planning.planner import Target
+from semnav_env.agents.planning.planner import DriveTarget
 from semnav_env.features.frames import FloatArray, Pose, compose, points_to_parent, relative
 from semnav_env.features.scene import Door
 from semnav_env.robots import RobotSpec
@@ -91,7 +91,7 @@ class Drive:
 
 
 def drive_knowing(
-    segments: FloatArray, robot: RobotSpec, start: Pose, target: Target, steps: int = 700
+    segments: FloatArray, robot: RobotSpec, start: Pose, target: DriveTarget, steps: int = 700
 ) -> Drive:
     """Drive with the true pose and all obstacles known."""
     world = Kinematics(segments, robot, start, np.random.default_rng(0))
@@ -102,7 +102,7 @@ def drive_knowing(
         deviation = max(deviation, steering.deviation)
         if steering.done:
             break
-        world.step(steering.command)
+        world.step(steering.twist)
     arrived = steering.done
     return Drive(arrived, world.clearance, deviation, driver.plans, world.pose, world.seconds)
 
@@ -111,7 +111,7 @@ def drive_seeing(
     segments: FloatArray,
     robot: RobotSpec,
     start: Pose,
-    target: Target,
+    target: DriveTarget,
     rng: np.random.Generator,
     steps: int = 900,
 ) -> Drive:
@@ -126,13 +126,13 @@ def drive_seeing(
         place = relative(world.pose, target.pose)
         if abs(math.atan2(place[1], place[0])) < 2.3:
             pose = compose(world.odom, place)
-            seen = Target(pose, target.position_tolerance, target.heading_tolerance)
+            seen = DriveTarget(pose, target.position_tolerance, target.heading_tolerance)
         velocity = tuple(world.velocity.tolist())
         steering = driver.drive(memory.points(), seen, world.odom, velocity)
         deviation = max(deviation, steering.deviation)
         if steering.done:
             break
-        world.step(steering.command)
+        world.step(steering.twist)
     arrived = steering.done
     return Drive(arrived, world.clearance, deviation, driver.plans, world.pose, world.seconds)
 
@@ -164,7 +164,7 @@ HALLWAY_STARTS = {
 }
 
 
-def hallway_task(name: str) -> tuple[FloatArray, Pose, Target]:
+def hallway_task(name: str) -> tuple[FloatArray, Pose, DriveTarget]:
     """The corridor, where to start for a door of it, and the target behind that door."""
     segments, doors = heidelberg()
     start = HALLWAY_STARTS[name]

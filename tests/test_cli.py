@@ -14,7 +14,7 @@ from semnav_env.maps import bundled_names, load_floor_plan, save_floor_plan
 from semnav_env.scripts import main as cli
 from semnav_env.scripts import progress
 from semnav_env.scripts.arguments import parse
-from semnav_env.scripts.checks import Check
+from semnav_env.scripts.checks import InstallationCheck
 from semnav_env.scripts.doctor import Arguments as Doctor
 from tests.command_line import run
 
@@ -170,7 +170,7 @@ def test_doctor_finds_this_installation_sound(capsys):
 
 @pytest.mark.parametrize(("needed", "code"), [(True, 1), (False, 0)])
 def test_doctor_fails_only_for_what_is_needed(capsys, monkeypatch, needed, code):
-    missing = Check("thing", False, "not installed", "pip install thing", needed)
+    missing = InstallationCheck("thing", False, "not installed", "pip install thing", needed)
     monkeypatch.setattr("semnav_env.scripts.checks.requirements", lambda: [missing])
     monkeypatch.setattr("semnav_env.scripts.doctor._TRIALS", {})
     assert parse(Doctor, [], "semnav doctor").run() == code
@@ -187,7 +187,7 @@ def test_an_interruption_inside_a_compiled_kernel_is_one_too(monkeypatch, capsys
 
 def test_the_bar_appears_only_for_what_takes_long(capsys, monkeypatch):
     def seen(patience):
-        monkeypatch.setattr(progress, "PATIENCE", patience)
+        monkeypatch.setattr(progress, "BAR_DELAY", patience)
         items = progress.tracked(iter("abc"), lambda n: f"{n} letters", lambda: 1.0)
         word = [next(items)]
         if not patience:

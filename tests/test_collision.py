@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.ndimage import distance_transform_edt
 
-from semnav_env.agents.planning.collision import CELL, body_of, field_of, is_clear
+from semnav_env.agents.planning.collision import FIELD_CELL, footprint_of, is_clear, obstacle_field
 from semnav_env.agents.planning.distance import distance_to_marked
 from semnav_env.agents.planning.free import all_clear, clearances
 from semnav_env.agents.planning.nudge import best_nudge, path_clearance
@@ -42,9 +42,9 @@ def test_clear_poses_are_those_that_shapely_finds_clear(points, pose, robot):
     if np.any(np.asarray(distance) < EDGE):
         return
     inside = any(body.contains(shapely.Point(p)) for p in points)
-    field = field_of(points, (0.0, 0.0), 4.0)
+    field = obstacle_field(points, (0.0, 0.0), 4.0)
     axle = compose(pose, (robot.axle, 0.0, 0.0))
-    assert is_clear(field, body_of(robot), *axle, 0.0) is not inside
+    assert is_clear(field, footprint_of(robot), *axle, 0.0) is not inside
     assert all_clear(points, np.array([pose]), robot.length, robot.width, 0.0) is not inside
 
 
@@ -54,7 +54,7 @@ def test_clearance_says_up_to_which_margin_a_pose_is_clear(points, pose, robot, 
     outside = depth_outside(robot, pose, points)
     if np.any(np.abs(outside - margin) < EDGE):
         return
-    field, body = field_of(points, (0.0, 0.0), 4.0), body_of(robot)
+    field, body = obstacle_field(points, (0.0, 0.0), 4.0), footprint_of(robot)
     axle = compose(pose, (robot.axle, 0.0, 0.0))
     expected = min(outside.min(initial=math.inf), 0.35)
     clearance = clearances(field, body, np.array([axle]), 0.35)[0]
@@ -66,7 +66,7 @@ def test_clearance_says_up_to_which_margin_a_pose_is_clear(points, pose, robot, 
 def test_the_order_of_the_points_does_not_matter(points, pose, robot):
     axle = compose(pose, (robot.axle, 0.0, 0.0))
     answers = {
-        is_clear(field_of(cloud, (0.1, -0.2), 4.0), body_of(robot), *axle, 0.05)
+        is_clear(obstacle_field(cloud, (0.1, -0.2), 4.0), footprint_of(robot), *axle, 0.05)
         for cloud in (points, points[::-1].copy())
     }
     assert len(answers) == 1
@@ -74,15 +74,15 @@ def test_the_order_of_the_points_does_not_matter(points, pose, robot):
 
 @given(arrays(np.bool_, (24, 24)))
 def test_the_distance_field_is_the_euclidean_distance_transform(marked):
-    distance = distance_to_marked(marked, CELL)
+    distance = distance_to_marked(marked, FIELD_CELL)
     if not marked.any():
         assert np.isinf(distance).all()
     else:
-        assert distance == pytest.approx(CELL * distance_transform_edt(~marked), abs=1e-6)
+        assert distance == pytest.approx(FIELD_CELL * distance_transform_edt(~marked), abs=1e-6)
 
 
 def test_points_outside_the_window_are_left_out():
-    field = field_of(np.array([[100.0, 0.0], [0.0, 0.0]]), (0.0, 0.0), 2.0)
+    field = obstacle_field(np.array([[100.0, 0.0], [0.0, 0.0]]), (0.0, 0.0), 2.0)
     assert field.points.tolist() == [[0.0, 0.0]]
 
 

@@ -7,11 +7,11 @@ import pytest
 
 from semnav_env.agents.planning.doorway import barriers_across, target_behind
 from semnav_env.agents.planning.driver import Driver
-from semnav_env.agents.planning.follower import Progress, follow
+from semnav_env.agents.planning.follower import PathProgress, follow
 from semnav_env.agents.planning.guard import safe_share
 from semnav_env.agents.planning.obstacles import points_of_segments
-from semnav_env.agents.planning.planner import Target, plan
-from semnav_env.agents.planning.track import Track
+from semnav_env.agents.planning.planner import DriveTarget, plan
+from semnav_env.agents.planning.track import PathTrack
 from semnav_env.robots import SPOT, WHEELCHAIR
 from tests.kinematics import (
     HALLWAY_STARTS,
@@ -63,7 +63,7 @@ def test_a_door_on_the_side_of_a_narrow_corridor_is_entered(robot):
 
 @ROBOTS
 def test_a_pillar_is_passed(robot):
-    target = Target((5.0, 2.2, 0.0))
+    target = DriveTarget((5.0, 2.2, 0.0))
     drive = drive_knowing(room_with_pillar(), robot, (1.0, 1.9, 0.0), target)
     assert drive.arrived
     assert drive.clearance > 0.05
@@ -73,7 +73,7 @@ def test_a_pillar_is_passed(robot):
 @ROBOTS
 def test_an_open_corridor_is_driven_at_cruising_speed(robot):
     walls = np.concatenate((polyline((-2, -1.2), (12, -1.2)), polyline((-2, 1.2), (12, 1.2))))
-    drive = drive_knowing(walls, robot, (0.0, 0.0, 0.0), Target((9.0, 0.0, 0.0)))
+    drive = drive_knowing(walls, robot, (0.0, 0.0, 0.0), DriveTarget((9.0, 0.0, 0.0)))
     assert drive.arrived
     assert drive.seconds < 13.0
 
@@ -81,27 +81,29 @@ def test_an_open_corridor_is_driven_at_cruising_speed(robot):
 @ROBOTS
 @pytest.mark.parametrize("offset", [0.08, -0.08])
 def test_a_robot_beside_its_path_comes_back_to_it(robot, offset):
-    path = plan(NOTHING, (0.0, 0.0, 0.0), Target((5.0, 0.0, 0.0)), robot)
-    track, progress = Track(path, robot), Progress()
+    path = plan(NOTHING, (0.0, 0.0, 0.0), DriveTarget((5.0, 0.0, 0.0)), robot)
+    track, progress = PathTrack(path, robot), PathProgress()
     world = Kinematics(np.array([[(99, 99), (99, 98)]]), robot, (0.0, offset, 0.0), rng())
     for _ in range(40):
         steering = follow(track, progress, world.pose, tuple(world.velocity.tolist()))
         progress = steering.progress
-        world.step(steering.command)
+        world.step(steering.twist)
     assert abs(world.pose[1]) < 0.015
     assert abs(world.pose[2]) < math.radians(2.0)
 
 
 def test_a_turn_on_the_spot_stays_on_the_spot():
-    path = plan(NOTHING, (0.0, 0.0, 0.0), Target((0.18, 0.18, math.pi / 2), 0.03, 0.05), WHEELCHAIR)
-    track, progress = Track(path, WHEELCHAIR), Progress()
+    path = plan(
+        NOTHING, (0.0, 0.0, 0.0), DriveTarget((0.18, 0.18, math.pi / 2), 0.03, 0.05), WHEELCHAIR
+    )
+    track, progress = PathTrack(path, WHEELCHAIR), PathProgress()
     world = Kinematics(np.array([[(99, 99), (99, 98)]]), WHEELCHAIR, (0.0, 0.0, 0.0), rng())
     for _ in range(120):
         steering = follow(track, progress, world.pose, tuple(world.velocity.tolist()))
         progress = steering.progress
         if steering.done:
             break
-        world.step(steering.command)
+        world.step(steering.twist)
     assert steering.done
     assert math.dist(world.pose[:2], path.end[:2]) < 0.03
     assert abs(world.pose[2] - path.end[2]) < 0.03
@@ -110,7 +112,7 @@ def test_a_turn_on_the_spot_stays_on_the_spot():
 def test_commands_keep_to_the_limits_of_the_follower():
     segments, start, target = hallway_task("south_1")
     path = plan(points_of_segments(segments.reshape(-1, 4)), start, target, WHEELCHAIR)
-    track = Track(path, WHEELCHAIR)
+    track = PathTrack(path, WHEELCHAIR)
     assert track.speed.max() <= track.settings.cruise
     assert track.speed[-1] == 0.0
     bends = np.abs(track.curvature) * np.minimum(track.speed[1:], track.speed[:-1])
@@ -119,7 +121,7 @@ def test_commands_keep_to_the_limits_of_the_follower():
 
 def test_a_wall_that_appears_on_the_path_is_driven_around():
     driver, pose = Driver(WHEELCHAIR), (0.0, 0.0, 0.0)
-    target = Target((5.0, 0.0, 0.0))
+    target = DriveTarget((5.0, 0.0, 0.0))
     driver.drive(NOTHING, target, pose)
     before = driver.path
     box = points_of_segments(polyline((2.0, -0.3), (2.0, 0.3)).reshape(-1, 4))
@@ -142,7 +144,7 @@ GATES = {y: ((3.0, y - 0.5), (3.0, y + 0.5)) for y in (0.0, 4.0)}
 
 def test_the_way_to_a_gate_leads_through_that_gate():
     points, barrier = wall_with_two_gaps()
-    driver, target = Driver(WHEELCHAIR), Target((6.0, 0.0, 0.0), 0.2, None, gate=GATES[4.0])
+    driver, target = Driver(WHEELCHAIR), DriveTarget((6.0, 0.0, 0.0), 0.2, None, gate=GATES[4.0])
     driver.drive(points, target, (0.0, 0.0, 0.0))
     assert driver.path.crosses(*GATES[0.0])
     driver.reset()
@@ -159,7 +161,7 @@ def test_the_way_to_a_gate_leads_through_that_gate():
 def test_barriers_are_passed_only_for_gates_or_as_a_last_way():
     points, barrier = wall_with_two_gaps()
     beyond = ((5.0, -1.0), (5.0, 1.0))
-    driver, target = Driver(WHEELCHAIR), Target((6.0, 0.0, 0.0), 0.2, None, gate=beyond)
+    driver, target = Driver(WHEELCHAIR), DriveTarget((6.0, 0.0, 0.0), 0.2, None, gate=beyond)
     driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
     assert driver.path.crosses(*GATES[0.0])
     closed = np.vstack((points, points_of_segments(np.array([[3.0, 3.5, 3.0, 4.5]]))))
@@ -172,7 +174,7 @@ def test_barriers_are_passed_only_for_gates_or_as_a_last_way():
 def test_a_short_detour_leads_around_a_barrier():
     points, barrier = wall_with_two_gaps()
     for y, gate in ((1.5, 4.0), (0.0, 0.0)):
-        driver, target = Driver(WHEELCHAIR), Target((6.0, y, 0.0), 0.2, None)
+        driver, target = Driver(WHEELCHAIR), DriveTarget((6.0, y, 0.0), 0.2, None)
         driver.drive(points, target, (0.0, y, 0.0), barriers=barrier)
         assert driver.path.complete
         assert driver.path.crosses(*GATES[gate])
@@ -187,17 +189,17 @@ def test_doorways_are_barred_but_for_the_one_the_robot_stands_in():
 
 def test_a_moving_target_is_followed_but_not_a_trembling_one():
     driver, pose = Driver(WHEELCHAIR), (0.0, 0.0, 0.0)
-    driver.drive(NOTHING, Target((5.0, 0.0, 0.0)), pose)
-    driver.drive(NOTHING, Target((5.01, 0.01, 0.01)), pose)
+    driver.drive(NOTHING, DriveTarget((5.0, 0.0, 0.0)), pose)
+    driver.drive(NOTHING, DriveTarget((5.01, 0.01, 0.01)), pose)
     assert driver.plans == 1
-    driver.drive(NOTHING, Target((5.0, 1.0, 0.0)), pose)
+    driver.drive(NOTHING, DriveTarget((5.0, 1.0, 0.0)), pose)
     assert driver.plans == 2
 
 
 def test_where_no_way_leads_on_the_robot_stands_and_is_not_done():
     driver, wall = Driver(WHEELCHAIR), points_of_segments(np.array([[0.7, -30.0, 0.7, 30.0]]))
     for _ in range(30):
-        steering = driver.drive(wall, Target((3.0, 0.0, 0.0)), (0.0, 0.0, 0.0))
+        steering = driver.drive(wall, DriveTarget((3.0, 0.0, 0.0)), (0.0, 0.0, 0.0))
         assert not steering.done
     assert driver.plans < 10
 
@@ -206,7 +208,7 @@ def test_where_no_way_leads_on_the_robot_stands_and_is_not_done():
 def test_a_short_way_that_ends_near_the_target_is_driven(robot):
     """The target lies behind the end of a corridor, half a metre ahead of the robot's front."""
     walls = polyline((-2, -1), (1.2, -1), (1.2, 1), (-2, 1), (-2, -1))
-    target = Target((1.6, 0.0, 0.0), 0.2, 0.15)
+    target = DriveTarget((1.6, 0.0, 0.0), 0.2, 0.15)
     drive = drive_knowing(walls, robot, (0.0, 0.0, 0.0), target, steps=150)
     assert drive.pose[0] > 0.2
     assert drive.clearance > 0.0

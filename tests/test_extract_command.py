@@ -33,7 +33,7 @@ def log(tmp_path):
 
 
 def test_extract_writes_a_scene_per_scan(capsys, monkeypatch, log, tmp_path):
-    monkeypatch.setattr(progress, "PATIENCE", 1e6)  # however long the first scan compiles
+    monkeypatch.setattr(progress, "BAR_DELAY", 1e6)  # however long the first scan compiles
     out, page = tmp_path / "new" / "scenes.jsonl", tmp_path / "page.png"
     code, text, err = run(capsys, "extract", log, "--out", out, "--plot", page)
     assert (code, err) == (0, "")

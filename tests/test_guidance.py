@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from semnav_env.agents.planning.free import points_around
-from semnav_env.agents.planning.heuristic import STEP, seconds_to
-from semnav_env.agents.planning.motion import Costs, crowding_at
+from semnav_env.agents.planning.heuristic import COARSE_CELL, seconds_to
+from semnav_env.agents.planning.motion import MotionCosts, crowding_at
 from semnav_env.agents.planning.planner import PlannerSettings, _costs
 from semnav_env.features.frames import FloatArray, points_to_local
 from semnav_env.robots import WHEELCHAIR
@@ -21,7 +21,7 @@ COSTS = _costs(WHEELCHAIR, PlannerSettings())
 
 
 def dijkstra(
-    sources: NDArray[np.int64], first: FloatArray, room: FloatArray, costs: Costs
+    sources: NDArray[np.int64], first: FloatArray, room: FloatArray, costs: MotionCosts
 ) -> FloatArray:
     """Least times with a priority queue."""
     n, time = len(room), np.full(room.shape, np.inf)
@@ -35,7 +35,7 @@ def dijkstra(
             continue
         for b in range(max(0, j - 1), min(n, j + 2)):
             for a in range(max(0, i - 1), min(n, i + 2)):
-                length = STEP * math.sqrt((b - j) ** 2 + (a - i) ** 2)
+                length = COARSE_CELL * math.sqrt((b - j) ** 2 + (a - i) ** 2)
                 slow = 1.0 + crowding_at(room[b, a], costs)
                 then = t + length / costs.speed * slow
                 if room[b, a] >= 0.0 and then < time[b, a]:

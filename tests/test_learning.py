@@ -14,7 +14,13 @@ from semnav_env.agents.evaluation.runner import run_trial
 from semnav_env.agents.learned import LearnedAgent, pretrained_names
 from semnav_env.agents.learning.action_repeat import ActionRepeat
 from semnav_env.agents.learning.compact import COMPACT_SIZE, SECTORS, compact
-from semnav_env.agents.learning.files import AGENT, POLICY, Description, replace_file, save_tensors
+from semnav_env.agents.learning.files import (
+    AGENT_FILE,
+    POLICY_FILE,
+    AgentDescription,
+    replace_file,
+    save_tensors,
+)
 from semnav_env.agents.learning.policy import Policy
 from semnav_env.agents.learning.presets import PRESETS, preset
 from semnav_env.env import SemNavEnv
@@ -43,9 +49,9 @@ def policy(seed=0, widths=WIDTHS):
 
 def save(folder, a_policy, **changes):
     folder.mkdir(exist_ok=True)
-    save_tensors(folder / POLICY, a_policy.tensors())
+    save_tensors(folder / POLICY_FILE, a_policy.tensors())
     fields = {"robot": "wheelchair", "repeat": 3, "widths": WIDTHS, "preset": {}}
-    Description(**{**fields, "seed": 0, "steps": 5, **changes}).write(folder)
+    AgentDescription(**{**fields, "seed": 0, "steps": 5, **changes}).write(folder)
     return folder
 
 
@@ -177,7 +183,7 @@ def test_a_policy_that_does_not_fit_is_refused(tmp_path):
 
 
 def edit(saved, **changes):
-    path = saved / AGENT
+    path = saved / AGENT_FILE
     path.write_text(json.dumps({**json.loads(path.read_text()), **changes}))
 
 
@@ -201,8 +207,8 @@ def test_a_wrong_description_is_refused_by_name(saved, changes, message):
 
 @pytest.mark.parametrize("text", ["", "[]", "nonsense", "[" * 100_000, '"\\ud800"'])
 def test_a_wrong_description_is_refused(saved, text):
-    (saved / AGENT).write_text(text)
-    with pytest.raises(ValueError, match=AGENT):
+    (saved / AGENT_FILE).write_text(text)
+    with pytest.raises(ValueError, match=AGENT_FILE):
         LearnedAgent.load(saved)
 
 
@@ -221,7 +227,7 @@ def test_a_folder_without_an_agent_is_refused(tmp_path):
     ],
 )
 def test_wrong_weights_are_refused_by_name(saved, name, tensor, message):
-    save_tensors(saved / POLICY, {**policy().tensors(), name: tensor})
+    save_tensors(saved / POLICY_FILE, {**policy().tensors(), name: tensor})
     with pytest.raises(ValueError, match=message):
         LearnedAgent.load(saved)
 
@@ -229,7 +235,7 @@ def test_wrong_weights_are_refused_by_name(saved, name, tensor, message):
 def test_missing_weights_are_refused_by_name(saved):
     tensors = policy().tensors()
     del tensors["0.weight"]
-    save_tensors(saved / POLICY, tensors)
+    save_tensors(saved / POLICY_FILE, tensors)
     with pytest.raises(ValueError, match=r"'0.weight' is missing"):
         LearnedAgent.load(saved)
 
@@ -241,7 +247,7 @@ class Trap:
 
 @pytest.mark.parametrize("data", [b"", b"\0" * 8, b"\xff" * 64, pickle.dumps(Trap())])
 def test_a_file_that_is_not_safetensors_is_never_unpickled(saved, data):
-    (saved / POLICY).write_bytes(data)
+    (saved / POLICY_FILE).write_bytes(data)
     with pytest.raises(ValueError, match="is not a safetensors file"):
         LearnedAgent.load(saved)
 
@@ -249,8 +255,8 @@ def test_a_file_that_is_not_safetensors_is_never_unpickled(saved, data):
 @given(cut=st.integers(0, 400))
 def test_a_file_cut_short_is_refused(tmp_path_factory, cut):
     folder = save(tmp_path_factory.mktemp("cut"), policy())
-    whole = (folder / POLICY).read_bytes()
-    (folder / POLICY).write_bytes(whole[: len(whole) * cut // 401])
+    whole = (folder / POLICY_FILE).read_bytes()
+    (folder / POLICY_FILE).write_bytes(whole[: len(whole) * cut // 401])
     with pytest.raises(ValueError, match="is not a safetensors file"):
         LearnedAgent.load(folder)
 

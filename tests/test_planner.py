@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from semnav_env.agents.planning.doorway import target_before, target_behind
 from semnav_env.agents.planning.obstacles import points_of_segments
 from semnav_env.agents.planning.path import joined
-from semnav_env.agents.planning.planner import PlannerSettings, Target, is_free, plan
+from semnav_env.agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
 from semnav_env.features.frames import compose, to_local
 from semnav_env.features.scene import Door
 from semnav_env.robots import SPOT, WHEELCHAIR
@@ -46,7 +46,7 @@ def meets(path, target):
 @given(st.floats(-5.0, 5.0), st.floats(-5.0, 5.0), headings, headings)
 @settings(max_examples=30)
 def test_without_obstacles_every_pose_is_reached(x, y, heading, start):
-    target = Target((x, y, heading))
+    target = DriveTarget((x, y, heading))
     path = plan(NOTHING, (0.0, 0.0, start), target, WHEELCHAIR)
     assert path.complete
     assert meets(path, target)
@@ -82,7 +82,7 @@ def test_a_side_door_is_entered_from_a_narrow_corridor(robot, width, door):
 @settings(max_examples=20)
 def test_a_pillar_is_driven_around(x, y, heading):
     points = points_of(room_with_pillar())
-    target = Target((5.0, 2.0, 0.0))
+    target = DriveTarget((5.0, 2.0, 0.0))
     path = plan(points, (x, y, heading), target, SPOT)
     if path.clearance[0] > 0:
         assert path.complete
@@ -91,13 +91,13 @@ def test_a_pillar_is_driven_around(x, y, heading):
 
 def test_room_is_kept_where_there_is_room():
     walls = np.concatenate((polyline((-4, 0), (10, 0)), polyline((-4, 3.0), (10, 3.0))))
-    path = plan(points_of(walls), (0.0, 0.6, 0.0), Target((6.0, 0.6, 0.0)), WHEELCHAIR)
+    path = plan(points_of(walls), (0.0, 0.6, 0.0), DriveTarget((6.0, 0.6, 0.0)), WHEELCHAIR)
     assert path.clearance[20:-20].min() > 0.2
 
 
 def test_a_gap_that_is_too_narrow_is_gone_around():
     wall = np.concatenate((polyline((2, -2.0), (2, -0.30)), polyline((2, 0.30), (2, 8.0))))
-    path = plan(points_of(wall), (0.0, 0.0, 0.0), Target((4.0, 0.0, 0.0)), WHEELCHAIR)
+    path = plan(points_of(wall), (0.0, 0.0, 0.0), DriveTarget((4.0, 0.0, 0.0)), WHEELCHAIR)
     assert path.complete
     assert path.poses[:, 1].min() < -2.0
 
@@ -106,7 +106,7 @@ def test_a_gap_that_is_too_narrow_is_gone_around():
 def test_a_gap_five_centimetres_wider_on_each_side_is_taken(robot):
     half = robot.width / 2 + 0.05
     wall = np.concatenate((polyline((2, -9.0), (2, -half)), polyline((2, half), (2, 9.0))))
-    path = plan(points_of(wall), (0.0, 0.8, 0.5), Target((4.0, 0.5, 0.0)), robot)
+    path = plan(points_of(wall), (0.0, 0.8, 0.5), DriveTarget((4.0, 0.5, 0.0)), robot)
     assert path.complete
     assert path.margin == 0.03
     assert is_free(points_of(wall), path.poses, robot, path.margin - BETWEEN)
@@ -114,7 +114,7 @@ def test_a_gap_five_centimetres_wider_on_each_side_is_taken(robot):
 
 def test_an_unreachable_target_gives_the_nearest_place():
     box = points_of(np.concatenate((polyline((2, -9), (2, 9)), polyline((4, -9), (4, 9)))))
-    path = plan(box, (0.0, 0.0, 0.0), Target((3.0, 0.0, 0.0)), WHEELCHAIR)
+    path = plan(box, (0.0, 0.0, 0.0), DriveTarget((3.0, 0.0, 0.0)), WHEELCHAIR)
     assert not path.complete
     assert 1.0 < path.end[0] < 2.0 - WHEELCHAIR.width / 2
     assert is_free(box, path.poses, WHEELCHAIR)
@@ -122,7 +122,7 @@ def test_an_unreachable_target_gives_the_nearest_place():
 
 def test_a_target_outside_the_window_is_approached():
     wanted = PlannerSettings(half_window=5.0, widest=5.0)
-    path = plan(NOTHING, (0.0, 0.0, 0.0), Target((30.0, 0.0, 0.0)), WHEELCHAIR, wanted)
+    path = plan(NOTHING, (0.0, 0.0, 0.0), DriveTarget((30.0, 0.0, 0.0)), WHEELCHAIR, wanted)
     assert not path.complete
     assert path.end[0] > 4.0
 
@@ -131,7 +131,7 @@ def test_a_target_outside_the_window_is_approached():
 def test_round_the_corner_of_a_long_hallway_is_not_too_far(robot):
     outer, inner = [(-2, -1), (46, -1), (46, 12)], [(-2, 1), (44, 1), (44, 12)]
     walls = points_of(np.concatenate((polyline(*outer), polyline(*inner))))
-    target = Target((45.0, 8.0, math.pi / 2), 0.2, 0.15)
+    target = DriveTarget((45.0, 8.0, math.pi / 2), 0.2, 0.15)
     path = plan(walls, (0.0, 0.0, 0.0), target, robot)
     assert path.complete
     assert meets(path, target)
@@ -141,7 +141,7 @@ def test_round_the_corner_of_a_long_hallway_is_not_too_far(robot):
 def test_a_robot_that_touches_a_wall_finds_a_way_out(gap):
     wall = points_of(polyline((-5.0, 0.0), (8.0, 0.0)))
     start = (0.0, WHEELCHAIR.width / 2 + gap, 0.0)
-    target = Target((4.0, 1.5, 0.0))
+    target = DriveTarget((4.0, 1.5, 0.0))
     path = plan(wall, start, target, WHEELCHAIR)
     assert path.complete
     assert path.clearance[-30:].min() > 0.06
@@ -149,14 +149,14 @@ def test_a_robot_that_touches_a_wall_finds_a_way_out(gap):
 
 
 def test_points_inside_the_robot_are_taken_for_noise():
-    path = plan([(0.1, 0.05)], (0.0, 0.0, 0.0), Target((2.0, 0.0, 0.0)), WHEELCHAIR)
+    path = plan([(0.1, 0.05)], (0.0, 0.0, 0.0), DriveTarget((2.0, 0.0, 0.0)), WHEELCHAIR)
     assert path.complete
     assert path.length == pytest.approx(2.0, abs=0.15)
 
 
 def test_points_that_are_not_finite_are_left_out():
     points = np.array([(np.nan, 0.0), (1.0, np.inf)])
-    assert plan(points, (0.0, 0.0, 0.0), Target((2.0, 0.0, 0.0)), WHEELCHAIR).complete
+    assert plan(points, (0.0, 0.0, 0.0), DriveTarget((2.0, 0.0, 0.0)), WHEELCHAIR).complete
     assert is_free(points, np.zeros((1, 3)), WHEELCHAIR)
 
 
@@ -171,7 +171,7 @@ def test_the_same_question_has_the_same_answer():
 def test_moving_the_world_does_not_lose_the_way(x, y):
     segments, start, target = hallway_task("south_1")
     frame = (x, y, 0.0)
-    moved_target = Target(compose(frame, target.pose), 0.5, None)
+    moved_target = DriveTarget(compose(frame, target.pose), 0.5, None)
     points = points_of(segments) + np.array((x, y))
     assert plan(points, compose(frame, start), moved_target, WHEELCHAIR).complete
 
@@ -187,11 +187,11 @@ def test_a_path_is_the_sum_of_its_parts():
 
 
 def test_bad_questions_are_named():
-    here, there = (0.0, 0.0, 0.0), Target((1.0, 0.0, 0.0))
+    here, there = (0.0, 0.0, 0.0), DriveTarget((1.0, 0.0, 0.0))
     with pytest.raises(ValueError, match="three finite numbers"):
         plan(NOTHING, (0.0, math.nan, 0.0), there, WHEELCHAIR)
     with pytest.raises(ValueError, match="target is"):
-        plan(NOTHING, here, Target((math.inf, 0.0, 0.0)), WHEELCHAIR)
+        plan(NOTHING, here, DriveTarget((math.inf, 0.0, 0.0)), WHEELCHAIR)
     with pytest.raises(ValueError, match=r"shape \(N, 2\)"):
         plan(np.ones((3, 3)), here, there, WHEELCHAIR)
     with pytest.raises(ValueError, match="margins"):

@@ -17,9 +17,9 @@ torch = pytest.importorskip("torch", reason='needs the extra "rl"')
 from semnav_env.agents.learned import LearnedAgent  # noqa: E402
 from semnav_env.agents.learning.compact import compact  # noqa: E402
 from semnav_env.agents.learning.files import (  # noqa: E402
-    POLICY,
-    TRAINING,
-    Description,
+    POLICY_FILE,
+    TRAINING_FILE,
+    AgentDescription,
     load_tensors,
     save_tensors,
 )
@@ -153,13 +153,13 @@ def test_another_preset_is_not_resumed(tmp_path):
 
 def test_a_damaged_training_is_not_resumed(tmp_path):
     train(tmp_path)
-    tensors = load_tensors(tmp_path / TRAINING)
+    tensors = load_tensors(tmp_path / TRAINING_FILE)
     for name, wrong, message in (
         ("steps", np.array([1]), "'steps' must be one whole number"),
         ("policy.log_std", np.zeros(3, np.float32), r"'policy.log_std' is float32 of shape \(3,\)"),
         ("optimizer.0.exp_avg", np.full(2, np.nan, np.float32), r"'optimizer.0.exp_avg'"),
     ):
-        save_tensors(tmp_path / TRAINING, {**tensors, name: wrong})
+        save_tensors(tmp_path / TRAINING_FILE, {**tensors, name: wrong})
         with pytest.raises(ValueError, match=message):
             Trainer.resume(TINY, tmp_path)
 
@@ -199,7 +199,7 @@ def test_train_makes_an_agent_that_evaluate_and_demo_can_run(capsys, tmp_path):
     code, text, _ = run(capsys, "train", "tiny", "--out", out)
     assert code == 0
     assert text.startswith("128 decisions, success 0%")
-    assert Description.read(out).steps == 128
+    assert AgentDescription.read(out).steps == 128
     words = ("go through the first door on the right", "--pose", "-2.5,-0.3,0.24", "--agent", out)
     code, text, _ = run(capsys, "demo", *words, "--json")
     assert code in (0, 1)
@@ -209,21 +209,21 @@ def test_train_makes_an_agent_that_evaluate_and_demo_can_run(capsys, tmp_path):
 @pytest.mark.usefixtures("tiny")
 def test_train_does_not_overwrite_and_resumes_when_told_to(capsys, tmp_path):
     run(capsys, "train", "tiny", "--out", tmp_path, "--steps", 0)
-    before = load_tensors(tmp_path / POLICY)
+    before = load_tensors(tmp_path / POLICY_FILE)
     code, _, err = run(capsys, "train", "tiny", "--out", tmp_path)
     assert code == 2
     assert "holds a trained agent; go on with it by --resume" in err
-    assert same(before, load_tensors(tmp_path / POLICY))
+    assert same(before, load_tensors(tmp_path / POLICY_FILE))
     code, *_ = run(capsys, "train", "tiny", "--out", tmp_path, "--resume", "--steps", 64)
     assert code == 0
-    assert Description.read(tmp_path).steps == 64
-    assert not same(before, load_tensors(tmp_path / POLICY))
+    assert AgentDescription.read(tmp_path).steps == 64
+    assert not same(before, load_tensors(tmp_path / POLICY_FILE))
 
 
 @pytest.mark.usefixtures("tiny")
 def test_an_interrupted_training_is_saved(capsys, tmp_path):
     def interrupt():
-        while not (tmp_path / POLICY).exists():
+        while not (tmp_path / POLICY_FILE).exists():
             time.sleep(0.01)
         os.kill(os.getpid(), signal.SIGINT)
 
@@ -233,7 +233,7 @@ def test_an_interrupted_training_is_saved(capsys, tmp_path):
     thread.join()
     assert code == 130
     assert text.startswith("interrupted; ")
-    assert Trainer.resume(TINY, tmp_path).steps == Description.read(tmp_path).steps
+    assert Trainer.resume(TINY, tmp_path).steps == AgentDescription.read(tmp_path).steps
 
 
 def test_without_the_extra_the_error_says_what_to_install(capsys, tmp_path, monkeypatch):

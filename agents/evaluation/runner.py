@@ -49,7 +49,7 @@ MAX_NAME_LENGTH = 90
 
 
 @dataclass(frozen=True)
-class Setup:
+class SuiteSetup:
     """What all episodes of a suite share; see `run_suite`."""
 
     agent: AgentSource
@@ -83,7 +83,7 @@ def run_suite(
         ValueError: there is no such agent, or with several workers one that other processes
             cannot import.
     """
-    setup = Setup(agent, robot, extras, dynamics)
+    setup = SuiteSetup(agent, robot, extras, dynamics)
     jobs = [
         (trial, seed)
         for trial in trials
@@ -101,7 +101,7 @@ def run_suite(
 class SuiteRunner:
     """Runs trials and frozen episodes one after the other, with one agent on one body."""
 
-    def __init__(self, setup: Setup) -> None:
+    def __init__(self, setup: SuiteSetup) -> None:
         self._setup = setup
         self._agent = make_agent(setup.agent)
         self._envs: dict[float, SemNavEnv] = {}
@@ -216,7 +216,7 @@ class _Worker:
     runner: SuiteRunner | None = None
 
 
-def _pickled(setup: Setup) -> bytes:
+def _pickled(setup: SuiteSetup) -> bytes:
     try:
         return pickle.dumps(setup)
     except (pickle.PicklingError, AttributeError, TypeError) as error:

@@ -1,1 +1,1 @@
-"""Learning to drive: what a policy sees, how it practises, how it is trained and kept."""
+"""Learning to drive: the observations of a policy, its training and its files."""

@@ -1,4 +1,4 @@
-"""The environment as a learner sees it: compact observations, held actions, a preset's trials."""
+"""The environment of a learner: compact observations, repeated actions, the trials of a preset."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ Array = NDArray[np.float32]
 
 
 class ActionRepeat(gym.Env[Array, Array]):
-    """Episodes of a preset.
+    """An environment with the episodes of a preset.
 
     Observations are `compact`. An action holds for `preset.repeat` steps, whose rewards are
     summed. `reset` draws one of the preset's trials and a start pose around its own, unless
     `options` say otherwise.
 
     Args:
-        preset: what to practise.
+        preset: what to learn.
     """
 
     def __init__(self, preset: Preset) -> None:
@@ -62,7 +62,7 @@ class ActionRepeat(gym.Env[Array, Array]):
         return compact(observation), total, terminated, truncated, info
 
     def close(self) -> None:
-        """Let go of the environment."""
+        """Close the environment."""
         self.env.close()
 
     def _draw(self) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""What a small policy sees of an observation: one short vector, the same in training and after."""
+"""The observation of a small policy: one short vector, the same in training and afterwards."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from semnav_env.observations.layout import GOAL, GOAL_KINDS
 Array = NDArray[np.float32]
 
 SECTORS = 54
-"""Parts of the scan of which the nearest hit counts: 5 degrees each for a lidar of 270 degrees."""
+"""Sectors of the scan, each of which gives its nearest hit: 5 degrees of a lidar of 270 degrees."""
 
 COMPACT_SIZE = GOAL.size + 3 + SECTORS
-"""Length of what `compact` returns: the goal, the velocity, the scan."""
+"""Length of the vector that `compact` returns: the goal, the velocity, the scan."""
 
 _KINDS = len(GOAL_KINDS)
 
@@ -22,17 +22,17 @@ _KINDS = len(GOAL_KINDS)
 def compact(observation: Observation) -> Array:
     """The goal, the velocity and the nearest hits around, each value in [-1, 1].
 
-    Places and speeds go through p / (1 + |p|): direction is kept, near is told apart finely and
-    far coarsely, and nothing grows without bound. The text of the command is left out: what it
-    refers to is in the goal already.
+    Places and speeds p enter as p / (1 + |p|). This keeps the direction, tells near places apart
+    more finely than far ones, and is bounded. The text of the command is left out: the goal says
+    already what it refers to.
 
     Args:
         observation: of an environment with `observation="all"`.
 
     Returns:
         Shape (COMPACT_SIZE,): the kind of goal (4), its place (2), cosine and sine of its heading,
-        its door's start (2) and end (2), whether it has one; forward, left and turning; and for
-        each sector, clockwise first, the nearest hit.
+        the start (2) and end (2) of its door, whether it has one; the velocity forward, left and
+        turning; and the nearest hit in each sector, from the clockwise end of the scan.
     """
     goal, scan = observation["goal"], observation["scan"]
     kind, place, heading, jambs, has_door = np.split(goal, (_KINDS, _KINDS + 2, _KINDS + 4, -1))

@@ -1,8 +1,8 @@
-"""How a trained agent lies on disk: JSON and safetensors, nothing that runs code when read.
+"""The files of a trained agent: JSON and safetensors, which run no code when they are read.
 
-A folder holds `agent.json` (what was trained), `policy.safetensors` (what the agent runs) and
-`training.safetensors` (what training goes on from). Each file is whole by itself and is replaced
-in one move, so an interruption at any moment leaves a folder that works.
+A folder holds `agent.json` (what was trained), `policy.safetensors` (the network that the agent
+runs) and `training.safetensors` (the state from which training continues). Each file is complete by
+itself and is replaced in one move, so an interruption at any moment leaves a folder that works.
 """
 
 from __future__ import annotations
@@ -18,27 +18,27 @@ from numpy.typing import NDArray
 
 Array = NDArray[Any]
 
-FORMAT = 1
-"""Of the folder; other numbers are refused."""
+FORMAT_VERSION = 1
+"""Version of the files in the folder; other versions are refused."""
 
-LARGEST = 64 * 2**20
-"""No file of a small agent is larger, bytes."""
+MAX_FILE_SIZE = 64 * 2**20
+"""Largest file that is read, bytes; a small agent needs far less."""
 
-AGENT, POLICY, TRAINING = "agent.json", "policy.safetensors", "training.safetensors"
+AGENT_FILE, POLICY_FILE, TRAINING_FILE = "agent.json", "policy.safetensors", "training.safetensors"
 
 
 @dataclass(frozen=True)
-class Description:
-    """What `agent.json` says.
+class AgentDescription:
+    """The content of `agent.json`.
 
     Attributes:
         robot: name of the body that was driven.
-        repeat: steps for which a decision holds.
+        repeat: steps of the environment for which a decision holds.
         widths: of the observation, the hidden layers and the action.
-        preset: that was trained, as plain data.
+        preset: the preset that was trained, as plain data.
         seed: of the training.
-        steps: decisions trained for so far.
-        format: version of the folder.
+        steps: number of decisions so far.
+        format: version of the files.
     """
 
     robot: str
@@ -47,24 +47,24 @@ class Description:
     preset: dict[str, Any]
     seed: int
     steps: int
-    format: int = FORMAT
+    format: int = FORMAT_VERSION
 
     def write(self, folder: Path) -> None:
-        """Put it in its place."""
+        """Write it to a folder, in one move."""
         text = json.dumps(asdict(self), indent=1) + "\n"
-        replace_file(folder / AGENT, text.encode())
+        replace_file(folder / AGENT_FILE, text.encode())
 
     @classmethod
-    def read(cls, folder: Path) -> Description:
-        """What lies there.
+    def read(cls, folder: Path) -> AgentDescription:
+        """Read it from a folder.
 
         Raises:
             ValueError: not such a file; says why.
             OSError: it cannot be read.
         """
-        path = folder / AGENT
+        path = folder / AGENT_FILE
         if not path.is_file():
-            raise ValueError(f"{folder} holds no trained agent: there is no {AGENT} in it")
+            raise ValueError(f"{folder} holds no trained agent: there is no {AGENT_FILE} in it")
         try:
             document = json.loads(_read(path))
         except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
@@ -73,12 +73,14 @@ class Description:
 
 
 def _checked(path: Path, document: Any) -> dict[str, Any]:
-    """The fields of a description."""
+    """The fields of the document, or an error that names what is wrong."""
     found = document.get("format") if isinstance(document, dict) else None
-    if found != FORMAT:
-        raise ValueError(f"{path} has format {found!r:.40}; this version reads format {FORMAT}")
+    if found != FORMAT_VERSION:
+        raise ValueError(
+            f"{path} has format {found!r:.40}; this version reads format {FORMAT_VERSION}"
+        )
     fields: dict[str, Any] = {}
-    for name, kind in _KINDS.items():
+    for name, kind in _FIELD_TYPES.items():
         value = document.get(name)
         if type(value) is not kind:
             raise ValueError(f"{path}: {name!r} must be of type {kind.__name__}, not {value!r:.40}")
@@ -91,7 +93,7 @@ def _checked(path: Path, document: Any) -> dict[str, Any]:
     return {**fields, "widths": tuple(widths)}
 
 
-_KINDS: dict[str, type] = {
+_FIELD_TYPES: dict[str, type] = {
     "robot": str,
     "repeat": int,
     "widths": list,
@@ -130,13 +132,13 @@ def load_tensors(path: Path) -> dict[str, Array]:
 
 
 def _read(path: Path) -> bytes:
-    if path.stat().st_size > LARGEST:
-        raise ValueError(f"{path} is larger than {LARGEST >> 20} MiB; no trained agent is")
+    if path.stat().st_size > MAX_FILE_SIZE:
+        raise ValueError(f"{path} is larger than {MAX_FILE_SIZE >> 20} MiB; no trained agent is")
     return path.read_bytes()
 
 
 def replace_file(path: Path, data: bytes) -> None:
-    """Write a file so that there is the old one or the new one, never half of it."""
+    """Write a file in one move: at any moment there is the old one or the new one, never a part."""
     part = path.with_name(path.name + ".part")
     with open(part, "wb") as file:
         file.write(data)

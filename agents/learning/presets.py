@@ -1,4 +1,4 @@
-"""What to learn and how: named, frozen settings."""
+"""Presets of training: what to learn, and how."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ class PPOSettings:
     """Hyperparameters of proximal policy optimisation (Schulman et al. 2017).
 
     Attributes:
-        hidden: widths of the layers of policy and value function, each with its own; tanh.
+        hidden: widths of the tanh layers of the policy and, separately, of the value function.
         rollout: decisions of each environment between updates.
-        batch_size: of a gradient step.
+        batch_size: decisions in a gradient step.
         epochs: passes over a rollout.
-        learning_rate: of Adam.
+        learning_rate: step size of Adam.
         gamma: discount per decision.
         gae_lambda: of generalised advantage estimation.
         clip_range: of the probability ratio.
         entropy: weight of the entropy bonus.
-        log_std: logarithm of the first standard deviation of the actions.
+        log_std: logarithm of the initial standard deviation of the actions.
         max_kl: divergence from the old policy at which an update stops early.
     """
 
@@ -41,20 +41,21 @@ class PPOSettings:
 
 @dataclass(frozen=True)
 class Preset:
-    """A thing to learn.
+    """What to learn, where and for how long.
 
     Attributes:
         name: as in `semnav train NAME`.
         robot: name of the body.
         floor_plan: where random commands are given, if there are no trials.
-        trials: commands and start poses, drawn evenly; none for random ones.
-        max_seconds: after which an episode of training is cut off.
+        trials: commands and start poses, one of which is drawn for each episode; none for random
+            commands.
+        max_seconds: time limit of an episode, simulated seconds.
         repeat: steps of the environment (1/15 s each) for which one decision holds.
-        envs: environments practised in at once.
-        steps: decisions to train for, unless told otherwise.
-        ppo: how to learn.
-        rewards: what for. Contact costs more than in the environment itself: without that, a
-            policy soon learns to slide along the jambs.
+        envs: number of environments that are driven at once.
+        steps: number of decisions to train for, unless told otherwise.
+        ppo: hyperparameters.
+        rewards: weights of the rewards. Contact costs more than in the environment itself:
+            otherwise a policy soon learns to slide along the jambs.
     """
 
     name: str

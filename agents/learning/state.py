@@ -1,4 +1,4 @@
-"""All that training goes on from, as named tensors."""
+"""The state from which training continues, as named tensors."""
 
 from __future__ import annotations
 
@@ -16,42 +16,44 @@ if TYPE_CHECKING:
 
 Tensors = dict[str, NDArray[Any]]
 
-STEPS, POLICY, ADAM = "steps", "policy.", "optimizer."
-MOMENTS = ("step", "exp_avg", "exp_avg_sq")
-"""What Adam keeps for each parameter."""
+STEPS_NAME, POLICY_PREFIX, ADAM_PREFIX = "steps", "policy.", "optimizer."
+"""Name of the count of decisions; first parts of the names of weights and of Adam's tensors."""
+
+ADAM_MOMENTS = ("step", "exp_avg", "exp_avg_sq")
+"""The tensors that Adam keeps for each parameter."""
 
 
 def write_state(model: PPO) -> Tensors:
-    """The count of decisions, the weights and the state of Adam."""
-    tensors: Tensors = {STEPS: np.array(model.num_timesteps, np.int64)}
+    """The number of decisions, the weights and the state of Adam."""
+    tensors: Tensors = {STEPS_NAME: np.array(model.num_timesteps, np.int64)}
     for name, weight in model.policy.state_dict().items():
-        tensors[POLICY + name] = weight.numpy()
+        tensors[POLICY_PREFIX + name] = weight.numpy()
     for i, moments in model.policy.optimizer.state_dict()["state"].items():
-        tensors |= {f"{ADAM}{i}.{name}": moments[name].numpy() for name in MOMENTS}
+        tensors |= {f"{ADAM_PREFIX}{i}.{name}": moments[name].numpy() for name in ADAM_MOMENTS}
     return tensors
 
 
 def read_state(model: PPO, tensors: Mapping[str, NDArray[Any]]) -> None:
-    """The opposite of `write_state`.
+    """Put tensors of `write_state` into the model.
 
     Raises:
         ValueError: a tensor is missing, too many, of another shape or type, or not finite.
     """
     rest = dict(tensors)
-    steps = rest.pop(STEPS, None)
+    steps = rest.pop(STEPS_NAME, None)
     if steps is None or steps.shape != () or steps.dtype != np.int64 or steps < 0:
-        raise ValueError(f"tensor {STEPS!r} must be one whole number of 64 bits, at least 0")
+        raise ValueError(f"tensor {STEPS_NAME!r} must be one whole number of 64 bits, at least 0")
     weights = model.policy.state_dict()
-    shapes = {POLICY + name: tuple(weight.shape) for name, weight in weights.items()}
+    shapes = {POLICY_PREFIX + name: tuple(weight.shape) for name, weight in weights.items()}
     parameters = list(model.policy.parameters()) if steps else []
     for i, parameter in enumerate(parameters):
-        shapes[f"{ADAM}{i}.step"] = ()
-        shapes |= {f"{ADAM}{i}.{name}": tuple(parameter.shape) for name in MOMENTS[1:]}
+        shapes[f"{ADAM_PREFIX}{i}.step"] = ()
+        shapes |= {f"{ADAM_PREFIX}{i}.{name}": tuple(parameter.shape) for name in ADAM_MOMENTS[1:]}
     check_tensors(rest, shapes)
     model.num_timesteps = int(steps)
-    model.policy.load_state_dict({name: _tensor(rest, POLICY + name) for name in weights})
+    model.policy.load_state_dict({name: _tensor(rest, POLICY_PREFIX + name) for name in weights})
     state = {
-        i: {name: _tensor(rest, f"{ADAM}{i}.{name}") for name in MOMENTS}
+        i: {name: _tensor(rest, f"{ADAM_PREFIX}{i}.{name}") for name in ADAM_MOMENTS}
         for i in range(len(parameters))
     }
     groups = model.policy.optimizer.state_dict()["param_groups"]

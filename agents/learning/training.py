@@ -17,9 +17,9 @@ from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor
 
 from semnav_env.agents.learning.action_repeat import ActionRepeat
 from semnav_env.agents.learning.files import (
-    POLICY,
-    TRAINING,
-    Description,
+    POLICY_FILE,
+    TRAINING_FILE,
+    AgentDescription,
     load_tensors,
     save_tensors,
 )
@@ -28,17 +28,17 @@ from semnav_env.agents.learning.presets import Preset
 from semnav_env.agents.learning.state import read_state, write_state
 from semnav_env.metrics import spl
 
-OUTCOME = ("is_success", "collisions", "path_length", "route_length")
-"""What of an episode's last `info` the curves are made of."""
+LOGGED_KEYS = ("is_success", "collisions", "path_length", "route_length")
+"""Keys of an episode's last `info` that are logged."""
 
 
 @dataclass(frozen=True)
-class Report:
-    """How training stands; shares and means are of the last hundred episodes, NaN before any.
+class TrainingReport:
+    """The state of a training; shares and means are of the last hundred episodes, NaN before any.
 
     Attributes:
-        steps: decisions so far.
-        rate: decisions per second lately.
+        steps: number of decisions so far.
+        rate: decisions per second in the last rollout.
         success: share of episodes in which the command was carried out.
         contact_free: share of episodes without any contact.
         spl: mean success weighted by path length, as the evaluation measures it.
@@ -54,39 +54,40 @@ class Report:
 
 
 class Trainer:
-    """One training, in one folder.
+    """One training, kept in one folder.
 
     Args:
         preset: what to learn.
-        folder: for the agent and, in `tensorboard`, the curves; made if it is not there.
+        folder: for the agent and, in `tensorboard`, the curves; made if it does not exist.
         seed: of weights, trials, noise and exploration.
-        steps: decisions that the folder's training has behind it; 0 starts anew.
+        steps: number of decisions that were trained before; 0 starts anew.
     """
 
     def __init__(self, preset: Preset, folder: Path, seed: int, steps: int = 0) -> None:
         folder.mkdir(parents=True, exist_ok=True)
-        torch.set_num_threads(1)  # so small a network only loses by more
+        torch.set_num_threads(1)  # a small network is slower with more
         self.preset, self.folder, self.seed = preset, folder, seed
         self._envs = VecMonitor(
-            DummyVecEnv([partial(ActionRepeat, preset)] * preset.envs), info_keywords=OUTCOME
+            DummyVecEnv([partial(ActionRepeat, preset)] * preset.envs), info_keywords=LOGGED_KEYS
         )
         self.model = _model(preset, self._envs, _seed_from(seed, steps))
         self.model.set_logger(configure(str(folder / "tensorboard"), ["tensorboard"]))
 
     @classmethod
     def resume(cls, preset: Preset, folder: Path) -> Trainer:
-        """Go on with the training in a folder.
+        """Continue the training in a folder.
 
-        Weights, the optimizer's state, the count of decisions and the seed are restored. Episodes
-        that were under way are not: all environments start new ones, and random numbers go on
-        from the seed and the count, so an interrupted training and a whole one differ.
+        Weights, the optimizer's state, the number of decisions and the seed are restored. Episodes
+        that were under way are not: all environments start new ones. Random numbers are drawn from
+        a generator seeded with the seed and the number of decisions. An interrupted training and an
+        uninterrupted one therefore end with different weights.
 
         Raises:
             ValueError: the folder holds no training, a damaged one or one of another preset.
         """
-        description = Description.read(folder)
+        description = AgentDescription.read(folder)
         _check_same(preset, description, folder)
-        path = folder / TRAINING
+        path = folder / TRAINING_FILE
         tensors = load_tensors(path)
         trainer = cls(preset, folder, description.seed, description.steps)
         try:
@@ -95,14 +96,14 @@ class Trainer:
             raise ValueError(f"{path}: {error}") from None
         return trainer
 
-    def advance(self) -> Report:
-        """Practise for one rollout and learn from it."""
+    def advance(self) -> TrainingReport:
+        """Drive one rollout and learn from it."""
         start, before = time.perf_counter(), self.steps
         size = self.model.n_steps * self.model.n_envs
-        # None: the curves are written below, together with what only this class knows
+        # log_interval=None: the curves are written below, together with measures that SB3 lacks
         self.model.learn(size, reset_num_timesteps=False, log_interval=None)  # type: ignore[arg-type]
         episodes = list(self.model.ep_info_buffer or ())
-        report = Report(
+        report = TrainingReport(
             steps=self.steps,
             rate=(self.steps - before) / (time.perf_counter() - start),
             success=_mean(list(self.model.ep_success_buffer or ())),
@@ -117,12 +118,12 @@ class Trainer:
         return report
 
     def save(self) -> None:
-        """Write the folder's files, each in one move."""
+        """Write the files of the folder, each in one move."""
         policy = _actor(self.model)
-        save_tensors(self.folder / TRAINING, write_state(self.model))
-        save_tensors(self.folder / POLICY, policy.tensors())
+        save_tensors(self.folder / TRAINING_FILE, write_state(self.model))
+        save_tensors(self.folder / POLICY_FILE, policy.tensors())
         widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
-        Description(
+        AgentDescription(
             robot=self.preset.robot,
             repeat=self.preset.repeat,
             widths=widths,
@@ -133,17 +134,17 @@ class Trainer:
 
     @property
     def steps(self) -> int:
-        """Decisions so far."""
+        """Number of decisions so far."""
         return int(self.model.num_timesteps)
 
     def close(self) -> None:
-        """Finish the curves and let go of the environments."""
+        """Finish the curves and close the environments."""
         self.model.logger.close()
         self._envs.close()
 
 
 def plain(preset: Preset) -> dict[str, object]:
-    """The preset as JSON has it."""
+    """The preset as the plain data of a JSON file."""
     return dict(json.loads(json.dumps(asdict(preset))))
 
 
@@ -175,7 +176,7 @@ def _seed_from(seed: int, steps: int) -> int:
 
 
 def _actor(model: PPO) -> Policy:
-    """The part of the model that chooses the mean action."""
+    """The part of the model that gives the mean action."""
     network = model.policy.mlp_extractor.policy_net
     layers = [
         layer for layer in (*network, model.policy.action_net) if isinstance(layer, torch.nn.Linear)
@@ -186,7 +187,7 @@ def _actor(model: PPO) -> Policy:
     )
 
 
-def _check_same(preset: Preset, description: Description, folder: Path) -> None:
+def _check_same(preset: Preset, description: AgentDescription, folder: Path) -> None:
     now, then = plain(preset), description.preset
     for name, value in now.items():
         if then.get(name) != value:

@@ -1,4 +1,4 @@
-"""Where a search is to lead, and when it is there."""
+"""Where a search is to lead, and the test whether it has arrived."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import NamedTuple
 from numba import njit
 
 from semnav_env.agents.planning.connect import wrapped
-from semnav_env.agents.planning.motion import Triple, moved
-from semnav_env.features.frames import FloatArray
+from semnav_env.agents.planning.motion import move_at, moved
+from semnav_env.features.frames import FloatArray, Pose
 
 
 class Aim(NamedTuple):
-    """Where the robot's centre is to go.
+    """Where a search is to lead the robot's centre.
 
     Attributes:
         x: metres.
@@ -35,7 +35,7 @@ class Aim(NamedTuple):
 
 
 @njit(cache=True)
-def arrived(aim: Aim, pose: Triple) -> bool:
+def arrived(aim: Aim, pose: Pose) -> bool:
     """Whether an axle pose meets the aim's tolerances."""
     x, y = pose[0] - aim.axle * math.cos(pose[2]), pose[1] - aim.axle * math.sin(pose[2])
     if math.hypot(aim.x - x, aim.y - y) > aim.position_tolerance:
@@ -44,16 +44,16 @@ def arrived(aim: Aim, pose: Triple) -> bool:
 
 
 @njit(cache=True)
-def trimmed(aim: Aim, start: Triple, moves: FloatArray) -> FloatArray:
-    """The moves up to where a region, an aim with any heading, is entered by a good part."""
+def trimmed(aim: Aim, start: Pose, moves: FloatArray) -> FloatArray:
+    """The moves cut off well inside an aim with any heading; other aims keep all moves."""
     if not aim.any_heading:
         return moves
     near = 0.6 * aim.position_tolerance
     region = Aim(aim.x, aim.y, aim.heading, near, aim.heading_tolerance, True, aim.axle)
     pose = start
     for k in range(len(moves)):
-        move = (moves[k, 0], moves[k, 1], moves[k, 2])
-        parts = max(1, math.ceil(math.hypot(move[0], move[1]) / 0.1))
+        move = move_at(moves, k)
+        parts = max(1, math.ceil(math.hypot(move.forward, move.left) / 0.1))
         for part in range(1, parts + 1):
             share = part / parts
             if arrived(region, moved(pose[0], pose[1], pose[2], move, share)):
@@ -65,8 +65,8 @@ def trimmed(aim: Aim, start: Triple, moves: FloatArray) -> FloatArray:
 
 
 @njit(cache=True)
-def target_from(aim: Aim, pose: Triple, backwards: bool) -> Triple:
-    """The axle pose to connect to; one that is approached straight on if the heading is free."""
+def target_from(aim: Aim, pose: Pose, backwards: bool) -> Pose:
+    """The axle pose to connect to; with any heading, the one that is approached straight on."""
     heading = aim.heading
     if aim.any_heading:
         heading = math.atan2(aim.y - pose[1], aim.x - pose[0]) + (math.pi if backwards else 0.0)

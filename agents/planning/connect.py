@@ -1,4 +1,4 @@
-"""Short connections of two poses: turn, drive, turn; and arc, line, arc."""
+"""Short connections between two poses: turn, drive, turn; or arc, line, arc."""
 
 from __future__ import annotations
 
@@ -7,26 +7,27 @@ import math
 import numpy as np
 from numba import njit
 
-from semnav_env.agents.planning.collision import Body, Field
+from semnav_env.agents.planning.collision import Footprint, ObstacleField
 from semnav_env.agents.planning.motion import (
-    Costs,
-    Margin,
-    Triple,
+    MotionCosts,
+    Move,
+    SafetyMargin,
     change_cost,
     curvature,
     duration,
     kind_of,
+    move_at,
     moved,
     steering_cost,
     sweep,
 )
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, Pose
 
-TINY_TURN = 1e-3
-"""Radians; smaller turns are left out of a connection."""
+MIN_TURN = 1e-3
+"""Smallest turn of a connection, radians; a smaller one is left out."""
 
-TINY_STEP = 5e-3
-"""Metres; between closer positions a connection only turns."""
+MIN_DISTANCE = 5e-3
+"""Smallest distance that a connection drives, metres; between closer positions it only turns."""
 
 
 @njit(cache=True)
@@ -36,25 +37,25 @@ def wrapped(angle: float) -> float:
 
 
 @njit(cache=True)
-def connection(start: Triple, end: Triple, backwards: bool) -> FloatArray:
-    """The three moves from one axle pose to another, shape (3, 3); zero rows are no moves."""
+def connection(start: Pose, end: Pose, backwards: bool) -> FloatArray:
+    """Turn, drive and turn from one axle pose to another, shape (3, 3); a zero row is no move."""
     moves = np.zeros((3, 3))
     dx, dy = end[0] - start[0], end[1] - start[1]
     distance = math.hypot(dx, dy)
     heading = start[2]
-    if distance > TINY_STEP:
+    if distance > MIN_DISTANCE:
         turn = wrapped(math.atan2(dy, dx) + (math.pi if backwards else 0.0) - heading)
-        moves[0, 2] = turn if abs(turn) > TINY_TURN else 0.0
+        moves[0, 2] = turn if abs(turn) > MIN_TURN else 0.0
         moves[1, 0] = -distance if backwards else distance
         heading += turn
     last = wrapped(end[2] - heading)
-    moves[2, 2] = last if abs(last) > TINY_TURN else 0.0
+    moves[2, 2] = last if abs(last) > MIN_TURN else 0.0
     return moves
 
 
 @njit(cache=True)
 def smooth_connection(
-    start: Triple, end: Triple, radius: float, first: float, last: float
+    start: Pose, end: Pose, radius: float, first: float, last: float
 ) -> FloatArray:
     """Arc, line and arc forward from one axle pose to another, shape (3, 3).
 
@@ -82,28 +83,28 @@ def smooth_connection(
 @njit(cache=True)
 def _arc_angle(begin: float, end: float, side: float) -> float:
     angle = (side * (end - begin)) % (2.0 * math.pi)
-    return 0.0 if angle > 2.0 * math.pi - TINY_TURN else side * angle
+    return 0.0 if angle > 2.0 * math.pi - MIN_TURN else side * angle
 
 
 @njit(cache=True)
 def cost_of_moves(
-    field: Field,
-    body: Body,
-    start: Triple,
+    field: ObstacleField,
+    body: Footprint,
+    start: Pose,
     moves: FloatArray,
     before: int,
-    margin: Margin,
-    costs: Costs,
+    margin: SafetyMargin,
+    costs: MotionCosts,
     limit: float,
 ) -> float:
-    """Cost of driving the moves, shape (M, 3), in seconds; infinite on collision or past `limit`.
+    """Cost of driving the moves, seconds; infinite if they collide or cost `limit` or more.
 
-    `before` is the kind of motion that comes first; free-space time is checked against the limit
-    before anything is swept.
+    `before` is the kind of motion that precedes the moves. The time in free space, which is quick
+    to compute, is compared with the limit before any move is tested for collisions.
     """
     least, kind = 0.0, before
     for k in range(len(moves)):
-        move = (moves[k, 0], moves[k, 1], moves[k, 2])
+        move = move_at(moves, k)
         if is_move(move):
             least += change_cost(kind, kind_of(move), costs) + duration(move, costs)
             kind = kind_of(move)
@@ -111,7 +112,7 @@ def cost_of_moves(
         return math.inf
     cost, kind, pose, bend = 0.0, before, start, math.nan
     for k in range(len(moves)):
-        move = (moves[k, 0], moves[k, 1], moves[k, 2])
+        move = move_at(moves, k)
         if is_move(move):
             cost += change_cost(kind, kind_of(move), costs)
             cost += sweep(field, body, pose, move, margin, costs)
@@ -124,16 +125,16 @@ def cost_of_moves(
 
 
 @njit(cache=True)
-def is_move(move: Triple) -> bool:
-    """Whether the move moves at all."""
-    return move[0] != 0.0 or move[1] != 0.0 or move[2] != 0.0
+def is_move(move: Move) -> bool:
+    """Whether the move is more than a row of zeros."""
+    return move.forward != 0.0 or move.left != 0.0 or move.turn != 0.0
 
 
 @njit(cache=True)
 def last_kind(moves: FloatArray, kind: int) -> int:
-    """The kind of the last move that moves; `kind` if none does."""
+    """The kind of the last move that is not zero; `kind` if there is none."""
     for k in range(len(moves)):
-        move = (moves[k, 0], moves[k, 1], moves[k, 2])
+        move = move_at(moves, k)
         if is_move(move):
             kind = kind_of(move)
     return kind

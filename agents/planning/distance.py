@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 
-FAR = 1e12
-"""Squared cells; stands for "no marked cell" and stays finite in differences."""
+NO_MARKED_CELL = 1e12
+"""Squared distance where there is no marked cell, in cells: finite, so that differences are too."""
 
 
 @njit(cache=True)
@@ -29,7 +29,9 @@ def distance_to_marked(marked: NDArray[np.bool_], cell: float) -> NDArray[np.flo
         row[:] = squared[j]
         _lower_envelope(row, place, edge, squared[j])
         for i in range(n):
-            distance[j, i] = cell * np.sqrt(squared[j, i]) if squared[j, i] < FAR / 2 else np.inf
+            distance[j, i] = (
+                cell * np.sqrt(squared[j, i]) if squared[j, i] < NO_MARKED_CELL / 2 else np.inf
+            )
     return distance
 
 
@@ -53,13 +55,16 @@ def _along_columns(marked: NDArray[np.bool_], squared: FloatArray) -> None:
 def _lower_envelope(
     values: FloatArray, place: NDArray[np.int64], edge: FloatArray, out: FloatArray
 ) -> None:
-    """Minimum over q of values[q] + (i - q)^2 for every i."""
+    """Minimum over q of values[q] + (i - q)^2 for every i.
+
+    The parabola rooted at place[k] is the lowest one from edge[k] to edge[k + 1].
+    """
     n = len(values)
     k = 0
     place[0], edge[0], edge[1] = 0, -np.inf, np.inf
     for q in range(1, n):
         crossing = _crossing(values, q, place[k])
-        while crossing <= edge[k]:
+        while crossing <= edge[k]:  # the new parabola hides the last one altogether
             k -= 1
             crossing = _crossing(values, q, place[k])
         k += 1
@@ -73,4 +78,5 @@ def _lower_envelope(
 
 @njit(cache=True)
 def _crossing(values: FloatArray, q: int, p: int) -> float:
+    """Where the parabolas rooted at p and at q > p cross."""
     return float(((values[q] + q * q) - (values[p] + p * p)) / (2.0 * (q - p)))

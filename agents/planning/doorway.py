@@ -7,20 +7,24 @@ import math
 import numpy as np
 
 from semnav_env.agents.planning.obstacles import points_of_segments
-from semnav_env.agents.planning.planner import Target
+from semnav_env.agents.planning.planner import DriveTarget
 from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.features.scene import Door
 from semnav_env.robots import RobotSpec
 
-IN_DOORWAY = 0.1
-"""A robot whose footprint is nearer than this to a doorway's line stands in it, metres."""
+DOORWAY_DISTANCE = 0.1
+"""Distance from the footprint to a doorway's line below which the robot stands in it, metres."""
 
-BEFORE = AFTER = 1.0
-"""Metres between the door and the robot's centre (Mes 2021, section 2.1)."""
+DOOR_DISTANCE = 1.0
+"""From the door to the robot's centre before and after it, metres (Mes 2021, section 2.1)."""
+
+THROUGH_DISTANCE = 1.3
+"""From the door to the middle of the region where a robot is through it, metres: at a tolerance of
+0.5 m a robot 1.1 m long has left the doorway."""
 
 
 def poses_through(
-    door: Door, approach: Point, before: float = BEFORE, after: float = AFTER
+    door: Door, approach: Point, before: float = DOOR_DISTANCE, after: float = DOOR_DISTANCE
 ) -> tuple[Pose, Pose]:
     """Poses on the door's axis: before it, facing it, and behind it, heading away from it.
 
@@ -45,7 +49,7 @@ def poses_through(
 
 
 def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
-    """Points across doorways that are no way to another door, but for one the robot stands in.
+    """Points that bar the doorways of other doors, except one in which the robot stands.
 
     Args:
         doors: x and y of both jambs, metres, robot frame, shape (n, 4).
@@ -55,17 +59,17 @@ def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
         shape (N, 2), robot frame.
     """
     lines = [points_of_segments(door[None]) for door in doors]
-    reach = np.array((robot.length, robot.width)) / 2 + IN_DOORWAY
+    reach = np.array((robot.length, robot.width)) / 2 + DOORWAY_DISTANCE
     others = [line for line in lines if not (np.abs(line) < reach).all(axis=1).any()]
     return np.concatenate([np.empty((0, 2)), *others])
 
 
-def target_before(door: Door, approach: Point) -> Target:
-    """Stand before the door on its axis, facing it."""
-    return Target(poses_through(door, approach)[0], 0.15, 0.15)
+def target_before(door: Door, approach: Point) -> DriveTarget:
+    """A target before the door on its axis, facing it."""
+    return DriveTarget(poses_through(door, approach)[0], 0.15, 0.15)
 
 
-def target_behind(door: Door, approach: Point) -> Target:
-    """Be wholly through the door, in any heading: a leaf may bar the way along its axis."""
-    behind = poses_through(door, approach, after=1.3)[1]
-    return Target(behind, 0.5, None, gate=(door.start, door.end))
+def target_behind(door: Door, approach: Point) -> DriveTarget:
+    """A target wholly through the door, in any heading: a leaf may bar the way along its axis."""
+    behind = poses_through(door, approach, after=THROUGH_DISTANCE)[1]
+    return DriveTarget(behind, 0.5, None, gate=(door.start, door.end))

@@ -1,4 +1,4 @@
-"""Planning, checking and following joined: what an agent calls at every step."""
+"""Drives a robot to a target: plans, checks and follows, one call for each step."""
 
 from __future__ import annotations
 
@@ -7,50 +7,53 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from semnav_env.agents.planning.follower import Progress, Steering, follow
+from semnav_env.agents.planning.follower import PathProgress, Steering, follow
 from semnav_env.agents.planning.free import points_around
-from semnav_env.agents.planning.guard import SHARES, safe_share
+from semnav_env.agents.planning.guard import SPEED_SHARES, safe_share
 from semnav_env.agents.planning.nudge import best_nudge, path_clearances
-from semnav_env.agents.planning.path import Path, joined
-from semnav_env.agents.planning.planner import PlannerSettings, Target, is_free, plan
-from semnav_env.agents.planning.track import FollowerSettings, Track
+from semnav_env.agents.planning.path import PlannedPath, joined
+from semnav_env.agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
+from semnav_env.agents.planning.track import FollowerSettings, PathTrack
 from semnav_env.features.frames import (
     FloatArray,
     Pose,
+    Twist,
     compose,
     points_to_parent,
     relative,
 )
 from semnav_env.robots import RobotSpec
 
-NOTHING: FloatArray = np.empty((0, 2))
+NO_POINTS: FloatArray = np.empty((0, 2))
+"""No obstacle points, shape (0, 2)."""
 
-STOP = Steering(0.0, 0.0, 0.0, Progress())
+STANDSTILL = Steering(0.0, 0.0, 0.0, PathProgress())
+"""Stand still, or brake."""
 
-NEARLY = 0.3
-"""A path that does not lead all the way is planned anew when a metre is left, or this share of a
-short one: it must be driven, or nothing would change."""
+REPLAN_SHARE = 0.3
+"""A partial path is planned anew when a metre of it is left, or this share of a shorter one. Most
+of it must have been driven: from the same place the same path would be found again."""
 
-LOOK = 4.0
-"""What is farther away than this does not matter to the next metres of a path, metres."""
+LOOKAHEAD = 4.0
+"""Distance beyond which obstacles do not matter to the next metres of a path, metres."""
 
 
 @dataclass
 class Driver:
     """Drives one robot to targets, planning again when that is needed.
 
-    It plans again when the target moves, an obstacle lies on the path, the robot is off it, or
-    the path was only a part of the way and is nearly driven.
+    It plans again when the target moves, when an obstacle lies on the path, when the robot is off
+    the path, and when a path that led only part of the way is nearly driven.
 
     Attributes:
         robot: footprint and limits.
         planner: the planner's settings.
         follower: the follower's settings.
-        check_every: steps between two looks whether the path is still free.
-        tolerance: metres by which a path may lose clearance before it is planned anew.
-        insist_after: how often in a row a steering may be refused before it is let through.
+        check_every: steps between two checks whether the path is still free.
+        tolerance: loss of clearance at which a path is planned anew, metres.
+        insist_after: refusals of a steering in a row after which it is let through.
         retry_after: steps to stand still where no way leads on.
-        detour: how many times as long a way around barriers may be.
+        detour: largest length of a way around barriers, as a multiple of the direct way.
     """
 
     robot: RobotSpec
@@ -67,11 +70,11 @@ class Driver:
 
     def reset(self) -> None:
         """Forget path and target."""
-        self.path: Path | None = None
+        self.path: PlannedPath | None = None
         self.plans = 0
-        self._track: Track | None = None
-        self._target: Target | None = None
-        self._progress = Progress()
+        self._track: PathTrack | None = None
+        self._target: DriveTarget | None = None
+        self._progress = PathProgress()
         self._shift: Pose = (0.0, 0.0, 0.0)
         self._step = self._wait = 0
         self._braking = False
@@ -81,10 +84,10 @@ class Driver:
     def drive(
         self,
         points: FloatArray,
-        target: Target,
+        target: DriveTarget,
         pose: Pose,
-        velocity: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        barriers: FloatArray = NOTHING,
+        velocity: Twist = (0.0, 0.0, 0.0),
+        barriers: FloatArray = NO_POINTS,
     ) -> Steering:
         """The velocities for this step; `done` once the target is reached.
 
@@ -92,18 +95,18 @@ class Driver:
             points: obstacle points, metres, shape (N, 2).
             target: where to go, in the frame of the points.
             pose: the centre's pose in that frame.
-            velocity: (forward, left, turn) now, m/s and rad/s.
-            barriers: points across what is no way to the target's gate, metres, shape (M, 2);
-                nothing that one could run into.
+            velocity: of the robot now.
+            barriers: points across doorways that do not lead to the target's gate, metres, shape
+                (M, 2); nothing stands there.
         """
         self._step += 1
         self._wait -= 1
         self._braking = self._braking and max(map(abs, velocity)) > 0.05
         if self._braking:
-            return STOP
+            return STANDSTILL
         if self._must_plan(points, target, pose, barriers):
             if self._wait > 0:
-                return STOP
+                return STANDSTILL
             self._plan(points, target, pose, velocity, barriers)
         assert self._track is not None
         steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
@@ -115,40 +118,40 @@ class Driver:
     def _stop(self) -> Steering:
         """Brake, and plan anew from standstill."""
         self._track, self._braking = None, True
-        return STOP
+        return STANDSTILL
 
     def _guarded(
         self,
         points: FloatArray,
         pose: Pose,
-        velocity: tuple[float, float, float],
+        velocity: Twist,
         steering: Steering,
     ) -> Steering:
-        """The steering, slowed or refused where it leads into something.
+        """The steering, slowed down or refused where it leads into an obstacle.
 
-        After `insist_after` refusals in a row it is let through slowly: what is seen may be noise.
+        After `insist_after` refusals in a row it is let through slowly: the obstacle may be noise.
         """
         seen = points_around(pose, points, 1.5 * self.robot.length)
-        share = safe_share(seen, steering.command, velocity, self.robot)
+        share = safe_share(seen, steering.twist, velocity, self.robot)
         if share == 0.0:
             self._refusals += 1
             if self._refusals <= self.insist_after:
                 return self._stop()
-            share = SHARES[-1]
+            share = SPEED_SHARES[-1]
         elif share == 1.0:
             self._refusals = 0
         if steering.done and self.path is not None and not self.path.complete:
-            return STOP
+            return STANDSTILL
         return steering.slowed(share)
 
     def _must_plan(
-        self, points: FloatArray, target: Target, pose: Pose, barriers: FloatArray
+        self, points: FloatArray, target: DriveTarget, pose: Pose, barriers: FloatArray
     ) -> bool:
         if self._track is None or self._target is None or self.path is None:
             return True
         if _apart(self._target, target):
             return True
-        if not self.path.complete and self._remaining() < min(1.0, NEARLY * self.path.length):
+        if not self.path.complete and self._remaining() < min(1.0, REPLAN_SHARE * self.path.length):
             return True
         if self._step % self.check_every:
             return False
@@ -158,51 +161,50 @@ class Driver:
     def _plan(
         self,
         points: FloatArray,
-        target: Target,
+        target: DriveTarget,
         pose: Pose,
-        velocity: tuple[float, float, float],
+        velocity: Twist,
         barriers: FloatArray,
     ) -> None:
-        """Plan from here, or while driving from where the old path allows a stop."""
+        """Plan from the robot's pose; while it drives, from where it can stop on the old path."""
         kept = self._path_to_stop(points, pose, velocity)
         start = pose if kept is None else kept.end
         self.path = self._path_around(points, start, target, barriers)
         if kept is not None:
             self.path = joined(kept, self.path)
         self.plans += 1
-        self._target, self._progress, self._shift = target, Progress(), (0.0, 0.0, 0.0)
-        self._track = Track(self.path, self.robot, self.follower)
+        self._target, self._progress, self._shift = target, PathProgress(), (0.0, 0.0, 0.0)
+        self._track = PathTrack(self.path, self.robot, self.follower)
         if not self.path.complete:
             self._wait = self.retry_after
 
     def _path_around(
-        self, points: FloatArray, start: Pose, target: Target, barriers: FloatArray
-    ) -> Path:
-        """A path through the target's gate, if it has one; around the barriers, if that helps.
+        self, points: FloatArray, start: Pose, target: DriveTarget, barriers: FloatArray
+    ) -> PlannedPath:
+        """A path through the target's gate, if it has one.
 
-        Without a gate a path leads around them where that is no great `detour`.
+        Barriers count as obstacles if the path then leads through the gate. Without a gate they
+        count if the way around them is no longer than `detour` allows.
         """
         path = plan(points, start, target, self.robot, self.planner)
         self._heeds_barriers = False
-        if not len(barriers) or self._is_the_way(path, target, barriers):
+        if not len(barriers) or self._heads_right(path, target, barriers):
             return path
         solid = np.vstack((points, barriers))
         around = plan(solid, start, target, self.robot, self.planner)
         near = target.gate is not None or around.length < self.detour * path.length
-        leads = around.complete and near and self._is_the_way(around, target, barriers)
+        leads = around.complete and near and self._heads_right(around, target, barriers)
         self._heeds_barriers = leads
         return around if leads else path
 
-    def _is_the_way(self, path: Path, target: Target, barriers: FloatArray) -> bool:
+    def _heads_right(self, path: PlannedPath, target: DriveTarget, barriers: FloatArray) -> bool:
         """Whether a path crosses the target's gate, or without one no barrier."""
         if target.gate is not None:
             return path.crosses(*target.gate)
         return is_free(barriers, path.poses, self.robot)
 
-    def _path_to_stop(
-        self, points: FloatArray, pose: Pose, velocity: tuple[float, float, float]
-    ) -> Path | None:
-        """The stretch of the old path that braking takes, if it is free; None if there is none."""
+    def _path_to_stop(self, points: FloatArray, pose: Pose, velocity: Twist) -> PlannedPath | None:
+        """The stretch of the old path that braking needs; None if it is not free or not there."""
         speed = math.hypot(velocity[0], velocity[1])
         if self._track is None or self.path is None or speed < 0.1:
             return None
@@ -220,9 +222,9 @@ class Driver:
         return float(self._track.distance[-1] - self._track.distance[self._progress.sample])
 
     def _stays_free(self, points: FloatArray, pose: Pose) -> bool:
-        """Whether the next metres of the path are free, if need be after a small correction."""
+        """Whether the next metres of the path are free, after a small correction if need be."""
         assert self.path is not None
-        seen, margin = points_around(pose, points, LOOK), self.path.margin
+        seen, margin = points_around(pose, points, LOOKAHEAD), self.path.margin
         size = (self.robot.length, self.robot.width)
         left, turn, _ = best_nudge(seen, self._ahead(pose, 1.2), *size, margin + 0.005)
         if left or turn:
@@ -246,7 +248,8 @@ class Driver:
         return np.column_stack((places, poses[:, 2] + frame[2]))
 
 
-def _apart(a: Target, b: Target) -> bool:
+def _apart(a: DriveTarget, b: DriveTarget) -> bool:
+    """Whether the targets differ by more than half a tolerance."""
     turned = abs(math.remainder(a.pose[2] - b.pose[2], 2 * math.pi))
     heading_matters = b.heading_tolerance is not None and turned > 0.5 * b.heading_tolerance
     return math.dist(a.pose[:2], b.pose[:2]) > 0.5 * b.position_tolerance or heading_matters

@@ -8,16 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from semnav_env.agents.planning.motion import REVERSE, SIDEWAYS, TURN
-from semnav_env.agents.planning.track import Leg, Track
-from semnav_env.features.frames import Pose, compose, wrap_angle
+from semnav_env.agents.planning.track import PathLeg, PathTrack
+from semnav_env.features.frames import Pose, Twist, compose, wrap_angle
 
-WINDOW = 12
-"""Samples ahead among which the nearest is looked for."""
+SAMPLES_AHEAD = 12
+"""Samples of the path among which the nearest is looked for: about half a metre, more than a robot
+drives in one step."""
 
 
 @dataclass(frozen=True, slots=True)
-class Progress:
-    """How far a path has been driven: the leg, and the last sample that was passed."""
+class PathProgress:
+    """How far a path has been driven: the index of the leg, and of the last sample passed."""
 
     leg: int = 0
     sample: int = 0
@@ -30,40 +31,38 @@ class Steering:
     Attributes:
         forward: m/s.
         left: m/s; 0 for a robot that cannot.
-        turn: rad/s.
-        progress: to be passed in next time.
-        deviation: metres from the path.
+        yaw_rate: rad/s.
+        progress: to be passed in at the next step.
+        deviation: distance from the path, metres.
         done: whether the path's end is reached.
     """
 
     forward: float
     left: float
-    turn: float
-    progress: Progress
+    yaw_rate: float
+    progress: PathProgress
     deviation: float = 0.0
     done: bool = False
 
     @property
-    def command(self) -> tuple[float, float, float]:
-        """(forward, left, turn)."""
-        return self.forward, self.left, self.turn
+    def twist(self) -> Twist:
+        """The velocity that is wanted."""
+        return self.forward, self.left, self.yaw_rate
 
     def slowed(self, share: float) -> Steering:
-        """The same, that much slower."""
-        forward, left, turn = (share * value for value in self.command)
-        return replace(self, forward=forward, left=left, turn=turn)
+        """The same steering at that share of its velocity."""
+        forward, left, yaw_rate = (share * value for value in self.twist)
+        return replace(self, forward=forward, left=left, yaw_rate=yaw_rate)
 
 
-def follow(
-    track: Track, progress: Progress, pose: Pose, velocity: tuple[float, float, float]
-) -> Steering:
+def follow(track: PathTrack, progress: PathProgress, pose: Pose, velocity: Twist) -> Steering:
     """The velocities that keep the robot on its path.
 
     Args:
         track: the path and the robot.
-        progress: `Progress()` at first, then that of the last answer.
+        progress: `PathProgress()` at first, then that of the last answer.
         pose: the centre's pose, in the path's frame.
-        velocity: the centre's (forward, left, turn) now, m/s and rad/s, robot frame.
+        velocity: the centre's velocity now.
     """
     axle = compose(pose, (track.robot.axle, 0.0, 0.0))
     while progress.leg < len(track.legs):
@@ -72,12 +71,12 @@ def follow(
         steering = act(track, leg, progress, axle, velocity)
         if steering is not None:
             return steering
-        progress = Progress(progress.leg + 1, leg.last)
+        progress = PathProgress(progress.leg + 1, leg.last)
     return Steering(0.0, 0.0, 0.0, progress, 0.0, True)
 
 
 def _turn(
-    track: Track, leg: Leg, progress: Progress, axle: Pose, velocity: tuple[float, float, float]
+    track: PathTrack, leg: PathLeg, progress: PathProgress, axle: Pose, velocity: Twist
 ) -> Steering | None:
     s, poses = track.settings, track.path.axle_poses
     x, y, known = poses[progress.sample]
@@ -96,13 +95,13 @@ def _turn(
         forward,
         left,
         math.copysign(rate, error),
-        Progress(progress.leg, sample),
+        PathProgress(progress.leg, sample),
         _strayed(track, math.dist(axle[:2], (x, y)), velocity),
     )
 
 
 def _drive(
-    track: Track, leg: Leg, progress: Progress, axle: Pose, velocity: tuple[float, float, float]
+    track: PathTrack, leg: PathLeg, progress: PathProgress, axle: Pose, velocity: Twist
 ) -> Steering | None:
     s, poses = track.settings, track.path.axle_poses
     sample = _nearest(track, leg, progress.sample, axle)
@@ -115,7 +114,7 @@ def _drive(
     speed = _speed(track, sample, along, left_over, across, error)
     preview = s.preview * min(speed, math.hypot(velocity[0], velocity[1]))
     bend = track.curvature[_ahead(track, leg, sample, preview)]
-    here = Progress(progress.leg, sample)
+    here = PathProgress(progress.leg, sample)
     if track.robot.holonomic:
         return _holonomic(track, leg, here, speed, across, error, bend)
     k = s.stiffness
@@ -126,15 +125,15 @@ def _drive(
 
 
 def _holonomic(
-    track: Track,
-    leg: Leg,
-    progress: Progress,
+    track: PathTrack,
+    leg: PathLeg,
+    progress: PathProgress,
     speed: float,
     across: float,
     error: float,
     bend: float,
 ) -> Steering:
-    """The path's direction, and straight back to it where the robot is off to one side."""
+    """Steering along the path's direction, and straight back to it where the robot is off it."""
     direction = _direction(track, leg, progress.sample)
     heading = float(track.path.axle_poses[progress.sample, 2]) + error
     off = -across if leg.kind == REVERSE else across
@@ -152,9 +151,9 @@ def _holonomic(
 
 
 def _speed(
-    track: Track, sample: int, along: float, left_over: float, across: float, error: float
+    track: PathTrack, sample: int, along: float, left_over: float, across: float, error: float
 ) -> float:
-    """m/s: the profile's, less where the robot is off the path or close to a stop."""
+    """Speed of the profile, m/s, less where the robot is off the path or close to a stop."""
     s = track.settings
     last = len(track.speed) - 1
     step = max(track.distance[min(sample + 1, last)] - track.distance[sample], 1e-9)
@@ -166,14 +165,14 @@ def _speed(
     return float(min(max(planned * off, s.creep), stop))
 
 
-def _nearest(track: Track, leg: Leg, sample: int, axle: Pose) -> int:
+def _nearest(track: PathTrack, leg: PathLeg, sample: int, axle: Pose) -> int:
     first = max(sample, leg.first)
-    ahead = track.path.axle_poses[first : min(first + WINDOW, leg.last + 1)]
+    ahead = track.path.axle_poses[first : min(first + SAMPLES_AHEAD, leg.last + 1)]
     return first + int(np.argmin(np.hypot(ahead[:, 0] - axle[0], ahead[:, 1] - axle[1])))
 
 
-def _errors(track: Track, leg: Leg, sample: int, axle: Pose) -> tuple[float, float, float]:
-    """How far along the motion past the sample, how far to its left, and the heading's error."""
+def _errors(track: PathTrack, leg: PathLeg, sample: int, axle: Pose) -> tuple[float, float, float]:
+    """Distance past the sample along the motion and to its left, metres, and the heading error."""
     x, y, heading = track.path.axle_poses[sample]
     direction = _direction(track, leg, sample)
     c, s = math.cos(direction), math.sin(direction)
@@ -188,7 +187,7 @@ def _errors(track: Track, leg: Leg, sample: int, axle: Pose) -> tuple[float, flo
     return along, across - bow, wrap_angle(axle[2] - wanted)
 
 
-def _direction(track: Track, leg: Leg, sample: int) -> float:
+def _direction(track: PathTrack, leg: PathLeg, sample: int) -> float:
     """Direction of motion at a sample, radians."""
     heading = float(track.path.axle_poses[sample, 2])
     if leg.kind == REVERSE:
@@ -199,16 +198,16 @@ def _direction(track: Track, leg: Leg, sample: int) -> float:
     return heading
 
 
-def _ahead(track: Track, leg: Leg, sample: int, distance: float) -> int:
+def _ahead(track: PathTrack, leg: PathLeg, sample: int, distance: float) -> int:
     there = int(np.searchsorted(track.distance, track.distance[sample] + distance))
     return min(max(sample, there), leg.last - 1)
 
 
-def _strayed(track: Track, distance: float, velocity: tuple[float, float, float]) -> float:
+def _strayed(track: PathTrack, distance: float, velocity: Twist) -> float:
     """Deviation, metres, of a robot that far from where it should turn.
 
-    While it brakes the way it needs for that does not count; once it stands every centimetre
-    counts more, since the turn was only tested there.
+    While the robot brakes, the distance that braking needs is left out. Once it stands, every
+    centimetre counts more, because the turn was tested at that place alone.
     """
     speed = math.hypot(velocity[0], velocity[1])
     if speed > 0.05:
@@ -217,7 +216,7 @@ def _strayed(track: Track, distance: float, velocity: tuple[float, float, float]
 
 
 def _towards(axle: Pose, place: tuple[float, float]) -> tuple[float, float]:
-    """Velocity in the robot frame back to a place: its offset, each second."""
+    """Velocity (forward, left) back to a place, m/s: its offset, to be driven within a second."""
     dx, dy = place[0] - axle[0], place[1] - axle[1]
     c, s = math.cos(axle[2]), math.sin(axle[2])
     return c * dx + s * dy, c * dy - s * dx

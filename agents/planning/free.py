@@ -1,4 +1,4 @@
-"""Checks of many poses at once."""
+"""Clearance of the footprint at many poses at once."""
 
 from __future__ import annotations
 
@@ -7,15 +7,16 @@ import math
 import numpy as np
 from numba import njit
 
-from semnav_env.agents.planning.collision import Body, Field, bins_around
+from semnav_env.agents.planning.collision import Footprint, ObstacleField, bins_around
 from semnav_env.features.frames import FloatArray, Pose
 
 
 @njit(cache=True)
-def clearances(field: Field, body: Body, poses: FloatArray, most: float) -> FloatArray:
-    """How far the nearest point lies outside the footprint at axle poses, metres, shape (M,).
+def clearances(field: ObstacleField, body: Footprint, poses: FloatArray, most: float) -> FloatArray:
+    """Distance from the footprint to the nearest point at axle poses, metres, shape (M,).
 
-    Distance is the larger of those along and across the body, at most `most`; negative inside.
+    A distance is the larger of its parts along and across the body; it is at most `most`, and
+    negative where the point is inside.
     """
     clearance = np.empty(len(poses))
     middle = (body.front - body.rear) / 2

@@ -1,4 +1,4 @@
-"""The coarse way to a target, as if the robot were a disc as wide as itself."""
+"""The coarse way to a target, for a disc that is as wide as the robot."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.planning.collision import Body, Field
+from semnav_env.agents.planning.collision import Footprint, ObstacleField
 from semnav_env.agents.planning.heuristic import (
-    STEP,
+    COARSE_CELL,
     coarse_cell,
     room_grid,
     seconds_at,
     seconds_to,
 )
 from semnav_env.agents.planning.lanes import close_gaps
-from semnav_env.agents.planning.motion import Costs
+from semnav_env.agents.planning.motion import MotionCosts
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.kernels.grid_search import descent
 
-ROUNDS = 4
-"""How often a way is looked for again after a gap on it has proved too narrow."""
+MAX_DETOURS = 4
+"""Largest number of searches for another way after a gap on the last one proved too narrow."""
 
 
 @dataclass(frozen=True, eq=False)
 class Guidance:
-    """The coarse way and the time it takes from everywhere.
+    """The coarse way to a target, and the time it takes from every cell.
 
     Attributes:
         place: where it leads, metres: the target, or what stands in for it.
@@ -35,9 +35,9 @@ class Guidance:
         reachable: whether the target, or the window's edge towards it, can be reached.
         time: seconds to `place` from every cell.
         room: of `heuristic.room_grid`, with gaps that are too narrow closed.
-        seconds: of the way to the target, infinite if it cannot be reached.
+        seconds: duration of the way to the target, infinite if it cannot be reached.
         way: cells (j, i) from the start, shape (M, 2).
-        margin: metres, what the room was measured for.
+        margin: the margin that the room was measured for, metres.
     """
 
     place: Point
@@ -51,7 +51,12 @@ class Guidance:
 
 
 def guidance_to(
-    target: Point, start: Point, field: Field, body: Body, margin: float, costs: Costs
+    target: Point,
+    start: Point,
+    field: ObstacleField,
+    body: Footprint,
+    margin: float,
+    costs: MotionCosts,
 ) -> Guidance:
     """The coarse way from the start to the target, or else towards it.
 
@@ -62,7 +67,7 @@ def guidance_to(
     sources, first = _sources(field, room, target, costs)
     time = seconds_to(sources, first, room, costs)
     way = _way(time, field, start)
-    for _ in range(ROUNDS):
+    for _ in range(MAX_DETOURS):
         if not close_gaps(field, body, room, way, margin):
             break
         time = seconds_to(sources, first, room, costs)
@@ -82,14 +87,14 @@ def guidance_to(
     return Guidance(place, False, reachable, time, room, way, seconds, margin)
 
 
-def _way(time: FloatArray, field: Field, start: Point) -> NDArray[np.int64]:
+def _way(time: FloatArray, field: ObstacleField, start: Point) -> NDArray[np.int64]:
     """The cells (j, i) from the start downhill; a way in the window is not longer than this."""
     way: NDArray[np.int64] = descent(time, *coarse_cell(field, *start), 4 * len(time))
     return way
 
 
 def _sources(
-    field: Field, room: FloatArray, target: Point, costs: Costs
+    field: ObstacleField, room: FloatArray, target: Point, costs: MotionCosts
 ) -> tuple[NDArray[np.int64], FloatArray]:
     """The target's cell; or all free cells on the edge, with the time beyond as the crow flies."""
     n = len(room)
@@ -99,20 +104,22 @@ def _sources(
     edge = np.zeros((n, n), dtype=bool)
     edge[[1, -2], 1:-1] = edge[1:-1, [1, -2]] = True
     cells = np.argwhere(edge & (room >= 0))
-    x, y = field.x + (cells[:, 1] + 0.5) * STEP, field.y + (cells[:, 0] + 0.5) * STEP
+    x, y = field.x + (cells[:, 1] + 0.5) * COARSE_CELL, field.y + (cells[:, 0] + 0.5) * COARSE_CELL
     return cells, np.hypot(x - target[0], y - target[1]) / costs.speed
 
 
-def _nearest(field: Field, room: FloatArray, start: Point, target: Point, costs: Costs) -> Point:
+def _nearest(
+    field: ObstacleField, room: FloatArray, start: Point, target: Point, costs: MotionCosts
+) -> Point:
     """The reachable place nearest to the target."""
     time = seconds_to(np.array([coarse_cell(field, *start)]), np.zeros(1), room, costs)
     j, i = np.indices(room.shape)
     distance = np.hypot(
-        field.x + (i + 0.5) * STEP - target[0], field.y + (j + 0.5) * STEP - target[1]
+        field.x + (i + 0.5) * COARSE_CELL - target[0], field.y + (j + 0.5) * COARSE_CELL - target[1]
     )
     best = int(np.argmin(np.where(np.isfinite(time), distance, np.inf)))
     return _centre(field, *divmod(best, len(room)))
 
 
-def _centre(field: Field, j: int, i: int) -> Point:
-    return field.x + (i + 0.5) * STEP, field.y + (j + 0.5) * STEP
+def _centre(field: ObstacleField, j: int, i: int) -> Point:
+    return field.x + (i + 0.5) * COARSE_CELL, field.y + (j + 0.5) * COARSE_CELL

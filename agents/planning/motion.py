@@ -1,41 +1,59 @@
 """Moves of constant twist, what they cost, and whether they are free.
 
-A move is (forward, left, turn): the displacement of the axle, in metres and radians along the
-body's axes, driven at a constant twist. (d, 0, 0) is a straight line, (0, 0, a) a turn on the
-spot, (d, 0, a) an arc of radius d / a.
+A move (d, 0, 0) is a straight line, (0, 0, a) a turn on the spot, and (d, 0, a) an arc of radius
+d / a. An array of moves has a row (forward, left, turn) for each, shape (M, 3).
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from numba import njit
 
-from semnav_env.agents.planning.collision import STRIDE, Body, Field, is_clear, room_at
-
-Triple: TypeAlias = tuple[float, float, float]
+from semnav_env.agents.planning.collision import (
+    MAX_SWEEP_STEP,
+    Footprint,
+    ObstacleField,
+    is_clear,
+    room_at,
+)
+from semnav_env.features.frames import FloatArray, Pose
 
 STILL, TURN, FORWARD, REVERSE, SIDEWAYS = range(5)
 """Kinds of motion; a robot stops where the kind changes."""
 
+START_RADIUS = 0.3
+"""Distance from the start within which the margin need not grow, metres: the rear of the body
+swings out before the robot leaves."""
 
-GRACE = 0.3
-"""Metres from the start over which the gap need not grow: the rear swings out before one leaves."""
+
+class Move(NamedTuple):
+    """A displacement of the axle along the body's axes, driven at a constant twist.
+
+    Attributes:
+        forward: metres.
+        left: metres.
+        turn: radians.
+    """
+
+    forward: float
+    left: float
+    turn: float
 
 
-class Costs(NamedTuple):
+class MotionCosts(NamedTuple):
     """What a move costs, in seconds.
 
     Attributes:
-        speed: m/s forward.
-        reverse: factor on backward motion, which the lidar does not see.
-        sideways_speed: m/s; 0 for a robot that cannot.
-        turn_rate: rad/s on the spot.
-        stop: seconds lost where the kind of motion changes.
-        steering: seconds for each 1/m by which the curvature changes.
-        room: metres of clearance beyond which more is worth nothing.
-        crowding: how many times longer a second counts at clearance 0, less 1.
+        speed: forward, m/s.
+        reverse: factor on the time of backward motion, where the lidar does not see.
+        sideways_speed: m/s; 0 for a robot that cannot move sideways.
+        turn_rate: on the spot, rad/s.
+        stop: time lost where the kind of motion changes, seconds.
+        steering: time lost for each 1/m by which the curvature changes, seconds.
+        room: clearance beyond which more is worth nothing, metres.
+        crowding: share by which a second counts more at clearance 0.
     """
 
     speed: float
@@ -48,19 +66,18 @@ class Costs(NamedTuple):
     crowding: float
 
 
-class Margin(NamedTuple):
-    """The gap to keep: `full`, but less close to where one starts.
+class SafetyMargin(NamedTuple):
+    """The distance to keep from obstacles: `full`, but less near the start.
 
-    There it is `start` up to `GRACE` metres away and grows by `growth` per metre from then on.
-
-    A robot that stands closer to a wall than the margin must be able to leave.
+    A robot that stands closer to a wall than `full` must be able to leave. The margin is `start`
+    within `START_RADIUS` of the start and grows by `growth` per metre from there on.
 
     Attributes:
         full: metres.
         start: metres, at most `full`.
         growth: metres per metre.
-        x: where one starts, metres.
-        y: the same.
+        x: of the start, metres.
+        y: of the start, metres.
     """
 
     full: float
@@ -71,64 +88,76 @@ class Margin(NamedTuple):
 
 
 @njit(cache=True)
-def margin_at(margin: Margin, x: float, y: float) -> float:
-    """Metres to keep at an axle position."""
+def margin_at(margin: SafetyMargin, x: float, y: float) -> float:
+    """Distance to keep from obstacles at an axle position, metres."""
     if margin.start >= margin.full:
         return margin.full
-    travelled = max(0.0, math.hypot(x - margin.x, y - margin.y) - GRACE)
+    travelled = max(0.0, math.hypot(x - margin.x, y - margin.y) - START_RADIUS)
     return min(margin.full, margin.start + margin.growth * travelled)
 
 
 @njit(cache=True)
-def kind_of(move: Triple) -> int:
-    """TURN, FORWARD, REVERSE or SIDEWAYS."""
-    if abs(move[1]) > abs(move[0]):
-        return SIDEWAYS
-    if abs(move[0]) < 1e-9:
-        return TURN
-    return FORWARD if move[0] > 0 else REVERSE
+def move_at(moves: FloatArray, k: int) -> Move:
+    """Row k of an array of moves."""
+    return Move(moves[k, 0], moves[k, 1], moves[k, 2])
 
 
 @njit(cache=True)
-def moved(x: float, y: float, heading: float, move: Triple, share: float = 1.0) -> Triple:
+def kind_of(move: Move) -> int:
+    """TURN, FORWARD, REVERSE or SIDEWAYS."""
+    if abs(move.left) > abs(move.forward):
+        return SIDEWAYS
+    if abs(move.forward) < 1e-9:
+        return TURN
+    return FORWARD if move.forward > 0 else REVERSE
+
+
+@njit(cache=True)
+def moved(x: float, y: float, heading: float, move: Move, share: float = 1.0) -> Pose:
     """The axle pose after that share of the move: the exponential map of SE(2)."""
-    forward, left, turn = move[0] * share, move[1] * share, move[2] * share
+    forward, left, turn = move.forward * share, move.left * share, move.turn * share
     half = turn / 2
+    # chord / arc = sin(half) / half, by its series where that would divide by almost nothing
     chord = 1.0 - half * half / 6 if abs(half) < 1e-4 else math.sin(half) / half
     c, s = math.cos(heading + half) * chord, math.sin(heading + half) * chord
     return x + c * forward - s * left, y + s * forward + c * left, heading + turn
 
 
 @njit(cache=True)
-def duration(move: Triple, costs: Costs) -> float:
-    """Seconds for the move in free space."""
-    turn = abs(move[2])
+def duration(move: Move, costs: MotionCosts) -> float:
+    """Time of the move in free space, seconds."""
+    turn = abs(move.turn)
     kind = kind_of(move)
     if kind == TURN:
         return turn / costs.turn_rate
     if kind == SIDEWAYS:
-        return math.hypot(move[0], move[1]) / costs.sideways_speed
-    travel = abs(move[0]) / costs.speed
+        return math.hypot(move.forward, move.left) / costs.sideways_speed
+    travel = abs(move.forward) / costs.speed
     if kind == REVERSE:
         travel *= costs.reverse
     return travel + 0.2 * turn / costs.turn_rate
 
 
 @njit(cache=True)
-def crowding_at(room: float, costs: Costs) -> float:
-    """Factor by which a second counts more at that clearance."""
+def crowding_at(room: float, costs: MotionCosts) -> float:
+    """Share by which a second counts more at that clearance."""
     lack = max(0.0, 1.0 - room / costs.room)
     return costs.crowding * lack * lack
 
 
 @njit(cache=True)
 def sweep(
-    field: Field, body: Body, start: Triple, move: Triple, margin: Margin, costs: Costs
+    field: ObstacleField,
+    body: Footprint,
+    start: Pose,
+    move: Move,
+    margin: SafetyMargin,
+    costs: MotionCosts,
 ) -> float:
-    """Cost of the move in seconds, infinite if it collides. The start itself is not tested."""
+    """Cost of the move, seconds; infinite if it collides. The start itself is not tested."""
     reach = math.hypot(body.front, body.half_width)
-    extent = math.hypot(move[0], move[1]) + reach * abs(move[2])
-    n = max(1, math.ceil(extent / STRIDE))
+    extent = math.hypot(move.forward, move.left) + reach * abs(move.turn)
+    n = max(1, math.ceil(extent / MAX_SWEEP_STEP))
     crowd = 0.0
     for k in range(1, n + 1):
         x, y, heading = moved(start[0], start[1], start[2], move, k / n)
@@ -139,21 +168,21 @@ def sweep(
 
 
 @njit(cache=True)
-def change_cost(before: int, after: int, costs: Costs) -> float:
-    """Seconds lost between moves of two kinds."""
+def change_cost(before: int, after: int, costs: MotionCosts) -> float:
+    """Time lost between moves of two kinds, seconds."""
     if before in (after, STILL):
         return 0.0
     return costs.stop if before == TURN or after == TURN else 2.0 * costs.stop
 
 
 @njit(cache=True)
-def curvature(move: Triple) -> float:
-    """1/m, positive to the left when driving forward; NaN for a turn or a sideways move."""
-    return move[2] / move[0] if kind_of(move) in (FORWARD, REVERSE) else math.nan
+def curvature(move: Move) -> float:
+    """Turn per metre forward, 1/m; NaN for a turn on the spot and a sideways move."""
+    return move.turn / move.forward if kind_of(move) in (FORWARD, REVERSE) else math.nan
 
 
 @njit(cache=True)
-def steering_cost(before: float, after: float, costs: Costs) -> float:
-    """Seconds lost where the curvature changes; none where either is NaN."""
+def steering_cost(before: float, after: float, costs: MotionCosts) -> float:
+    """Time lost where the curvature changes, seconds; none where either is NaN."""
     change = abs(after - before)
     return 0.0 if math.isnan(change) else costs.steering * change

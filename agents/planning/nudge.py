@@ -1,4 +1,4 @@
-"""Small corrections of a path that drift has brought too close to what is seen now."""
+"""Small corrections of a path that odometry drift has brought too close to obstacles."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 
-SIDE_STEP, TURN_STEP, STEPS = 0.005, 0.006, 4
-"""Metres and radians of the finest correction, and how many of them to each side are tried."""
+NUDGE_SHIFT, NUDGE_ANGLE, NUDGES_PER_SIDE = 0.005, 0.006, 4
+"""The finest correction, metres and radians, and how many of them are tried to each side."""
 
-RELUCTANCE = 0.1
-"""Metres of clearance that a correction must win for each metre it moves the path."""
+NUDGE_PRICE = 0.1
+"""Clearance that a correction must gain for each metre (or radian) by which it moves the path."""
 
-NEAR = 0.15
-"""Metres from the path's footprints beyond which points do not matter."""
+RELEVANT_DISTANCE = 0.15
+"""Distance from the footprints along the path beyond which points do not matter, metres."""
 
 
 @njit(cache=True)
 def best_nudge(
     points: FloatArray, poses: FloatArray, length: float, width: float, wanted: float
 ) -> tuple[float, float, float]:
-    """The shift to the left and the turn about the origin that give a path the most clearance.
+    """The shift to the left and the turn about the robot that give a path the most clearance.
 
     Args:
         points: obstacles in the robot frame, metres, shape (N, 2).
         poses: the centre's poses ahead, in the robot frame, shape (M, 3).
         length: of the footprint, metres.
-        width: the same.
-        wanted: metres of clearance beyond which more is worth nothing.
+        width: of the footprint, metres.
+        wanted: clearance beyond which more is worth nothing, metres.
 
     Returns:
         left in metres, turn in radians, and the clearance with them (negative: overlap).
@@ -38,10 +38,10 @@ def best_nudge(
     near = _near_points(points, poses, length, width)
     best = (0.0, 0.0, path_clearance(near, poses, length, width, 0.0, 0.0, -math.inf))
     score = min(best[2], wanted)
-    for a in range(-STEPS, STEPS + 1):
-        for b in range(-STEPS, STEPS + 1):
-            left, turn = a * SIDE_STEP, b * TURN_STEP
-            price = RELUCTANCE * (abs(left) + abs(turn))
+    for a in range(-NUDGES_PER_SIDE, NUDGES_PER_SIDE + 1):
+        for b in range(-NUDGES_PER_SIDE, NUDGES_PER_SIDE + 1):
+            left, turn = a * NUDGE_SHIFT, b * NUDGE_ANGLE
+            price = NUDGE_PRICE * (abs(left) + abs(turn))
             clearance = path_clearance(near, poses, length, width, left, turn, score + price)
             if min(clearance, wanted) - price > score + 1e-4:
                 best, score = (left, turn, clearance), min(clearance, wanted) - price
@@ -60,7 +60,8 @@ def path_clearance(
 ) -> float:
     """Least distance by which points lie outside the footprints of the moved path, metres.
 
-    Distance is the larger of those along and across the body. Stops early below `enough`.
+    A distance is the larger of its parts along and across the body. The search stops early at any
+    distance below `enough`.
     """
     least = math.inf
     c, s = math.cos(turn), math.sin(turn)
@@ -93,7 +94,10 @@ def _near_points(points: FloatArray, poses: FloatArray, length: float, width: fl
     kept = np.empty_like(points)
     n = 0
     for k in range(len(points)):
-        if path_clearance(points[k : k + 1], poses, length, width, 0.0, 0.0, NEAR) < NEAR:
+        if (
+            path_clearance(points[k : k + 1], poses, length, width, 0.0, 0.0, RELEVANT_DISTANCE)
+            < RELEVANT_DISTANCE
+        ):
             kept[n] = points[k]
             n += 1
     return kept[:n]

@@ -7,16 +7,15 @@ across the wall averages out; a fixed grid would cut the noise in two where it s
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from semnav_env.agents.planning.motion import Triple
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, Pose
 
-CENTRES = np.dtype(
+CENTRE = np.dtype(
     [
         ("x", "f8"),
         ("y", "f8"),
@@ -26,53 +25,69 @@ CENTRES = np.dtype(
         ("turned", "f8"),
     ]
 )
-"""A centre: position in metres, hits, and when it was last hit."""
+"""A centre: position in metres, number of hits, and the `MemoryClock` of the last hit."""
 
 VOXEL = 0.05
-"""Metres."""
+"""Side of a voxel of the table, metres; a voxel holds at most one centre."""
 
-BESIDE = 0.09
-"""Metres; a centre with far fewer hits than another this near is noise."""
+NEIGHBOUR_DISTANCE = 0.09
+"""Distance of a neighbour, metres; a centre with far fewer hits than a neighbour is noise."""
 
-TOO_CLOSE = 0.035
-"""Metres; centres this close are joined."""
+JOIN_DISTANCE = 0.035
+"""Distance below which two centres are joined, metres."""
 
-SIDE = 256
-"""Voxels along one side of the table, which wraps around: 12.8 m."""
+TABLE_SIDE = 256
+"""Voxels along one side of the table, which wraps around: 12.8 m, more than twice the remembered
+radius."""
+
+
+class MemoryClock(NamedTuple):
+    """Three measures of how long ago something was, any of which may end a memory.
+
+    Attributes:
+        scan: number of scans.
+        travel: distance driven, metres.
+        turned: angle turned in all, radians.
+    """
+
+    scan: float
+    travel: float
+    turned: float
 
 
 @njit(cache=True)
 def slot(x: float, y: float) -> tuple[int, int]:
     """Place of a point in the wrapped table."""
-    return math.floor(y / VOXEL) % SIDE, math.floor(x / VOXEL) % SIDE
+    return math.floor(y / VOXEL) % TABLE_SIDE, math.floor(x / VOXEL) % TABLE_SIDE
 
 
 @njit(cache=True)
 def forget(
     centres: NDArray[Any],
     count: int,
-    pose: Triple,
+    pose: Pose,
     ranges: FloatArray,
     directions: FloatArray,
     range_max: float,
-    now: Triple,
-    ages: Triple,
+    now: MemoryClock,
+    max_age: MemoryClock,
     radius: float,
     through: float,
 ) -> tuple[int, NDArray[np.int32]]:
-    """Drop centres that are old, far or seen through; join those that are close together.
+    """Drop centres that are old, far away or seen through; join those that are close together.
 
     Returns:
-        how many are left, in front of the array, and the table from voxels to them (-1: none).
+        the number of centres left, which are moved to the front, and the table from voxels to
+        them (-1: none).
     """
-    table = np.full((SIDE, SIDE), -1, dtype=np.int32)
+    table = np.full((TABLE_SIDE, TABLE_SIDE), -1, dtype=np.int32)
     kept = 0
     for k in range(count):
         centre = centres[k]
         old = (
-            now[0] - centre.scan > ages[0]
-            or now[1] - centre.travel > ages[1]
-            or now[2] - centre.turned > ages[2]
+            now.scan - centre.scan > max_age.scan
+            or now.travel - centre.travel > max_age.travel
+            or now.turned - centre.turned > max_age.turned
         )
         if old or math.hypot(centre.x - pose[0], centre.y - pose[1]) > radius + 0.2:
             continue
@@ -81,7 +96,7 @@ def forget(
             if centre.hits < 1.0:
                 continue
         j, i = slot(centre.x, centre.y)
-        near = nearest(centres, table, centre.x, centre.y, TOO_CLOSE)
+        near = nearest(centres, table, centre.x, centre.y, JOIN_DISTANCE)
         if near < 0:
             near = table[j, i]
         if near >= 0:
@@ -107,7 +122,7 @@ def join(into: Any, other: Any) -> None:
 
 @njit(cache=True)
 def seen_through(
-    pose: Triple,
+    pose: Pose,
     x: float,
     y: float,
     ranges: FloatArray,
@@ -115,7 +130,7 @@ def seen_through(
     range_max: float,
     through: float,
 ) -> bool:
-    """Whether the three beams nearest to a point all return from well behind it."""
+    """Whether the three beams nearest to a point all reach farther than `through` behind it."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
     dx, dy = x - pose[0], y - pose[1]
     px, py = c * dx + s * dy, c * dy - s * dx
@@ -138,16 +153,16 @@ def add_hits(
     centres: NDArray[Any],
     count: int,
     table: NDArray[np.int32],
-    pose: Triple,
+    pose: Pose,
     ranges: FloatArray,
     directions: FloatArray,
     range_max: float,
-    now: Triple,
+    now: MemoryClock,
     radius: float,
     merge: float,
     window: int,
 ) -> int:
-    """Refine the nearest centre with each hit, or make a new one; returns how many there are."""
+    """Refine the nearest centre with each hit, or make a new one; returns the number of centres."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
     reach = min(radius, range_max)
     for k in range(len(ranges)):
@@ -169,7 +184,7 @@ def add_hits(
         weight = 1.0 / min(centre.hits, window)
         centre.x += weight * (x - centre.x)
         centre.y += weight * (y - centre.y)
-        centre.scan, centre.travel, centre.turned = now
+        centre.scan, centre.travel, centre.turned = now.scan, now.travel, now.turned
     return count
 
 
@@ -182,7 +197,7 @@ def nearest(
     best, least = -1, within * within
     for b in range(j - 1, j + 2):
         for a in range(i - 1, i + 2):
-            k = table[b % SIDE, a % SIDE]
+            k = table[b % TABLE_SIDE, a % TABLE_SIDE]
             if k >= 0:
                 squared = (centres[k].x - x) ** 2 + (centres[k].y - y) ** 2
                 if squared < least:
@@ -192,12 +207,12 @@ def nearest(
 
 @njit(cache=True)
 def select(centres: NDArray[Any], sure: int, share: float, blunt: float) -> FloatArray:
-    """Positions of the centres that were hit often enough, also next to their neighbours.
+    """Positions of the centres that were hit often enough, by themselves and beside neighbours.
 
-    The last centre of a row averages over the end of what it stands for; so one with neighbours
-    on one side only gets a second point `blunt` metres farther out.
+    The last centre of a row averages over the end of the wall it stands for. A centre with
+    neighbours on one side only therefore gets a second point, `blunt` metres farther out.
     """
-    table = np.full((SIDE, SIDE), -1, dtype=np.int32)
+    table = np.full((TABLE_SIDE, TABLE_SIDE), -1, dtype=np.int32)
     for k in range(len(centres)):
         j, i = slot(centres[k].x, centres[k].y)
         if table[j, i] < 0 or centres[table[j, i]].hits < centres[k].hits:
@@ -227,19 +242,19 @@ def neighbourhood(
     """What lies around a centre.
 
     Returns:
-        the most hits of one beside it; of those up to two voxels away how many
-        there are, and the sum (x, y) of the unit vectors to them.
+        the largest number of hits of a neighbour; the number of centres up to two voxels away;
+        x and y of the sum of the unit vectors to them.
     """
     j, i = slot(centres[k].x, centres[k].y)
     most, count, x, y = 0.0, 0.0, 0.0, 0.0
     for b in range(j - 2, j + 3):
         for a in range(i - 2, i + 3):
-            m = table[b % SIDE, a % SIDE]
+            m = table[b % TABLE_SIDE, a % TABLE_SIDE]
             if m < 0 or m == k:
                 continue
             dx, dy = centres[m].x - centres[k].x, centres[m].y - centres[k].y
             away = math.hypot(dx, dy)
-            if away < BESIDE:
+            if away < NEIGHBOUR_DISTANCE:
                 most = max(most, centres[m].hits)
             if centres[m].hits >= share * centres[k].hits and away > 1e-6:
                 count, x, y = count + 1.0, x + dx / away, y + dy / away

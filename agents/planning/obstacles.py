@@ -1,4 +1,4 @@
-"""Where obstacles near the robot are, remembered from lidar scans in the odometry frame."""
+"""The obstacles near the robot, remembered from lidar scans in the odometry frame."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from semnav_env.agents.planning.obstacle_kernels import (
-    CENTRES,
+    CENTRE,
+    MemoryClock,
     add_hits,
     forget,
     select,
@@ -22,17 +23,17 @@ class MemorySettings:
     """How long and how finely obstacles are remembered.
 
     Attributes:
-        radius: metres around the lidar beyond which hits are neither taken nor kept.
-        merge: metres; a hit closer to a remembered centre than this refines it.
+        radius: distance from the lidar beyond which hits are neither taken nor kept, metres.
+        merge: distance to a remembered centre below which a hit refines it, metres.
         window: hits over which a centre's position is averaged.
-        travel: metres driven since it was last hit after which a centre is forgotten.
-        turned: radians turned since then, in all, after which it is forgotten.
-        scans: scans since then after which it is forgotten.
-        through: metres by which a beam must pass behind a centre to count against it.
-        sure: hits before a centre counts as an obstacle.
-        share: a centre with less than this share of the hits of one beside it is noise.
-        blunt: metres by which the averaging shortens the ends of walls.
-        capacity: centres; further ones are dropped.
+        travel: distance driven since its last hit after which a centre is forgotten, metres.
+        turned: angle turned since its last hit, in all, after which it is forgotten, radians.
+        scans: scans since its last hit after which it is forgotten.
+        through: distance behind a centre that a beam must reach to count against it, metres.
+        sure: hits from which a centre counts as an obstacle.
+        share: share of a neighbour's hits below which a centre is noise.
+        blunt: length by which the averaging shortens the ends of walls, metres.
+        capacity: largest number of centres; further ones are dropped.
     """
 
     radius: float = 6.0
@@ -51,13 +52,13 @@ class MemorySettings:
 class ObstacleMemory:
     """Centres of the hits of recent scans, at most one in each voxel of 5 cm.
 
-    What a beam now passes through is cleared; what is out of view is kept until the robot has
-    driven or turned so far that its odometry cannot vouch for it.
+    A centre that beams pass through is cleared. A centre out of view is kept until the robot has
+    driven or turned so far that odometry no longer tells where the centre is.
     """
 
     def __init__(self, settings: MemorySettings | None = None) -> None:
         self.settings = settings or MemorySettings()
-        self._centres = np.zeros(self.settings.capacity, dtype=CENTRES)
+        self._centres = np.zeros(self.settings.capacity, dtype=CENTRE)
         self.reset()
 
     def reset(self) -> None:
@@ -94,8 +95,8 @@ class ObstacleMemory:
             return
         self._advance(lidar_pose_in_odom)
         s = self.settings
-        now = (float(self._scan), self._travel, self._turned)
-        ages = (float(s.scans), s.travel, s.turned)
+        now = MemoryClock(float(self._scan), self._travel, self._turned)
+        max_age = MemoryClock(float(s.scans), s.travel, s.turned)
         pose = lidar_pose_in_odom
         self._count, table = forget(
             self._centres,
@@ -105,7 +106,7 @@ class ObstacleMemory:
             directions,
             range_max,
             now,
-            ages,
+            max_age,
             s.radius,
             s.through,
         )

@@ -1,4 +1,4 @@
-"""A path for the axle, and its poses for the centre."""
+"""A planned path: moves of the axle, and the poses of the centre along them."""
 
 from __future__ import annotations
 
@@ -10,32 +10,32 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from semnav_env.agents.planning.motion import kind_of, moved
+from semnav_env.agents.planning.motion import kind_of, move_at, moved
 from semnav_env.features.frames import FloatArray, Point, Pose, compose, points_to_local
 
-SPACING = 0.04
-"""Metres between the samples of a path."""
+SAMPLE_DISTANCE = 0.04
+"""Largest distance between samples of a path, metres."""
 
-MOST_CLEARANCE = 0.35
-"""Metres; more makes no difference to how a path is driven."""
+MAX_CLEARANCE = 0.35
+"""Largest clearance that is measured, metres; more makes no difference to how a path is driven."""
 
-TURN_SPACING = 0.05
-"""Radians between the samples of a path."""
+SAMPLE_ANGLE = 0.05
+"""Largest angle between samples of a path, radians."""
 
 
 @dataclass(frozen=True, eq=False)
-class Path:
-    """Moves one after the other; the robot stops where their kind changes.
+class PlannedPath:
+    """Moves of a robot one after the other; it stops where their kind changes.
 
     Attributes:
         start: the centre's first pose.
-        moves: (forward, left, turn) of the axle, metres and radians, shape (K, 3).
+        moves: rows as `motion.Move`, shape (K, 3).
         axle: x of the axle in the robot frame, metres.
-        complete: whether it reaches the target; else it comes as near as was found.
-        margin: metres that the search kept clear.
+        complete: whether it reaches the target; otherwise it leads as near as was found.
+        margin: distance that the search kept from obstacles, metres.
         clearance: distance to the nearest obstacle at the samples, metres, at most
-            `MOST_CLEARANCE`, shape (M,).
-        expansions: how many states the search looked at.
+            `MAX_CLEARANCE`, shape (M,).
+        expansions: number of states that the search expanded.
     """
 
     start: Pose
@@ -48,7 +48,7 @@ class Path:
 
     @cached_property
     def _samples(self) -> tuple[FloatArray, NDArray[np.int64], NDArray[np.int64]]:
-        return sample(compose(self.start, (self.axle, 0.0, 0.0)), self.moves)
+        return sampled(compose(self.start, (self.axle, 0.0, 0.0)), self.moves)
 
     @property
     def axle_poses(self) -> FloatArray:
@@ -70,16 +70,22 @@ class Path:
 
     @property
     def move_of(self) -> NDArray[np.int64]:
-        """Which move leads from each sample to the next, shape (M - 1,)."""
+        """Index of the move from each sample to the next, shape (M - 1,)."""
         return self._samples[2]
 
     @property
     def length(self) -> float:
-        """Metres that the axle travels."""
+        """Distance that the axle travels, metres."""
         return float(np.hypot(self.moves[:, 0], self.moves[:, 1]).sum())
 
-    def part(self, first: int, last: int, frame: Pose) -> Path:
-        """The stretch between two samples, in the parent of `frame`, in which this path lies."""
+    def part(self, first: int, last: int, frame: Pose) -> PlannedPath:
+        """The stretch between two samples.
+
+        Args:
+            first: its first sample.
+            last: its last sample.
+            frame: pose of the frame of this path; the stretch lies in the parent frame.
+        """
         shares = np.bincount(self.move_of, minlength=len(self.moves))
         index = self.move_of[first:last]
         x, y, heading = self.poses[first].tolist()
@@ -107,21 +113,23 @@ class Path:
 
 
 @njit(cache=True)
-def sample(
+def sampled(
     start: Pose, moves: FloatArray
 ) -> tuple[FloatArray, NDArray[np.int64], NDArray[np.int64]]:
-    """Axle poses along the moves, (M, 3), and the kind and index of the move between two."""
+    """Axle poses along the moves, (M, 3), and the kind and the index of the move between two."""
     counts = np.empty(len(moves), dtype=np.int64)
     for k in range(len(moves)):
         travel = np.hypot(moves[k, 0], moves[k, 1])
-        counts[k] = max(1, np.ceil(max(travel / SPACING, abs(moves[k, 2]) / TURN_SPACING) - 1e-6))
+        counts[k] = max(
+            1, np.ceil(max(travel / SAMPLE_DISTANCE, abs(moves[k, 2]) / SAMPLE_ANGLE) - 1e-6)
+        )
     total = counts.sum()
     poses, kinds = np.empty((total + 1, 3)), np.empty(total, dtype=np.int64)
     index = np.empty(total, dtype=np.int64)
     poses[0] = start
     pose, n = start, 0
     for k in range(len(moves)):
-        move = (moves[k, 0], moves[k, 1], moves[k, 2])
+        move = move_at(moves, k)
         for step in range(1, counts[k] + 1):
             poses[n + 1] = moved(pose[0], pose[1], pose[2], move, step / counts[k])
             kinds[n], index[n] = kind_of(move), k
@@ -130,8 +138,8 @@ def sample(
     return poses, kinds, index
 
 
-def joined(first: Path, then: Path) -> Path:
-    """One path of two, the second of which starts where the first ends."""
+def joined(first: PlannedPath, then: PlannedPath) -> PlannedPath:
+    """The two paths as one; the second must start where the first ends."""
     return replace(
         then,
         start=first.start,

@@ -10,28 +10,34 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from semnav_env.agents.planning.aim import Aim, trimmed
-from semnav_env.agents.planning.collision import Body, Field, body_of, field_of, is_clear
+from semnav_env.agents.planning.collision import (
+    Footprint,
+    ObstacleField,
+    footprint_of,
+    is_clear,
+    obstacle_field,
+)
 from semnav_env.agents.planning.free import all_clear, clearances
 from semnav_env.agents.planning.guidance import Guidance, guidance_to
 from semnav_env.agents.planning.lanes import lane_anchors
-from semnav_env.agents.planning.motion import Costs, Margin, Triple
-from semnav_env.agents.planning.path import MOST_CLEARANCE, Path, sample
-from semnav_env.agents.planning.search import Problem, search
+from semnav_env.agents.planning.motion import MotionCosts, SafetyMargin
+from semnav_env.agents.planning.path import MAX_CLEARANCE, PlannedPath, sampled
+from semnav_env.agents.planning.search import SearchProblem, search
 from semnav_env.agents.planning.shorten import merged, rounded, shortened
 from semnav_env.features.frames import FloatArray, Point, Pose, compose
 from semnav_env.robots import RobotSpec
 
 
 @dataclass(frozen=True)
-class Target:
-    """Where the robot's centre should come to be.
+class DriveTarget:
+    """Where the robot's centre is to go.
 
     Attributes:
         pose: (x, y, heading) in the frame of the obstacle points.
         position_tolerance: metres.
         heading_tolerance: radians; None where any heading will do.
-        gate: both ends of a line that the way there should cross, as the jambs of a door; a
-            `Driver` sees to it, `plan` does not.
+        gate: the ends of a line that the path should cross, such as the jambs of a door; heeded
+            by `Driver`, not by `plan`.
     """
 
     pose: Pose
@@ -45,20 +51,20 @@ class PlannerSettings:
     """Limits and prices of the planner.
 
     Attributes:
-        margins: gaps to keep on every side, metres, from the widest on.
-        detour: seconds of detour that each step to a wider gap is worth.
-        half_window: half the side of the square around the start that is planned in, metres; it
+        margins: distances to keep from obstacles, the widest first, metres.
+        detour: time of detour that each step to a wider margin is worth, seconds.
+        half_window: half the side of the square around the start in which is planned, metres; it
             grows with the distance of the target up to `widest`.
         widest: the largest half window, metres.
-        speed: m/s that a straight line counts with.
-        turn_rate: rad/s that a turn on the spot counts with.
+        speed: with which straight lines are counted, m/s.
+        turn_rate: with which turns on the spot are counted, rad/s.
         reverse: factor on the time of backward motion.
-        stop: seconds that each change between turning, forward and backward motion costs.
-        steering: seconds that each change of curvature by 1/m costs.
-        room: metres of clearance that are worth seeking.
-        crowding: how much more a second counts where there is no clearance.
-        efforts: (greed, states) of the searches tried in turn: how much the time still to go
-            outweighs the time so far, and how many states may be looked at.
+        stop: cost of a change between turning, forward and backward motion, seconds.
+        steering: cost of a change of curvature by 1/m, seconds.
+        room: clearance beyond which more is worth nothing, metres.
+        crowding: share by which a second counts more where there is no clearance.
+        efforts: the searches that are tried in turn, each (greed, nodes): the weight of the time
+            still to go, and the largest number of nodes to expand.
     """
 
     margins: tuple[float, ...] = (0.10, 0.06, 0.03, 0.0)
@@ -78,17 +84,17 @@ class PlannerSettings:
 def plan(
     points: ArrayLike,
     start: Pose,
-    target: Target,
+    target: DriveTarget,
     robot: RobotSpec,
     settings: PlannerSettings | None = None,
-) -> Path:
-    """A path from a pose of the centre to a target; what is not an obstacle point counts as free.
+) -> PlannedPath:
+    """A path from a pose of the centre to a target; everywhere but at the points counts as free.
 
     Args:
         points: obstacle points, metres, shape (N, 2); those that are not finite are left out.
         start: the centre's pose, in the frame of the points.
         target: where to go; if it lies outside the window or cannot be reached, the path leads to
-            the free place from which it looks nearest, and is not `complete`.
+            the free place that seems nearest to it, and is not `complete`.
         robot: gives the footprint and the axle.
         settings: None for the defaults.
 
@@ -101,11 +107,11 @@ def plan(
         raise ValueError("settings need at least one of `margins` and one of `efforts`")
     start = _checked_pose("start", start)
     target = replace(target, pose=_checked_pose("target", target.pose))
-    body, axle = body_of(robot), compose(start, (robot.axle, 0.0, 0.0))
+    body, axle = footprint_of(robot), compose(start, (robot.axle, 0.0, 0.0))
     solid = _without_impossible(_checked_points(points), axle, body)
-    field = field_of(solid, start[:2], _half_window(start, target, settings))
+    field = obstacle_field(solid, start[:2], _half_window(start, target, settings))
     costs = _costs(robot, settings)
-    best: Path | None = None
+    best: PlannedPath | None = None
     for guidance in _ways(target.pose[:2], start[:2], field, body, costs, settings):
         path = _search(field, body, start, target, robot, settings, guidance)
         if path.complete or not guidance.exact:
@@ -128,11 +134,17 @@ def is_free(points: ArrayLike, poses: FloatArray, robot: RobotSpec, margin: floa
 
 
 def _ways(
-    target: Point, start: Point, field: Field, body: Body, costs: Costs, settings: PlannerSettings
+    target: Point,
+    start: Point,
+    field: ObstacleField,
+    body: Footprint,
+    costs: MotionCosts,
+    settings: PlannerSettings,
 ) -> Iterator[Guidance]:
     """The coarse ways for all margins, the most promising first; at least one.
 
-    No way is quicker than the one for the smallest margin, which often settles the matter.
+    No way is quicker than the one for the smallest margin. If the one for the widest margin is
+    hardly slower, it is the best, and the others need not be computed.
     """
 
     def way(margin: float) -> Guidance:
@@ -149,19 +161,20 @@ def _ways(
 
 
 def _search(
-    field: Field,
-    body: Body,
+    field: ObstacleField,
+    body: Footprint,
     start: Pose,
-    target: Target,
+    target: DriveTarget,
     robot: RobotSpec,
     settings: PlannerSettings,
     guidance: Guidance,
-) -> Path:
+) -> PlannedPath:
+    """The path along one coarse way."""
     axle, full = compose(start, (robot.axle, 0.0, 0.0)), guidance.margin
     costs = _costs(robot, settings)
-    margin = Margin(full, _start_room(field, body, axle, full), 0.1, axle[0], axle[1])
+    margin = SafetyMargin(full, _start_room(field, body, axle, full), 0.1, axle[0], axle[1])
     anchors = lane_anchors(field, body, guidance.room, guidance.way, settings.room + 0.1, full)
-    problem = Problem(
+    problem = SearchProblem(
         field,
         body,
         _aim(target, guidance, robot),
@@ -180,12 +193,13 @@ def _search(
     hurried = costs._replace(stop=0.25 * costs.stop)
     moves = shortened(field, body, axle, merged(moves), margin, hurried)
     moves = trimmed(problem.aim, axle, rounded(field, body, axle, moves, margin, costs))
-    clearance = clearances(field, body, sample(axle, moves)[0], MOST_CLEARANCE)
+    clearance = clearances(field, body, sampled(axle, moves)[0], MAX_CLEARANCE)
     complete = bool(found and guidance.exact)
-    return Path(start, moves, robot.axle, complete, full, clearance, expansions)
+    return PlannedPath(start, moves, robot.axle, complete, full, clearance, expansions)
 
 
-def _aim(target: Target, guidance: Guidance, robot: RobotSpec) -> Aim:
+def _aim(target: DriveTarget, guidance: Guidance, robot: RobotSpec) -> Aim:
+    """The target, or a region around the place that stands in for it."""
     x, y = guidance.place
     if not guidance.exact:
         return Aim(x, y, 0.0, max(0.3, target.position_tolerance), 0.0, True, robot.axle)
@@ -194,13 +208,13 @@ def _aim(target: Target, guidance: Guidance, robot: RobotSpec) -> Aim:
     return Aim(x, y, target.pose[2], near, tolerance or 0.0, free, robot.axle)
 
 
-def _half_window(start: Pose, target: Target, settings: PlannerSettings) -> float:
+def _half_window(start: Pose, target: DriveTarget, settings: PlannerSettings) -> float:
     """Wide enough for the target and a way around something near it."""
     away = max(abs(target.pose[0] - start[0]), abs(target.pose[1] - start[1]))
     return min(max(settings.half_window, away + 3.0), settings.widest)
 
 
-def _nearer(a: Path | None, b: Path, target: Target) -> Path:
+def _nearer(a: PlannedPath | None, b: PlannedPath, target: DriveTarget) -> PlannedPath:
     """Path `b` if it ends clearly nearer to the target, else `a`."""
     if a is None:
         return b
@@ -209,7 +223,7 @@ def _nearer(a: Path | None, b: Path, target: Target) -> Path:
 
 
 def primitives(robot: RobotSpec) -> FloatArray:
-    """The moves that the search is made of: (forward, left, turn), shape (P, 3)."""
+    """The moves that the search combines, rows as `motion.Move`, shape (P, 3)."""
     eighth, small = math.radians(15.0), math.radians(7.5)
     moves = [(0.2, 0.0, turn) for turn in (0.0, small, -small, eighth, -eighth)]
     moves += [(-0.2, 0.0, turn) for turn in (0.0, eighth, -eighth)]
@@ -219,8 +233,8 @@ def primitives(robot: RobotSpec) -> FloatArray:
     return np.array(moves)
 
 
-def _costs(robot: RobotSpec, settings: PlannerSettings) -> Costs:
-    return Costs(
+def _costs(robot: RobotSpec, settings: PlannerSettings) -> MotionCosts:
+    return MotionCosts(
         min(settings.speed, robot.max_speed),
         settings.reverse,
         0.7 * robot.max_sideways_speed,
@@ -232,16 +246,19 @@ def _costs(robot: RobotSpec, settings: PlannerSettings) -> Costs:
     )
 
 
-def _start_room(field: Field, body: Body, axle: Triple, full: float) -> float:
-    """The largest margin, up to `full`, that is free where the robot stands, less a little."""
+def _start_room(field: ObstacleField, body: Footprint, axle: Pose, full: float) -> float:
+    """The largest margin that is free where the robot stands, at most `full`, metres.
+
+    Where it is smaller than `full` it is reduced by another centimetre, for noise.
+    """
     margin = full
     while margin > -0.06 and not is_clear(field, body, *axle, margin):
         margin -= 0.005
     return margin if margin == full else margin - 0.01
 
 
-def _without_impossible(points: FloatArray, axle: Pose, body: Body) -> FloatArray:
-    """The points without those well inside the robot, which must be noise or drift."""
+def _without_impossible(points: FloatArray, axle: Pose, body: Footprint) -> FloatArray:
+    """The points without those well inside the robot, which noise or drift must have put there."""
     c, s = math.cos(axle[2]), math.sin(axle[2])
     dx, dy = points[:, 0] - axle[0], points[:, 1] - axle[1]
     forward, left = c * dx + s * dy, c * dy - s * dx
@@ -251,6 +268,7 @@ def _without_impossible(points: FloatArray, axle: Pose, body: Body) -> FloatArra
 
 
 def _checked_points(points: ArrayLike) -> FloatArray:
+    """The finite points, shape (N, 2)."""
     array = np.asarray(points, dtype=np.float64)
     if array.size == 0:
         return np.empty((0, 2))
@@ -260,7 +278,7 @@ def _checked_points(points: ArrayLike) -> FloatArray:
 
 
 def _checked_pose(name: str, pose: Pose) -> Pose:
-    """The pose in plain floats, for which alone the kernels are compiled."""
+    """The pose as plain floats, the only type for which the kernels are compiled."""
     if len(pose) != 3 or not all(math.isfinite(value) for value in pose):
         raise ValueError(f"{name} is {pose}; a pose is three finite numbers (x, y, heading)")
     return float(pose[0]), float(pose[1]), float(pose[2])

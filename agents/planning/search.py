@@ -2,8 +2,8 @@
 
 D. Dolgov, S. Thrun, M. Montemerlo, J. Diebel, Path Planning for Autonomous Vehicles in Unknown
 Semi-structured Environments, IJRR 29 (2010), with a connection "turn, drive, turn" in place of
-the Reeds-Shepp curves, since these robots turn on the spot, and with anchors: poses that the
-search may be connected to exactly (the target, and lanes through narrow places).
+the Reeds-Shepp curves, since these robots turn on the spot. The search may also connect exactly to
+anchors: the target, and poses in lanes through narrow places.
 """
 
 from __future__ import annotations
@@ -17,39 +17,39 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.agents.planning.aim import Aim, arrived, target_from
-from semnav_env.agents.planning.collision import Body, Field
+from semnav_env.agents.planning.collision import FIELD_CELL, Footprint, ObstacleField
 from semnav_env.agents.planning.connect import connection, cost_of_moves, last_kind
 from semnav_env.agents.planning.heuristic import seconds_at
 from semnav_env.agents.planning.motion import (
     STILL,
-    Costs,
-    Margin,
-    Triple,
+    MotionCosts,
+    SafetyMargin,
     change_cost,
     curvature,
     duration,
     kind_of,
+    move_at,
     moved,
     steering_cost,
     sweep,
 )
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, Pose
 
 POSITION_BIN = 0.1
-"""Metres."""
+"""Side of a bin of positions, metres; one node is kept for each bin of position and heading."""
 
 HEADING_BINS = 48
-"""Bins of heading in a full turn."""
+"""Number of bins of heading in a full turn."""
 
-POLISH = 150
-"""States that are still expanded, to find a better way, once the target has been connected to."""
+POLISH_EXPANSIONS = 150
+"""Number of nodes that are still expanded, to find a better way, once the target is connected."""
 
-ANCHOR_REACH = 3.0
-"""Metres; farther anchors are not connected to."""
+MAX_ANCHOR_DISTANCE = 3.0
+"""Largest distance to an anchor that a node is connected to, metres."""
 
 
-class Problem(NamedTuple):
-    """What does not change during a search.
+class SearchProblem(NamedTuple):
+    """What a search is given, and does not change.
 
     Attributes:
         field: the obstacles.
@@ -57,34 +57,34 @@ class Problem(NamedTuple):
         aim: where to go.
         time: seconds to the aim from every cell, of `heuristic.seconds_to`.
         primitives: moves, (P, 3).
-        margin: gap to keep.
-        costs: prices.
-        greed: weight of the time still to go; above 1 the search is faster, the path longer.
+        margin: distance to keep from obstacles.
+        costs: what a move costs.
+        greed: weight of the time still to go; above 1 the search is faster and the path longer.
     """
 
-    field: Field
-    body: Body
+    field: ObstacleField
+    body: Footprint
     aim: Aim
     time: FloatArray
     primitives: FloatArray
-    margin: Margin
-    costs: Costs
+    margin: SafetyMargin
+    costs: MotionCosts
     greed: float
 
 
-class Tree(NamedTuple):
-    """The search tree. Node 0 is the start, node 1 the exact target, then come the anchors.
+class SearchTree(NamedTuple):
+    """The tree of a search: node 0 is the start, node 1 the exact target, then come the anchors.
 
     Attributes:
         pose: axle poses, (N, 3).
         cost: seconds from the start, (N,).
-        parent: (N,).
-        move: the primitive that leads here, or FORWARDS or BACKWARDS for a connection, (N,).
+        parent: node from which each is reached, or -1, (N,).
+        move: index of the primitive that leads here, or the kind of connection, (N,).
         kind: last kind of motion, (N,).
-        bend: last curvature if a primitive came last, else NaN, (N,).
+        bend: last curvature, 1/m; NaN unless a primitive came last, (N,).
         done: whether the node was expanded, (N,).
         bins: node of each bin, or -1, (y, x, heading).
-        used: how many nodes there are, (1,).
+        node_count: number of nodes, (1,); an array, so that kernels can change it.
     """
 
     pose: FloatArray
@@ -95,28 +95,28 @@ class Tree(NamedTuple):
     bend: FloatArray
     done: NDArray[np.bool_]
     bins: NDArray[np.int32]
-    used: NDArray[np.int64]
+    node_count: NDArray[np.int64]
 
 
-FORWARDS, BACKWARDS = -1, -2
-"""Values of `Tree.move` for connections."""
+FORWARD_CONNECTION, BACKWARD_CONNECTION = -1, -2
+"""Values of `SearchTree.move` for connections driven forward and backward."""
 
-TARGET = 1
+TARGET_NODE = 1
 """The node of the exact target."""
 
 
 @njit(cache=True)
-def seconds_left(problem: Problem, pose: Triple) -> float:
-    """The heuristic at an axle pose."""
+def seconds_left(problem: SearchProblem, pose: Pose) -> float:
+    """The heuristic at an axle pose, seconds."""
     axle = problem.aim.axle
     x, y = pose[0] - axle * math.cos(pose[2]), pose[1] - axle * math.sin(pose[2])
     return seconds_at(problem.field, problem.time, x, y)
 
 
 @njit(cache=True)
-def new_tree(start: Triple, anchors: FloatArray, capacity: int, cells: int) -> Tree:
+def new_tree(start: Pose, anchors: FloatArray, capacity: int, cells: int) -> SearchTree:
     """A tree of the start alone, with room for `capacity` nodes."""
-    tree = Tree(
+    tree = SearchTree(
         np.zeros((capacity, 3)),
         np.full(capacity, np.inf),
         np.full(capacity, -1, dtype=np.int64),
@@ -134,20 +134,20 @@ def new_tree(start: Triple, anchors: FloatArray, capacity: int, cells: int) -> T
 
 
 @njit(cache=True)
-def pose_of(tree: Tree, node: int) -> Triple:
+def pose_of(tree: SearchTree, node: int) -> Pose:
     """The node's axle pose."""
     return tree.pose[node, 0], tree.pose[node, 1], tree.pose[node, 2]
 
 
 @njit(cache=True)
 def connect(
-    problem: Problem, tree: Tree, heap: list[tuple[float, int]], node: int, to: int
+    problem: SearchProblem, tree: SearchTree, heap: list[tuple[float, int]], node: int, to: int
 ) -> None:
-    """Reach the node `to` by turn, drive, turn, where that is cheaper and free."""
+    """Reach the node `to` by turn, drive, turn, if that is free and cheaper than before."""
     limit = tree.cost[to] - tree.cost[node]
     for backwards in (False, True):
         end = pose_of(tree, to)
-        if to == TARGET:
+        if to == TARGET_NODE:
             end = target_from(problem.aim, pose_of(tree, node), backwards)
         moves = connection(pose_of(tree, node), end, backwards)
         cost = cost_of_moves(
@@ -164,23 +164,25 @@ def connect(
             limit = cost
             tree.pose[to] = end
             tree.parent[to], tree.cost[to] = node, tree.cost[node] + cost
-            tree.move[to] = BACKWARDS if backwards else FORWARDS
+            tree.move[to] = BACKWARD_CONNECTION if backwards else FORWARD_CONNECTION
             tree.kind[to] = last_kind(moves, tree.kind[node])
-            left = 0.0 if to == TARGET else problem.greed * seconds_left(problem, end)
+            left = 0.0 if to == TARGET_NODE else problem.greed * seconds_left(problem, end)
             heapq.heappush(heap, (tree.cost[to] + left, to))
 
 
 @njit(cache=True)
-def step(problem: Problem, tree: Tree, heap: list[tuple[float, int]], node: int) -> None:
-    """Add what the primitives lead to."""
+def expand(
+    problem: SearchProblem, tree: SearchTree, heap: list[tuple[float, int]], node: int
+) -> None:
+    """Add the nodes to which the primitives lead."""
     field, costs = problem.field, problem.costs
     pose = pose_of(tree, node)
     cells = tree.bins.shape[0]
     for k in range(len(problem.primitives)):
-        move = (problem.primitives[k, 0], problem.primitives[k, 1], problem.primitives[k, 2])
+        move = move_at(problem.primitives, k)
         x, y, heading = moved(pose[0], pose[1], pose[2], move)
         i, j = math.floor((x - field.x) / POSITION_BIN), math.floor((y - field.y) / POSITION_BIN)
-        if not (0 <= i < cells and 0 <= j < cells) or tree.used[0] >= len(tree.cost):
+        if not (0 <= i < cells and 0 <= j < cells) or tree.node_count[0] >= len(tree.cost):
             continue
         angle = math.floor(heading / (2.0 * math.pi) * HEADING_BINS) % HEADING_BINS
         there = tree.bins[j, i, angle]
@@ -193,8 +195,8 @@ def step(problem: Problem, tree: Tree, heap: list[tuple[float, int]], node: int)
         if cost == math.inf or left == math.inf or (there >= 0 and cost >= tree.cost[there]):
             continue
         if there < 0:
-            there = tree.used[0]
-            tree.used[0] += 1
+            there = tree.node_count[0]
+            tree.node_count[0] += 1
             tree.bins[j, i, angle] = there
         tree.pose[there] = x, y, heading
         tree.cost[there], tree.parent[there] = cost, node
@@ -204,15 +206,15 @@ def step(problem: Problem, tree: Tree, heap: list[tuple[float, int]], node: int)
 
 @njit(cache=True)
 def search(
-    problem: Problem, start: Triple, anchors: FloatArray, max_expansions: int
+    problem: SearchProblem, start: Pose, anchors: FloatArray, max_expansions: int
 ) -> tuple[FloatArray, bool, int]:
     """The moves from an axle pose to the aim.
 
     Returns:
-        moves, shape (M, 3); whether they reach the aim (else they lead to the pose from which
-        least time is left); how many nodes were expanded.
+        moves, shape (M, 3); whether they reach the aim (otherwise they lead to the pose with the
+        least time left); the number of nodes that were expanded.
     """
-    cells = math.ceil(problem.field.distance.shape[0] * 0.05 / POSITION_BIN)
+    cells = math.ceil(problem.field.distance.shape[0] * FIELD_CELL / POSITION_BIN)
     capacity = 2 + len(anchors) + max_expansions * 8
     tree = new_tree(start, anchors, capacity, cells)
     heap = [(0.0, 0)]
@@ -225,29 +227,29 @@ def search(
         tree.done[node] = True
         expanded += 1
         pose = pose_of(tree, node)
-        if node == TARGET or arrived(problem.aim, pose):
+        if node == TARGET_NODE or arrived(problem.aim, pose):
             return moves_to(problem, tree, node), True, expanded
         left = seconds_left(problem, pose)
         if left < least:
             best, least = node, left
-        connect(problem, tree, heap, node, TARGET)
-        if limit == max_expansions and tree.cost[TARGET] < math.inf:
-            limit = min(limit, expanded + POLISH)
+        connect(problem, tree, heap, node, TARGET_NODE)
+        if limit == max_expansions and tree.cost[TARGET_NODE] < math.inf:
+            limit = min(limit, expanded + POLISH_EXPANSIONS)
         if node < 2 + len(anchors) or expanded % 4 == 0:
             for k in range(2, 2 + len(anchors)):
                 end = pose_of(tree, k)
                 if (
                     not tree.done[k]
-                    and math.hypot(end[0] - pose[0], end[1] - pose[1]) < ANCHOR_REACH
+                    and math.hypot(end[0] - pose[0], end[1] - pose[1]) < MAX_ANCHOR_DISTANCE
                 ):
                     connect(problem, tree, heap, node, k)
-        step(problem, tree, heap, node)
-    connected = tree.cost[TARGET] < math.inf
-    return moves_to(problem, tree, TARGET if connected else best), connected, expanded
+        expand(problem, tree, heap, node)
+    connected = tree.cost[TARGET_NODE] < math.inf
+    return moves_to(problem, tree, TARGET_NODE if connected else best), connected, expanded
 
 
 @njit(cache=True)
-def moves_to(problem: Problem, tree: Tree, node: int) -> FloatArray:
+def moves_to(problem: SearchProblem, tree: SearchTree, node: int) -> FloatArray:
     """The moves from the start to a node, shape (M, 3)."""
     chain = [node]
     while tree.parent[chain[-1]] >= 0:
@@ -260,6 +262,8 @@ def moves_to(problem: Problem, tree: Tree, node: int) -> FloatArray:
             n += 1
         else:
             start = pose_of(tree, tree.parent[at])
-            moves[n : n + 3] = connection(start, pose_of(tree, at), tree.move[at] == BACKWARDS)
+            moves[n : n + 3] = connection(
+                start, pose_of(tree, at), tree.move[at] == BACKWARD_CONNECTION
+            )
             n += 3
     return moves[:n]

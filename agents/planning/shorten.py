@@ -1,4 +1,4 @@
-"""Fewer stops: shorter ways between the ends of moves, and arcs in place of turns on the spot."""
+"""Shortens planned moves: direct connections, and arcs in place of turns on the spot."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ import math
 import numpy as np
 from numba import njit
 
-from semnav_env.agents.planning.collision import Body, Field
+from semnav_env.agents.planning.collision import Footprint, ObstacleField
 from semnav_env.agents.planning.connect import (
     connection,
     cost_of_moves,
+    is_move,
     last_kind,
     smooth_connection,
 )
@@ -19,21 +20,23 @@ from semnav_env.agents.planning.motion import (
     REVERSE,
     STILL,
     TURN,
-    Costs,
-    Margin,
-    Triple,
+    MotionCosts,
+    Move,
+    SafetyMargin,
     kind_of,
+    move_at,
     moved,
 )
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, Pose
 
-RADII = (2.0, 1.4, 1.0, 0.7, 0.5, 0.35)
-"""Metres, of arcs that round a corner; tried from the widest."""
+ARC_RADII = (2.0, 1.4, 1.0, 0.7, 0.5, 0.35)
+"""Radii of the arcs that round a corner, metres; the widest is tried first."""
 
-WIDE, TIGHT = 1.2, 0.6
-"""Metres, of the arcs of smooth connections."""
+WIDE_RADIUS, TIGHT_RADIUS = 1.2, 0.6
+"""Radii of the arcs of smooth connections, metres."""
 
-SIDES = (1.0, -1.0)
+ARC_SIDES = (1.0, -1.0)
+"""An arc to the left, and one to the right."""
 
 
 @njit(cache=True)
@@ -42,9 +45,9 @@ def merged(moves: FloatArray) -> FloatArray:
     out = np.empty_like(moves)
     n = 0
     for k in range(len(moves)):
-        if moves[k, 0] == 0.0 and moves[k, 1] == 0.0 and moves[k, 2] == 0.0:
+        if not is_move(move_at(moves, k)):
             continue
-        if n > 0 and _same_twist(out[n - 1], moves[k]):
+        if n > 0 and _same_twist(move_at(out, n - 1), move_at(moves, k)):
             out[n - 1] += moves[k]
         else:
             out[n] = moves[k]
@@ -53,22 +56,29 @@ def merged(moves: FloatArray) -> FloatArray:
 
 
 @njit(cache=True)
-def _same_twist(a: FloatArray, b: FloatArray) -> bool:
-    kind_a, kind_b = kind_of((a[0], a[1], a[2])), kind_of((b[0], b[1], b[2]))
-    if kind_a != kind_b:
+def _same_twist(a: Move, b: Move) -> bool:
+    """Whether one move goes on as the other, so that both are one move."""
+    if kind_of(a) != kind_of(b):
         return False
-    if kind_a == TURN:
-        return bool(a[2] * b[2] > 0)
-    straight = a[2] == 0.0 and b[2] == 0.0 and a[1] * b[1] >= 0
-    same_arc = abs(a[2] * b[0] - b[2] * a[0]) < 1e-9 and a[1] == 0.0 and b[1] == 0.0
+    if kind_of(a) == TURN:
+        return bool(a.turn * b.turn > 0)
+    straight = a.turn == 0.0 and b.turn == 0.0 and a.left * b.left >= 0
+    # equal curvature, turn / forward, multiplied out so that nothing is divided by 0
+    same_curvature = abs(a.turn * b.forward - b.turn * a.forward) < 1e-9
+    same_arc = same_curvature and a.left == 0.0 and b.left == 0.0
     return bool(straight or same_arc)
 
 
 @njit(cache=True)
 def shortened(
-    field: Field, body: Body, start: Triple, moves: FloatArray, margin: Margin, costs: Costs
+    field: ObstacleField,
+    body: Footprint,
+    start: Pose,
+    moves: FloatArray,
+    margin: SafetyMargin,
+    costs: MotionCosts,
 ) -> FloatArray:
-    """The moves with runs of them replaced by a short connection wherever that is cheaper."""
+    """The moves with stretches of them replaced by a short connection where that is cheaper."""
     at, out, pose, kind = 0, [moves[:0]], start, STILL
     while at < len(moves):
         for upto in range(len(moves), at, -1):
@@ -88,24 +98,24 @@ def shortened(
 
 @njit(cache=True)
 def _cheapest(
-    field: Field,
-    body: Body,
-    pose: Triple,
+    field: ObstacleField,
+    body: Footprint,
+    pose: Pose,
     old: FloatArray,
     kind: int,
-    margin: Margin,
-    costs: Costs,
+    margin: SafetyMargin,
+    costs: MotionCosts,
     limit: float,
 ) -> FloatArray:
-    """The cheapest connection below the limit of the ends of `old`; empty if there is none."""
+    """The cheapest connection of the ends of `old` that costs less than `limit`, or no moves."""
     end = end_of(pose, old)
     best = old[:0]
-    for k in range(9):
+    for k in range(9):  # turn-drive-turn; then two radii, each with four pairs of sides
         if k == 0:
             moves = connection(pose, end, False)
         else:
-            radius = WIDE if k < 5 else TIGHT
-            moves = smooth_connection(pose, end, radius, SIDES[k % 2], SIDES[k // 2 % 2])
+            radius = WIDE_RADIUS if k < 5 else TIGHT_RADIUS
+            moves = smooth_connection(pose, end, radius, ARC_SIDES[k % 2], ARC_SIDES[k // 2 % 2])
         if len(moves) > 0:
             cost = cost_of_moves(field, body, pose, moves, kind, margin, costs, limit)
             if cost < limit:
@@ -114,10 +124,10 @@ def _cheapest(
 
 
 @njit(cache=True)
-def end_of(pose: Triple, moves: FloatArray) -> Triple:
+def end_of(pose: Pose, moves: FloatArray) -> Pose:
     """The axle pose after the moves."""
     for k in range(len(moves)):
-        pose = moved(pose[0], pose[1], pose[2], (moves[k, 0], moves[k, 1], moves[k, 2]))
+        pose = moved(pose[0], pose[1], pose[2], move_at(moves, k))
     return pose
 
 
@@ -135,41 +145,53 @@ def _stacked(parts: list[FloatArray]) -> FloatArray:
 
 @njit(cache=True)
 def rounded(
-    field: Field, body: Body, start: Triple, moves: FloatArray, margin: Margin, costs: Costs
+    field: ObstacleField,
+    body: Footprint,
+    start: Pose,
+    moves: FloatArray,
+    margin: SafetyMargin,
+    costs: MotionCosts,
 ) -> FloatArray:
-    """The moves with turns on the spot between two straight lines replaced by arcs, where cheaper.
+    """The moves with turns on the spot between straight lines replaced by arcs where cheaper.
 
-    An arc of radius R through a turn a touches both lines R tan(a / 2) from their corner.
+    An arc of radius R through an angle a touches both lines R tan(a / 2) from their corner.
     """
     out = np.zeros((len(moves), 3))
     out[:] = moves
     pose = start
     for k in range(len(moves)):
         if 0 < k < len(moves) - 1 and _is_corner(out, k):
-            before = moved(pose[0], pose[1], pose[2], (-out[k - 1, 0], 0.0, 0.0))
+            before = moved(pose[0], pose[1], pose[2], Move(-out[k - 1, 0], 0.0, 0.0))
             out[k - 1 : k + 2] = _arc(field, body, before, out[k - 1 : k + 2], margin, costs)
-            pose = moved(before[0], before[1], before[2], (out[k - 1, 0], 0.0, 0.0))
-        pose = moved(pose[0], pose[1], pose[2], (out[k, 0], out[k, 1], out[k, 2]))
+            pose = moved(before[0], before[1], before[2], Move(out[k - 1, 0], 0.0, 0.0))
+        pose = moved(pose[0], pose[1], pose[2], move_at(out, k))
     return merged(out)
 
 
 @njit(cache=True)
 def _is_corner(moves: FloatArray, k: int) -> bool:
-    before, after = moves[k - 1], moves[k + 1]
-    straight = before[2] == 0.0 and after[2] == 0.0 and before[1] == 0.0 and after[1] == 0.0
-    turn = moves[k, 0] == 0.0 and moves[k, 1] == 0.0 and abs(moves[k, 2]) < 2.4
-    return bool(straight and turn and before[0] * after[0] > 0)
+    """Whether a move is a turn on the spot between two straight lines in the same direction."""
+    before, at, after = move_at(moves, k - 1), move_at(moves, k), move_at(moves, k + 1)
+    straight = before.turn == 0.0 and after.turn == 0.0 and before.left == 0.0 and after.left == 0.0
+    turns = at.forward == 0.0 and at.left == 0.0 and abs(at.turn) < 2.4
+    return bool(straight and turns and before.forward * after.forward > 0)
 
 
 @njit(cache=True)
 def _arc(
-    field: Field, body: Body, pose: Triple, corner: FloatArray, margin: Margin, costs: Costs
+    field: ObstacleField,
+    body: Footprint,
+    pose: Pose,
+    corner: FloatArray,
+    margin: SafetyMargin,
+    costs: MotionCosts,
 ) -> FloatArray:
+    """The cheapest of a corner's own moves (line, turn, line) and of those with an arc, (3, 3)."""
     kind = FORWARD if corner[0, 0] > 0 else REVERSE
     best = corner.copy()
     cost = cost_of_moves(field, body, pose, corner, kind, margin, costs, math.inf)
     sign, turn = math.copysign(1.0, corner[0, 0]), corner[1, 2]
-    for radius in RADII:
+    for radius in ARC_RADII:
         cut = radius * math.tan(abs(turn) / 2)
         if cut > abs(corner[0, 0]) or cut > 0.6 * abs(corner[2, 0]):
             continue

@@ -1,4 +1,4 @@
-"""A path made ready to be followed: legs between stops, and how fast to drive where."""
+"""A path made ready to be followed: its legs between stops, and its speed profile."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from semnav_env.agents.planning.motion import TURN
-from semnav_env.agents.planning.path import Path
+from semnav_env.agents.planning.path import PlannedPath
 from semnav_env.features.frames import FloatArray
 from semnav_env.robots import RobotSpec
 
@@ -21,20 +22,20 @@ class FollowerSettings:
     """Speeds and gains of the path follower.
 
     Attributes:
-        cruise: m/s where there is room.
-        creep: m/s at least, where the path is crowded or the robot is off it.
-        sideways: m/s at most.
-        crowded: m/s that are added for each metre of clearance.
-        turn_rate: rad/s, on the spot and along arcs.
-        crowded_turn: rad/s along arcs without clearance.
-        braking: share of the acceleration limit that stops are planned with.
-        stiffness: 1/m; errors die out over about the inverse of this distance.
-        preview: seconds by which the curvature is looked up ahead.
-        small_turn: radians; turns on the spot below this are driven through without a stop.
-        done_distance: metres before a leg's end at which it counts as driven.
-        done_angle: radians, the same for a turn.
-        lost: metres off the path at which to plan again.
-        lost_at_turn: the same, where the robot stands to turn.
+        cruise: speed where there is room, m/s.
+        creep: smallest speed, where the path is crowded or the robot is off it, m/s.
+        sideways: largest sideways speed, m/s.
+        crowded: speed that is added for each metre of clearance, m/s.
+        turn_rate: largest yaw rate on the spot and along arcs, rad/s.
+        crowded_turn: largest yaw rate along arcs without clearance, rad/s.
+        braking: share of the acceleration limit with which stops are planned.
+        stiffness: inverse of the distance over which errors die out, 1/m.
+        preview: time by which the curvature is looked up ahead, seconds.
+        small_turn: angle below which a turn on the spot is driven without a stop, radians.
+        done_distance: distance before the end of a leg at which it counts as driven, metres.
+        done_angle: angle before the end of a turn at which it counts as driven, radians.
+        lost: distance from the path at which to plan again, metres.
+        lost_at_turn: the same where the robot stands to turn, metres.
     """
 
     cruise: float = 1.1
@@ -53,8 +54,8 @@ class FollowerSettings:
     lost_at_turn: float = 0.06
 
 
-class Leg(NamedTuple):
-    """Samples `first` to `last` of one kind of motion."""
+class PathLeg(NamedTuple):
+    """A part of a path with one kind of motion: its samples from `first` to `last`."""
 
     kind: int
     first: int
@@ -62,30 +63,30 @@ class Leg(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Track:
-    """A path, for one robot, with legs and speeds worked out once."""
+class PathTrack:
+    """A path for one robot, with legs and speeds that are computed once."""
 
-    path: Path
+    path: PlannedPath
     robot: RobotSpec
     settings: FollowerSettings = FollowerSettings()
 
     @cached_property
-    def legs(self) -> tuple[Leg, ...]:
-        """Runs of one kind of motion; small turns belong to the leg before or after."""
+    def legs(self) -> tuple[PathLeg, ...]:
+        """Parts of one kind of motion; a small turn belongs to the leg before or after it."""
         kinds = self._kinds
         cuts = [0, *(np.flatnonzero(np.diff(kinds)) + 1).tolist(), len(kinds)]
         pairs = itertools.pairwise(cuts)
-        return tuple(Leg(int(kinds[a]), a, b) for a, b in pairs if b > a)
+        return tuple(PathLeg(int(kinds[a]), a, b) for a, b in pairs if b > a)
 
     @cached_property
     def distance(self) -> FloatArray:
-        """Metres travelled by the axle up to each sample, shape (M,)."""
+        """Distance travelled by the axle up to each sample, metres, shape (M,)."""
         steps = np.diff(self.path.axle_poses[:, :2], axis=0)
         return np.concatenate(([0.0], np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))))
 
     @cached_property
     def curvature(self) -> FloatArray:
-        """Turn per metre forward of the step after each sample, 1/m, shape (M - 1,)."""
+        """Curvature of the step after each sample, 1/m, shape (M - 1,)."""
         moves = self.path.moves
         straight = np.abs(moves[:, 0]) < 1e-9
         per_metre = np.where(straight, 0.0, moves[:, 2] / np.where(straight, 1.0, moves[:, 0]))
@@ -93,7 +94,7 @@ class Track:
 
     @cached_property
     def speed(self) -> FloatArray:
-        """m/s at each sample, zero at the ends of legs, shape (M,)."""
+        """Speed at each sample, m/s, zero at the ends of legs, shape (M,)."""
         s = self.settings
         limit = np.clip(s.creep + s.crowded * self.path.clearance, 0.25, s.cruise)
         bend = np.abs(self.curvature)
@@ -105,13 +106,14 @@ class Track:
         for leg in self.legs:
             limit[leg.last] = 0.0
         braking = s.braking * self.robot.max_acceleration
-        for k in range(len(limit) - 2, -1, -1):
+        for k in range(len(limit) - 2, -1, -1):  # backwards: brake in time for what follows
             step = self.distance[k + 1] - self.distance[k]
             limit[k] = min(limit[k], math.sqrt(limit[k + 1] ** 2 + 2.0 * braking * step))
         return limit
 
     @property
-    def _kinds(self) -> np.ndarray:
+    def _kinds(self) -> NDArray[np.int64]:
+        """Kind of motion of each step, small turns counted as what they lie beside."""
         kinds, moves = self.path.kinds.copy(), self.path.move_of
         for k in range(len(self.path.moves)):
             at = np.flatnonzero(moves == k)
