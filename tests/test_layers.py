@@ -136,6 +136,34 @@ def test_the_simulator_and_the_pictures_each_have_one_door():
     assert importers("pygame") == {"semnav_env/rendering/backend.py"}
 
 
+def needed(name, seen):
+    """All of our own modules that a module needs, itself included."""
+    if name not in seen:
+        seen.add(name)
+        for other in dependencies(MODULES[name]):
+            needed(other.name, seen)
+    return seen
+
+
+ROBOTS_SIDE = {"belief", "features", "commands", "grounding"}
+"""What runs on a robot as it is."""
+
+
+def test_the_robots_side_needs_nothing_of_the_simulator():
+    for name in [name for name in MODULES if name.startswith("semnav_env.belief")]:
+        folders = {other.split(".")[1] for other in needed(name, set()) if "." in other}
+        assert folders <= ROBOTS_SIDE, name
+
+
+JUDGES_SIDE = {"verifier", "tasks", "maps", "routes"}
+
+
+def test_the_simulator_knows_nothing_of_commands():
+    for name in [name for name in MODULES if name.startswith("semnav_env.simulator")]:
+        folders = {other.split(".")[1] for other in needed(name, set()) if "." in other}
+        assert not folders & {"commands", "grounding", "belief", "verifier", "tasks"}, name
+
+
 def test_only_agents_learn():
     for package in ("stable_baselines3", "sb3_contrib", "torch", "safetensors"):
         assert all(place.startswith("agents/") for place in importers(package)), package

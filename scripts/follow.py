@@ -1,0 +1,118 @@
+"""`semnav follow`: what a robot would have believed of a command on a recorded log."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from tyro.conf import Positional
+
+from semnav_env.belief import Belief, follow_log
+from semnav_env.commands import Command
+from semnav_env.features import ExtractorSettings
+from semnav_env.features.frames import Pose
+from semnav_env.features.plot import check_suffix
+from semnav_env.features.readers import Geometry, LogRecord, open_log
+from semnav_env.scripts.demo import parse_pose
+from semnav_env.scripts.ground import understood
+from semnav_env.scripts.outputs import check_file
+from semnav_env.scripts.progress import tracked
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Follow a command on a recorded log, with the robot's side of the simulator.
+
+    The robot is told the command at the first scan. Each line is a moment in which its clause or
+    its goal changed. The frame is that of odometry and begins at the first scan. The exit code is
+    0 if the robot believes in the end that it has carried out the whole command, and 1 if not.
+
+    Attributes:
+        log: the log: a file, or the folder of a ROS 2 bag; see `semnav extract --help`.
+        command: what the robot is told; rooms cannot be named, because nobody points them out.
+        language: of the command: en or de (english, german).
+        mount: pose of the lidar on the robot, x,y,heading in metres and radians.
+        topic: of the scans in a bag, such as /scan; not needed if there is only one.
+        first: number of the first scan, from 1.
+        limit: stop after so many scans.
+        range_max: no return at and beyond it, metres.
+        plot: picture of what is remembered at the end (.png, .pdf or .svg).
+        settings: limits of the extractor, metres and radians.
+        json: print one JSON object a line.
+    """
+
+    log: Positional[Path]
+    command: Positional[str]
+    language: str = "en"
+    mount: str = "0,0,0"
+    topic: str | None = None
+    first: int = 1
+    limit: int | None = None
+    range_max: float = 50.0
+    plot: Path | None = None
+    settings: ExtractorSettings = field(default_factory=ExtractorSettings)
+    json: bool = False
+
+    def run(self) -> int:
+        """Follow it, and say what the robot believed."""
+        command, mount = understood(self.command, self.language, ()), parse_pose(self.mount)
+        for name in ("first", "limit"):
+            value = getattr(self, name)
+            if value is not None and value < 1:
+                raise ValueError(f"--{name} is {value}; it must be at least 1")
+        check_file(self.plot, "--plot")
+        if self.plot is not None:
+            check_suffix(self.plot)
+        beliefs = self._follow(command, mount)
+        done = beliefs[-1].clause
+        if not self.json:
+            print(f"believed to be done: {done} of {len(command.clauses)} clauses")
+        if self.plot is not None:
+            from semnav_env.rendering.belief_picture import save_beliefs
+
+            save_beliefs(self.plot, beliefs, str(command))
+            if not self.json:
+                print(f"wrote {self.plot}")
+        return 0 if done == len(command.clauses) else 1
+
+    def _follow(self, command: Command, mount: Pose) -> list[Belief]:
+        """Print each change of mind; returns all beliefs."""
+        beliefs: list[Belief] = []
+        with open_log(self.log, Geometry(self.range_max), self.topic) as log:
+            stop = None if self.limit is None else self.first - 1 + self.limit
+            records = islice(log, self.first - 1, stop)
+            followed = follow_log(records, command, mount=mount, extractor=self.settings)
+            for record, belief in tracked(followed, lambda n: f"{n} scans", lambda: log.fraction):
+                if not beliefs or _mind(belief) != _mind(beliefs[-1]):
+                    print(self._line(record, belief, command))
+                beliefs.append(belief)
+        if not beliefs:
+            raise ValueError(f"{self.log} has no scan {self.first}")
+        return beliefs
+
+    def _line(self, record: LogRecord, belief: Belief, command: Command) -> str:
+        clauses = command.clauses
+        over = belief.clause >= len(clauses)
+        said: dict[str, Any] = {
+            "scan": record.line,
+            "stamp": record.stamp,
+            "pose": [round(value, 3) for value in belief.pose],
+            "clause": belief.clause + 1,
+            "text": "" if over else str(clauses[belief.clause]),
+            "goal": belief.goal.kind.name.lower(),
+            "goal_pose": [round(value, 3) for value in belief.goal.pose],
+            "reasons": list(belief.reasons),
+        }
+        if self.json:
+            return json.dumps(said)
+        x, y, _ = belief.pose
+        mind = "done" if over else f"{said['goal']:<5} {'; '.join(belief.reasons)}"
+        return f"scan {record.line:>6}  at {x:7.2f} {y:7.2f}  clause {said['clause']}  {mind}"
+
+
+def _mind(belief: Belief) -> tuple[int, str, tuple[str, ...]]:
+    """What a line is printed for when it changes."""
+    return belief.clause, belief.goal.kind.name, belief.reasons

@@ -1,0 +1,91 @@
+"""A command followed on a recorded log: what the robot would have believed at every scan."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+
+from semnav_env.belief.belief import Belief
+from semnav_env.belief.tracker import NO_WAYS, ORIGIN, BeliefTracker
+from semnav_env.commands import Command
+from semnav_env.features import ExtractorSettings, Scan
+from semnav_env.features.frames import Pose, compose, relative, wrap_angle
+from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.features.readers import LogError, LogRecord
+from semnav_env.grounding.ways import Way
+
+
+def follow_log(
+    records: Iterable[LogRecord],
+    command: Command,
+    ways: Mapping[int, Way] = NO_WAYS,
+    mount: Pose = ORIGIN,
+    extractor: ExtractorSettings = ExtractorSettings(),
+    corrects_drift: bool = True,
+) -> Iterator[tuple[LogRecord, Belief]]:
+    """The records of a log, each with the belief after it.
+
+    The odometry frame begins at the first record. A record without odometry counts with its pose.
+
+    Args:
+        records: of a log, in order.
+        command: that the robot is told at the beginning.
+        ways: to the named rooms of the command, see `BeliefTracker.begin`.
+        mount: pose of the lidar in the robot frame.
+        extractor: limits of the feature extractor.
+        corrects_drift: whether walls that are seen again correct the odometry.
+
+    Raises:
+        LogError: a record has neither odometry nor a pose, or scans of several lidars are mixed.
+    """
+    tracker: BeliefTracker | None = None
+    start, last = ORIGIN, None
+    for record in records:
+        robot = _robot_pose(record, mount)
+        if tracker is None:
+            tracker = BeliefTracker(lidar_of(record.scan), mount, extractor, corrects_drift)
+            tracker.begin(command, ways)
+            start = robot
+        ranges = record.scan.ranges[: tracker.lidar.beams]
+        if len(ranges) != tracker.lidar.beams:
+            raise LogError(
+                f"scan {record.line} has {len(ranges)} beams and the first one "
+                f"{tracker.lidar.beams}: give the topic of one lidar"
+            )
+        seconds = _elapsed(last, record.stamp)
+        yield record, tracker.update(ranges, relative(start, robot), seconds=seconds)
+        last = record.stamp
+
+
+def lidar_of(scan: Scan, rate_hz: float = 15.0) -> LidarSpec:
+    """The lidar that takes such scans; beams beyond a full turn are left out.
+
+    Args:
+        scan: of that lidar.
+        rate_hz: sweeps per second, where the log has no times.
+    """
+    beams_per_turn = math.floor(math.tau / scan.angle_increment * (1.0 + 1e-9)) + 1
+    return LidarSpec(
+        "log",
+        min(len(scan.ranges), beams_per_turn),
+        wrap_angle(scan.angle_min),
+        scan.angle_increment,
+        scan.range_min,
+        scan.range_max,
+        rate_hz,
+    )
+
+
+def _robot_pose(record: LogRecord, mount: Pose) -> Pose:
+    if record.odometry is not None:
+        return record.odometry
+    if record.pose is not None:
+        return compose(record.pose, relative(mount, ORIGIN))
+    raise LogError(f"scan {record.line} has neither odometry nor a pose: a command needs one")
+
+
+def _elapsed(before: float | None, now: float | None) -> float | None:
+    """Seconds between two stamps; None where they do not tell."""
+    if before is None or now is None or not now > before:
+        return None
+    return now - before

@@ -1,0 +1,48 @@
+"""A picture of what a robot believes: its way, the walls and doors it remembers, its goals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from semnav_env.belief import Belief
+
+
+def save_beliefs(path: str | Path, beliefs: Sequence[Belief], title: str = "") -> None:
+    """Draw the way of a robot and what it remembers at its end, odometry frame.
+
+    Args:
+        path: of the picture (.png, .pdf or .svg).
+        beliefs: one per scan, in order; at least one.
+        title: above the picture.
+    """
+    from matplotlib.figure import Figure  # takes half a second to import
+
+    figure = Figure(figsize=(9.0, 7.0), layout="constrained")
+    axes = figure.subplots()
+    scene = beliefs[-1].scene
+    for wall in scene.walls:
+        axes.plot(*zip(wall.start, wall.end, strict=True), color="0.25", lw=1.6)
+    for door in scene.doors:
+        axes.plot(*zip(door.start, door.end, strict=True), color="tab:orange", lw=3.0)
+    axes.plot(*zip(*(each.pose[:2] for each in beliefs), strict=True), color="tab:blue", lw=1.2)
+    for number, goal in _last_goals(beliefs).items():
+        axes.plot(*goal, "o", color="tab:green", ms=16, alpha=0.6)
+        axes.annotate(str(number), goal, ha="center", va="center", color="white", weight="bold")
+    for colour, name in (
+        ("0.25", "remembered wall"),
+        ("tab:orange", "remembered door"),
+        ("tab:blue", "believed way"),
+        ("tab:green", "last goal of a clause"),
+    ):
+        axes.plot([], [], color=colour, lw=3.0, label=name)
+    axes.set_aspect("equal")
+    axes.set(xlabel="x, m", ylabel="y, m", title=title)
+    axes.legend(loc="best", fontsize=8)
+    figure.savefig(path, dpi=110)
+
+
+def _last_goals(beliefs: Sequence[Belief]) -> dict[int, tuple[float, float]]:
+    """Where each clause led in the end, by its number from 1."""
+    clauses = {each.clause + 1: each.goal.pose[:2] for each in beliefs[:-1]}
+    return {number: place for number, place in clauses.items() if number <= len(clauses)}
