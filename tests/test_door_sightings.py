@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from semnav_env.features.frames import to_local
 from semnav_env.features.scene import Door
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
-from studies.doors.openings import LABELS, read_openings
+from studies.doors.openings import LABELS_FOLDER, read_openings
 from tests.raycaster import polyline, scan_of
 
 WALLS = np.concatenate(
@@ -78,7 +78,7 @@ def test_counts_of_a_scan():
 
 
 def test_labelled_openings_have_the_stated_widths():
-    openings = read_openings(LABELS / "freiburg_079_openings.csv")
+    openings = read_openings(LABELS_FOLDER / "freiburg_079_openings.csv")
     assert len({opening.door.name for opening in openings}) == len(openings)
     assert all(0.5 <= opening.door.width <= 1.3 for opening in openings)
 

@@ -25,7 +25,7 @@ from studies.doors.real_doors import (
 from studies.features.metrics import score, segmentation_rates
 from studies.features.real_logs import find_logs, is_finite, log_row
 from studies.features.records import FeatureKind
-from studies.features.study import DEFAULT, Study, all_strategies
+from studies.features.study import DEFAULT_STRATEGY, Study, all_strategies
 from studies.sheets import ResultSheet
 from tests.command_line import run
 from tests.evaluation_cases import WALL
@@ -36,14 +36,14 @@ needs_data = pytest.mark.skipif(not (DATA / FREIBURG).exists(), reason="the real
 
 def test_strategies_differ_from_the_default_in_one_choice_each():
     strategies = all_strategies()
-    assert strategies[DEFAULT] == ExtractorSettings()
+    assert strategies[DEFAULT_STRATEGY] == ExtractorSettings()
     assert len(strategies) > 6
     assert len(set(strategies.values())) == len(strategies)
 
 
 def test_the_extractor_keeps_its_level_on_a_small_sample():
     """Far below what docs/features_evaluation.md reports, so that only a break shows."""
-    study = Study({DEFAULT: ExtractorSettings()})
+    study = Study({DEFAULT_STRATEGY: ExtractorSettings()})
     plans = [load_floor_plan(name) for name in bundled_names()]
     for _ in study.run(plans, 12, (0.02,), (False, True), seed=7):
         pass
@@ -78,7 +78,7 @@ def test_the_command_writes_tables_and_figures(capsys, tmp_path):
     document = json.loads(text)
     assert document == json.loads((out / "features.json").read_text())
     assert document["asked"]["poses"] == 3
-    assert document["tables"]["Strategies"][0]["strategy"] == DEFAULT
+    assert document["tables"]["Strategies"][0]["strategy"] == DEFAULT_STRATEGY
     assert "## Found and missed" in (out / "features.md").read_text()
     pictures = sorted(out.glob("*.png"))
     assert len(pictures) == 5

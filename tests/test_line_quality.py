@@ -9,7 +9,7 @@ from semnav_env.features import Scan, polylines
 from studies.lines.command import Arguments
 from studies.lines.line_baselines import end_point_fit, greedy_polylines
 from studies.lines.line_quality import (
-    STREAM,
+    RANDOM_STREAM,
     compare,
     mean_quality,
     predicted_ranges,
@@ -73,7 +73,7 @@ def test_the_mean_leaves_out_scans_without_a_measure():
 
 @needs_logs
 def test_no_choice_of_vertices_by_greed_is_better_on_real_scans():
-    scans = published_scans(CARMEN / "intel-corrected.log.gz", STREAM["intel"])[:5]
+    scans = published_scans(CARMEN / "intel-corrected.log.gz", RANDOM_STREAM["intel"])[:5]
     for scan in scans:
         best, greedy = compare(
             scan,
@@ -88,7 +88,7 @@ def test_no_choice_of_vertices_by_greed_is_better_on_real_scans():
 
 @needs_logs
 def test_the_scans_are_those_whose_published_lines_lie_on_them():
-    scans = published_scans(CARMEN / "aces-corrected.log.gz", STREAM["aces"])
+    scans = published_scans(CARMEN / "aces-corrected.log.gz", RANDOM_STREAM["aces"])
     ends = np.array([(25.891307, 32.731878), (27.736006, 32.787227), (29.774632, 29.317547)]) - 30
     scan = scans[0]
     reach = np.hypot(*ends.T)
@@ -117,7 +117,7 @@ def test_a_folder_without_logs_says_what_it_should_hold(tmp_path):
 @needs_logs
 def test_the_command_prints_the_means_of_every_log(tmp_path, capsys, monkeypatch):
     (tmp_path / "aces-corrected.log.gz").symlink_to(CARMEN / "aces-corrected.log.gz")
-    monkeypatch.setattr("studies.lines.command.VERTICES", (10,))
+    monkeypatch.setattr("studies.lines.command.VERTEX_COUNTS", (10,))
     assert Arguments(tmp_path, json=True).run() == 0
     out = json.loads(capsys.readouterr().out)
     assert (out["scans"], out["logs"]) == (20, ["aces"])

@@ -24,7 +24,7 @@ from semnav_env.maps import FloorPlan, Surface, load_floor_plan
 from semnav_env.maps.importers import load_vector_map
 from studies.matching.drift import drift_of
 from studies.matching.matching import (
-    COVERED,
+    CHI_SQUARE_95,
     PairSpec,
     errors_of,
     log_differences,
@@ -152,7 +152,7 @@ def test_the_covariance_covers_the_error(sigma):
     """
     nees = np.array([error.nees for error in some_errors(sigma, 100)])
     assert 3.0 / 2.0 < nees.mean() < 3.0 * 1.6
-    assert np.mean(nees < COVERED) > 0.85  # 95 % if it were exact
+    assert np.mean(nees < CHI_SQUARE_95) > 0.85  # 95 % if it were exact
 
 
 @pytest.mark.parametrize("name", ["GDC1", "AHG2"])
@@ -169,7 +169,7 @@ def test_exact_pairs_match_to_a_millimetre(name):
     errors = list(errors_of(itertools.islice(pairs, 100)))
     assert np.median([error.position for error in errors]) < 0.0013
     assert np.median([error.angle for error in errors]) < math.radians(0.014)
-    assert np.mean([error.nees < COVERED for error in errors]) > 0.9  # 95 % if it were exact
+    assert np.mean([error.nees < CHI_SQUARE_95 for error in errors]) > 0.9  # 95 % if it were exact
 
 
 def test_real_scans_match_as_well_as_their_poses_are_known():

@@ -14,7 +14,7 @@ from semnav_env.features import ExtractorSettings
 from semnav_env.lidar import TIM561
 from semnav_env.maps import load_floor_plan
 from studies.__main__ import STUDIES
-from studies.segmentation.segment_labels import NONE, found_lines, label, labelled_scans
+from studies.segmentation.segment_labels import NO_SEGMENT, found_lines, label, labelled_scans
 from studies.segmentation.segmentation import detected_length, measure, segmentation_rate
 from studies.truth import TrueView
 from tests.small_plans import closed, plan_of
@@ -24,15 +24,18 @@ POINTS = np.stack((np.arange(10.0), np.zeros(10)), axis=1)
 TWO_WALLS = np.array([0, 0, 0, 0, 1, 1, 1, 1, 1, 1])
 """Of 3 and 5 m."""
 
-labels = hnp.arrays(np.int64, 10, elements=st.integers(NONE, 3))
+labels = hnp.arrays(np.int64, 10, elements=st.integers(NO_SEGMENT, 3))
 
 
 @pytest.mark.parametrize(
     ("found", "rate"),
     [
         ([7, 7, 7, 7, 2, 2, 2, 2, 2, 2], 1.0),
-        ([NONE] * 10, 0.0),
-        ([0, 0, 0, 0, NONE, NONE, NONE, NONE, NONE, NONE], 3 / 8),
+        ([NO_SEGMENT] * 10, 0.0),
+        (
+            [0, 0, 0, 0, NO_SEGMENT, NO_SEGMENT, NO_SEGMENT, NO_SEGMENT, NO_SEGMENT, NO_SEGMENT],
+            3 / 8,
+        ),
         ([0, 0, 0, 0, 1, 1, 1, 1, 2, 2], 6 / 8),
         ([0] * 10, 5 / 8),
         ([0, 0, 0, 0, 1, 2, 3, 4, 5, 6], 3 / 8),
@@ -48,7 +51,7 @@ def test_a_piece_may_span_the_stretches_of_one_wall() -> None:
 
 
 def test_without_walls_in_view_there_is_no_rate() -> None:
-    assert math.isnan(segmentation_rate(POINTS, np.full(10, NONE), TWO_WALLS))
+    assert math.isnan(segmentation_rate(POINTS, np.full(10, NO_SEGMENT), TWO_WALLS))
 
 
 @given(labels, labels)
@@ -65,7 +68,7 @@ def test_the_truth_detects_all_of_itself(true: np.ndarray) -> None:
 
 @given(labels, labels)
 def test_names_of_found_segments_do_not_matter(true: np.ndarray, found: np.ndarray) -> None:
-    renamed = np.where(found == NONE, NONE, 9 - found)
+    renamed = np.where(found == NO_SEGMENT, NO_SEGMENT, 9 - found)
     assert detected_length(POINTS, true, renamed) == pytest.approx(
         detected_length(POINTS, true, found)
     )

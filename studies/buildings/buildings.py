@@ -31,16 +31,17 @@ from studies.buildings.plan_openings import openings_of
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
 from studies.sheets import Cell, ResultSheet
 
-CLEARANCE = 0.35
-"""The lidar is at least this far from everything solid, metres."""
+LIDAR_CLEARANCE = 0.35
+"""Least distance from the lidar to anything solid, metres: about half the width of a robot."""
 
-TRIES = 100_000
-"""So many random places are tried for a pose."""
+MAX_POSE_TRIES = 100_000
+"""Random places that are drawn for one pose before the floor is found to have no room."""
 
-GATE = Gate()
+DOOR_GATE = Gate()
+"""Which doors count as in good view."""
 
-INDOORS = LidarSpec("eight", 8, -math.pi, math.pi / 4, range_max=200.0)
-"""Indoors every beam of this lidar ends at a wall."""
+INDOOR_TEST_LIDAR = LidarSpec("eight", 8, -math.pi, math.pi / 4, range_max=200.0)
+"""A place is indoors if every beam of this lidar ends at a wall."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,19 +71,19 @@ class Building:
             ValueError: there is no room to stand.
         """
         bounds = self.area.bounds
-        compass = Lidar(self.plan, INDOORS)
+        compass = Lidar(self.plan, INDOOR_TEST_LIDAR)
         shapely.prepare(self.area)
-        for _ in range(TRIES):
+        for _ in range(MAX_POSE_TRIES):
             x, y = rng.uniform(bounds[:2], bounds[2:]).tolist()
             pose = x, y, float(rng.uniform(-math.pi, math.pi))
             if not shapely.contains_xy(self.area, x, y) or not self.is_free((x, y)):
                 continue
-            if len(self.plan.solids.query(shapely.Point(x, y), "dwithin", CLEARANCE)):
+            if len(self.plan.solids.query(shapely.Point(x, y), "dwithin", LIDAR_CLEARANCE)):
                 continue
             if np.isfinite(compass.exact_ranges(pose)).all():
                 yield pose
         raise ValueError(
-            f"{self.plan.name}: too few places are {CLEARANCE} m from everything solid"
+            f"{self.plan.name}: too few places are {LIDAR_CLEARANCE} m from everything solid"
         )
 
     def leads_elsewhere(self, opening: Door) -> bool:
@@ -153,12 +154,12 @@ class FloorLook(NamedTuple):
             limits: only the sightings of doors as wide as these settings ask for count.
         """
         wanted = [door for door in self.doors if limits is None or is_wanted(door, limits)]
-        return judge(self.scan, self.found, self.doors, self.passages, GATE, wanted)
+        return judge(self.scan, self.found, self.doors, self.passages, DOOR_GATE, wanted)
 
     def missed(self, limits: ExtractorSettings) -> Iterator[Door]:
         """Doors in good view that were not found."""
         for door in self.doors:
-            seen = GATE.view(self.scan, door.start, door.end) is View.GATED
+            seen = DOOR_GATE.view(self.scan, door.start, door.end) is View.GATED
             found = any(matches(each, door.start, door.end) for each in self.found)
             if seen and not found and is_wanted(door, limits):
                 yield door
@@ -166,7 +167,7 @@ class FloorLook(NamedTuple):
     def false(self) -> Iterator[Door]:
         """Detections within the gate's reach that are neither a door nor a passage."""
         for door in self.found:
-            near = max(math.hypot(*door.start), math.hypot(*door.end)) <= GATE.reach
+            near = max(math.hypot(*door.start), math.hypot(*door.end)) <= DOOR_GATE.reach
             if near and not any(matches(door, d.start, d.end) for d in self.doors + self.passages):
                 yield door
 

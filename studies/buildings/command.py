@@ -21,8 +21,8 @@ from studies.buildings.buildings import (
 from studies.buildings.map_doorways import map_row, map_sheet
 from studies.sheets import Cell
 
-SHOWN = 25
-"""Failures on a page."""
+FAILURES_PER_PAGE = 25
+"""Most failures that are drawn on one page."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Arguments:
         false = [Failure(look, door) for look in looks for door in look.false()]
         for kind, failures in (("missed", missed), ("false", false)):
             if failures:
-                shown = failures[:: -(-len(failures) // SHOWN)]
+                shown = failures[:: -(-len(failures) // FAILURES_PER_PAGE)]
                 page = path.with_name(f"{path.name}_{kind}.png")
                 title = f"{building.plan.name}, {kind}: {len(shown)} of {len(failures)}"
                 save_failures(page, building.plan, shown, title)

@@ -16,9 +16,11 @@ from semnav_env.features.scene import Door
 from semnav_env.maps.floor_plan import FloorPlan
 from studies.buildings.buildings import FloorLook
 
-COLUMNS = 5
-AROUND = 2.0
-"""Shown around the door, metres."""
+PAGE_COLUMNS = 5
+"""Panels beside each other on a page."""
+
+VIEW_MARGIN = 2.0
+"""What is shown around a door, metres."""
 
 
 class Failure(NamedTuple):
@@ -37,10 +39,10 @@ def save_failures(path: Path, plan: FloorPlan, failures: Sequence[Failure], titl
         failures: at least one.
         title: of the page.
     """
-    rows = -(-len(failures) // COLUMNS)
-    figure = Figure(figsize=(3.0 * COLUMNS, 3.2 * rows + 0.5), layout="constrained")
+    rows = -(-len(failures) // PAGE_COLUMNS)
+    figure = Figure(figsize=(3.0 * PAGE_COLUMNS, 3.2 * rows + 0.5), layout="constrained")
     FigureCanvasAgg(figure)
-    axes = figure.subplots(rows, COLUMNS, squeeze=False).ravel()
+    axes = figure.subplots(rows, PAGE_COLUMNS, squeeze=False).ravel()
     for ax, failure in zip(axes, failures, strict=False):
         draw_failure(ax, plan, failure)
     for ax in axes[len(failures) :]:
@@ -54,7 +56,7 @@ def draw_failure(ax: Axes, plan: FloorPlan, failure: Failure) -> None:
     """Draw a failure with its scan: doors green, what was found red, the failure thick."""
     look, door = failure
     walls = points_to_local(look.pose, plan.segments.reshape(-1, 2, 2))
-    near = (np.hypot(*(walls - door.midpoint).transpose(2, 0, 1)) < 3.0 * AROUND).any(axis=1)
+    near = (np.hypot(*(walls - door.midpoint).transpose(2, 0, 1)) < 3.0 * VIEW_MARGIN).any(axis=1)
     ax.plot(*walls[near].transpose(2, 1, 0), color="lightgrey", linewidth=1.0)
     scan = look.scan
     hits = scan.valid & (scan.ranges < scan.range_max)
@@ -68,8 +70,8 @@ def draw_failure(ax: Axes, plan: FloorPlan, failure: Failure) -> None:
             )
     ax.plot(0.0, 0.0, marker=(3, 0, -90), markersize=8, color="blue")
     x, y = door.midpoint
-    ax.set_xlim(x - AROUND, x + AROUND)
-    ax.set_ylim(y - AROUND, y + AROUND)
+    ax.set_xlim(x - VIEW_MARGIN, x + VIEW_MARGIN)
+    ax.set_ylim(y - VIEW_MARGIN, y + VIEW_MARGIN)
     ax.set_aspect("equal")
     ax.set_title(f"{door.name or ''} {door.width:.2f} m, {np.hypot(x, y):.1f} m away", fontsize=8)
     ax.tick_params(labelsize=6)

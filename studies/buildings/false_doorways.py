@@ -15,8 +15,8 @@ from semnav_env.maps.floor_plan import PlanDoor
 from semnav_env.maps.importers import OccupancyMap
 from semnav_env.maps.importers.gaps import STEP
 
-BESIDE = 0.1
-"""A sealed doorway is prolonged by so much at both ends, metres; jambs are rough."""
+SEAL_OVERLAP = 0.1
+"""How far the seal of a doorway overlaps its jambs, which are rough, metres."""
 
 
 def false_doorways(
@@ -61,8 +61,8 @@ def _sealed(door: PlanDoor, pixels: OccupancyMap) -> NDArray[np.bool_]:
 
 def _along(door: PlanDoor, step: float) -> FloatArray:
     start, end = np.array(door.start), np.array(door.end)
-    over = BESIDE / door.width
-    shares = np.linspace(-over, 1.0 + over, math.ceil((door.width + 2 * BESIDE) / step) + 1)
+    over = SEAL_OVERLAP / door.width
+    shares = np.linspace(-over, 1.0 + over, math.ceil((door.width + 2 * SEAL_OVERLAP) / step) + 1)
     return np.asarray(start + shares[:, None] * (end - start))
 
 

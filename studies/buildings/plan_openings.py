@@ -13,27 +13,27 @@ from semnav_env.features.scene import Door
 from semnav_env.maps.floor_plan import FloorPlan
 from studies.doors.door_sightings import matches
 
-THICKEST = 0.45
-"""The end of a wall is at most this long, metres."""
+MAX_WALL_THICKNESS = 0.45
+"""Greatest length of the end face of a wall, metres."""
 
-WIDTHS = (0.6, 1.8)
+OPENING_WIDTHS = (0.6, 1.8)
 """Narrowest and widest opening, metres."""
 
-DEPTH = 0.5
-"""Nothing is this near to the middle of an opening, before or behind it, metres."""
+MIN_FREE_DEPTH = 0.5
+"""Free depth before and behind the middle of an opening, metres."""
 
-ASKEW = math.radians(5.0)
-"""Two faces are opposite each other if they are this parallel, radians."""
+MAX_FACE_ANGLE = math.radians(5.0)
+"""Greatest angle between two faces that lie opposite each other, radians."""
 
-SHARED = 0.8
-"""So much of the shorter face lies opposite the other one."""
+MIN_FACE_OVERLAP = 0.8
+"""Least share of the shorter face that lies opposite the other one."""
 
 
 def openings_of(plan: FloorPlan) -> tuple[Door, ...]:
     """The openings between the end of a wall and what it faces, world frame.
 
     A wall with two faces ends in a short face across. Where another face lies opposite, at the
-    distance of an opening, with nothing between them and nothing within `DEPTH` before and behind,
+    distance of an opening, with nothing between them and nothing within `MIN_FREE_DEPTH` of it,
     there is an opening; it runs between the middles of the two. Of several within a quarter of a
     metre, as at door frames, the narrowest is kept.
     """
@@ -47,12 +47,12 @@ def openings_of(plan: FloorPlan) -> tuple[Door, ...]:
 def _openings(plan: FloorPlan) -> Iterator[Door]:
     faces = plan.opaque_segments
     lengths = np.hypot(*(faces[:, 2:] - faces[:, :2]).T)
-    for k in np.flatnonzero(lengths <= THICKEST):
+    for k in np.flatnonzero(lengths <= MAX_WALL_THICKNESS):
         for start, end in _opposite(faces[k], faces):
             width = math.dist(start, end)
             along = (end[0] - start[0]) / width, (end[1] - start[1]) / width
             middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
-            side = -DEPTH * along[1], DEPTH * along[0]
+            side = -MIN_FREE_DEPTH * along[1], MIN_FREE_DEPTH * along[0]
             across = [(middle[0] + s * side[0], middle[1] + s * side[1]) for s in (-1.0, 1.0)]
             edge = [_between(start, end, share) for share in (0.01 / width, 1.0 - 0.01 / width)]
             if _is_free(plan, edge) and _is_free(plan, across):
@@ -71,9 +71,9 @@ def _opposite(face: FloatArray, faces: FloatArray) -> Iterator[tuple[Point, Poin
     tilt = np.abs(np.diff(away, axis=1)[:, 0])
     low, high = np.maximum(place[:, 0], 0.0), np.minimum(place[:, 1], length)
     shorter = np.minimum(np.ptp(place, axis=1), length)
-    fits = (np.abs(distance) >= WIDTHS[0]) & (np.abs(distance) <= WIDTHS[1])
-    fits &= (high - low >= SHARED * shorter) & (shorter > 0.0)
-    fits &= tilt <= math.sin(ASKEW) * np.hypot(np.ptp(place, axis=1), tilt)
+    fits = (np.abs(distance) >= OPENING_WIDTHS[0]) & (np.abs(distance) <= OPENING_WIDTHS[1])
+    fits &= (high - low >= MIN_FACE_OVERLAP * shorter) & (shorter > 0.0)
+    fits &= tilt <= math.sin(MAX_FACE_ANGLE) * np.hypot(np.ptp(place, axis=1), tilt)
     for k in np.flatnonzero(fits):
         start = a + 0.5 * (low[k] + high[k]) * along
         end = start + distance[k] * normal

@@ -14,8 +14,11 @@ from semnav_env.features.kernels.door_evidence import EVIDENCE
 from semnav_env.features.kernels.scratch import CANDIDATE, allocate_features, allocate_scratch
 from semnav_env.features.scene import Door, ends_of
 
-MOST = 2048
-UNUSED = -1
+MAX_CANDIDATES = 2048
+"""Room in the arrays that the kernel fills."""
+
+UNUSED_STATE = -1
+"""State of an entry that the kernel did not fill."""
 
 
 class Candidates(NamedTuple):
@@ -35,9 +38,10 @@ def candidates_of(scan: Scan, settings: ExtractorSettings) -> Candidates:
     directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
     beams = len(directions)
     scratch = allocate_scratch(beams)._replace(
-        candidates=np.zeros(MOST, CANDIDATE), evidence=np.zeros((MOST, len(EVIDENCE)))
+        candidates=np.zeros(MAX_CANDIDATES, CANDIDATE),
+        evidence=np.zeros((MAX_CANDIDATES, len(EVIDENCE))),
     )
-    scratch.candidates["state"] = UNUSED
+    scratch.candidates["state"] = UNUSED_STATE
     extract_arrays(
         scan.ranges[:beams].copy(),
         directions,
@@ -48,7 +52,7 @@ def candidates_of(scan: Scan, settings: ExtractorSettings) -> Candidates:
         scratch,
         *allocate_features(),
     )
-    count = np.count_nonzero(scratch.candidates["state"] != UNUSED)
+    count = np.count_nonzero(scratch.candidates["state"] != UNUSED_STATE)
     return Candidates(_ends(scratch.candidates[:count]), scratch.evidence[:count].copy())
 
 

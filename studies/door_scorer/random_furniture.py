@@ -19,10 +19,10 @@ from semnav_env.features.frames import Point
 Span = tuple[float, float]
 """From and to along an axis, metres."""
 
-GAPS = (0.0, 0.05, 0.5, 0.8, 1.0)
-"""Between the cabinets of a row, metres."""
-FREE = 0.9
-"""In front of a door nothing stands nearer to it than this, metres."""
+CABINET_GAPS = (0.0, 0.05, 0.5, 0.8, 1.0)
+"""Gaps between the cabinets of a row, metres; some are as wide as a door."""
+DOORWAY_CLEARANCE = 0.9
+"""Least distance of furniture from a door, metres."""
 
 
 @dataclass
@@ -90,7 +90,7 @@ class TrainingFurniture:
         while True:
             x = self.rng.uniform(room[0] + margin, room[1] - margin)
             y = self.rng.uniform(deep[0] + margin, deep[1] - margin)
-            if y > deep[0] + FREE or abs(x - sum(way_in) / 2.0) > FREE:
+            if y > deep[0] + DOORWAY_CLEARANCE or abs(x - sum(way_in) / 2.0) > DOORWAY_CLEARANCE:
                 return x, y
 
     def cabinets(self, side: float, room: Span, deep: Span, way_in: Span) -> None:
@@ -103,17 +103,17 @@ class TrainingFurniture:
                 if not near_door and self.chance(0.5):
                     edge = y + sense * self.rng.uniform(0.3, 0.6)
                     self.box(x, side * y, x + width, side * edge)
-                x += width + self.rng.choice(GAPS)
+                x += width + self.rng.choice(CABINET_GAPS)
 
     def row(self, side: float, x: float, sense: float, deep: Span) -> None:
         """Cabinets along a wall between two rooms."""
-        y = deep[0] + self.rng.uniform(FREE, 1.6)
+        y = deep[0] + self.rng.uniform(DOORWAY_CLEARANCE, 1.6)
         while y < deep[1] - 0.9:
             width = self.rng.uniform(0.4, 1.2)
             if self.chance(0.6):
                 edge = x + sense * self.rng.uniform(0.3, 0.6)
                 self.box(x, side * y, edge, side * (y + width))
-            y += width + self.rng.choice(GAPS)
+            y += width + self.rng.choice(CABINET_GAPS)
 
     def divider(self, side: float, room: Span, deep: Span, way_in: Span) -> None:
         """Screens or shelves in a line, square to the walls, with a gap or two in it."""
@@ -121,7 +121,7 @@ class TrainingFurniture:
         x, y = self.place(room, deep, way_in, 0.1 + thick)
         along_x = self.chance(0.5)
         end = room[1] if along_x else deep[1]
-        at = x if along_x else max(y, deep[0] + FREE)
+        at = x if along_x else max(y, deep[0] + DOORWAY_CLEARANCE)
         for _ in range(self.rng.integers(1, 4)):
             stop = min(at + self.rng.uniform(0.4, 1.8), end)
             if stop - at > 0.1:

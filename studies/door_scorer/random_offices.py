@@ -21,8 +21,8 @@ from semnav_env.features.scene import Door
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from studies.door_scorer.random_furniture import TrainingFurniture
 
-CLEARANCE = 0.3
-"""A scanner stands at least this far from everything, metres."""
+SCANNER_CLEARANCE = 0.3
+"""Least distance from the scanner to anything, metres."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class TrainingOffice:
     def _free_pose(self, rng: Generator, half_x: float, half_y: float) -> Pose:
         while True:
             x, y = rng.uniform(-half_x, half_x), rng.uniform(-half_y, half_y)
-            if _distance(self.segments, x, y) >= CLEARANCE:
+            if _distance(self.segments, x, y) >= SCANNER_CLEARANCE:
                 return x, y, rng.uniform(-math.pi, math.pi)
 
 

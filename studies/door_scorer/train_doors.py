@@ -31,16 +31,24 @@ from studies.door_scorer.door_candidates import apart, candidates_of
 from studies.door_scorer.random_offices import random_office
 
 HALF_DEGREE = LidarSpec("half_degree", 361, -math.pi / 2, math.radians(0.5))
-LIDARS = (TIM561, HALF_DEGREE)
-SIGMAS = (0.0, 0.01, 0.02, 0.03)
+TRAINING_LIDARS = (TIM561, HALF_DEGREE)
+"""Offices are scanned by these in turn."""
+
+RANGE_SIGMAS = (0.0, 0.01, 0.02, 0.03)
 """Standard deviations of the simulated ranges, metres."""
 
-EDGE, MIXED = 0.1, 0.2
-"""Where neighbouring ranges differ by more, metres, this share of the beams reads a mixture."""
+EDGE_JUMP = 0.1
+"""Least difference of neighbouring ranges at an edge, metres."""
 
-HIT, MISS = 0.2, 0.3
-"""A gap with both jambs this near to a door's is one, with a jamb farther off it is none, metres;
-what lies between is not used."""
+MIXED_SHARE = 0.2
+"""Share of the beams at edges that read a mixture of both ranges."""
+
+MAX_DOOR_ERROR = 0.2
+"""A gap is a door if both its jambs are this near to those of a door, metres."""
+
+MIN_OTHER_ERROR = 0.3
+"""A gap is no door if a jamb is farther off than this, metres; gaps between the two limits are not
+used."""
 
 
 @dataclass(frozen=True)
@@ -79,8 +87,8 @@ def collect(training: Arguments) -> tuple[FloatArray, FloatArray]:
     for scan, doors in simulated_scans(training.offices, training.poses, training.seed):
         gaps = candidates_of(scan, settings)
         nearest = apart(gaps.ends, doors).min(axis=1, initial=math.inf)
-        decided = (nearest <= HIT) | (nearest > MISS)
-        parts.append((gaps.evidence[decided], nearest[decided] <= HIT))
+        decided = (nearest <= MAX_DOOR_ERROR) | (nearest > MIN_OTHER_ERROR)
+        parts.append((gaps.evidence[decided], nearest[decided] <= MAX_DOOR_ERROR))
     evidence, labels = zip(*parts, strict=True)
     return np.concatenate(evidence), np.concatenate(labels).astype(np.float64)
 
@@ -90,7 +98,9 @@ def simulated_scans(offices: int, poses: int, seed: int) -> Iterator[tuple[Scan,
     for number in range(offices):
         rng = default_rng((seed, number))
         office = random_office(rng, furnished=number % 8 != 0)
-        spec = replace(LIDARS[number % 2], sigma=SIGMAS[number // 2 % len(SIGMAS)])
+        spec = replace(
+            TRAINING_LIDARS[number % 2], sigma=RANGE_SIGMAS[number // 2 % len(RANGE_SIGMAS)]
+        )
         lidar = Lidar(office.floor_plan, spec)
         for k in range(poses):
             pose = office.any_pose(rng) if k % 2 else office.corridor_pose(rng)
@@ -102,8 +112,8 @@ def blurred(scan: Scan, rng: Generator) -> Scan:
     """The scan with some beams that met an edge with half of their width, and read a mixture."""
     ranges = scan.ranges.copy()
     with np.errstate(invalid="ignore"):  # no return beside no return
-        jumps = np.abs(np.diff(ranges)) > EDGE
-    edges = np.flatnonzero(jumps & (rng.random(len(jumps)) < MIXED))
+        jumps = np.abs(np.diff(ranges)) > EDGE_JUMP
+    edges = np.flatnonzero(jumps & (rng.random(len(jumps)) < MIXED_SHARE))
     share = rng.random(len(edges))
     ranges[edges] = share * scan.ranges[edges] + (1.0 - share) * scan.ranges[edges + 1]
     return replace(scan, ranges=ranges)

@@ -138,11 +138,11 @@ class DoorCounts:
         return self.right / self.detections if self.detections else math.nan
 
 
-MATCH = 0.25
-"""A detection is a door if both ends lie within this of its jambs, metres."""
+MAX_JAMB_ERROR = 0.25
+"""A detection is a door if both its ends lie within this of the jambs, metres."""
 
 
-def matches(detection: Door, start: Point, end: Point, tolerance: float = MATCH) -> bool:
+def matches(detection: Door, start: Point, end: Point, tolerance: float = MAX_JAMB_ERROR) -> bool:
     """Whether both ends of a detection lie at the jambs, either way round."""
     return jambs_apart(detection, start, end) <= tolerance
 

@@ -14,18 +14,18 @@ from semnav_env.features import Door, ExtractorSettings, extract
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.mapping import LineMap
 from semnav_env.features.readers import open_log
-from studies.doors.door_sightings import MATCH, jambs_apart
+from studies.doors.door_sightings import MAX_JAMB_ERROR, jambs_apart
 from studies.doors.openings import LabelledOpening
 from studies.sheets import Cell, ResultSheet
 
-EXACT = 0.05
+EXACT_JAMB_ERROR = 0.05
 """A door of the map is exact if both jambs are within this of those labelled, metres."""
 
-_IN_WALL = 0.3
+MAX_DOOR_LINE_OFFSET = 0.3
 """A door this near to the line of a side's doors stands in that wall of the corridor, metres."""
 
-_ALONG = math.radians(20.0)
-"""... if it is turned against the wall by no more."""
+MAX_DOOR_ANGLE = math.radians(20.0)
+"""Greatest angle between the wall of the corridor and a door that stands in it, radians."""
 
 
 def mapped(path: Path, settings: ExtractorSettings, every: int = 1) -> Iterator[LineMap]:
@@ -59,12 +59,14 @@ class MapFinding(NamedTuple):
 
 
 def findings(doors: Sequence[Door], openings: Sequence[LabelledOpening]) -> list[MapFinding]:
-    """The openings, each with the door nearest to it within `MATCH`, then the other doors."""
+    """The openings, each with the nearest door within `MAX_JAMB_ERROR`, then the other doors."""
     found: list[MapFinding] = []
     for opening in openings:
         nearest = min(doors, key=lambda door: _apart(door, opening), default=None)
         off = math.inf if nearest is None else _apart(nearest, opening)
-        found.append(MapFinding(opening, nearest, off) if off <= MATCH else _missed(opening))
+        found.append(
+            MapFinding(opening, nearest, off) if off <= MAX_JAMB_ERROR else _missed(opening)
+        )
     rest = [door for door in doors if all(door is not each.door for each in found)]
     return found + [MapFinding(None, door, math.inf) for door in rest]
 
@@ -95,7 +97,7 @@ def map_sheets(doors: Sequence[Door], openings: Sequence[LabelledOpening]) -> li
 def _summary(group: Sequence[MapFinding]) -> tuple[Cell, ...]:
     off = [finding.off for finding in group if finding.door]
     worst = 100.0 * max(off, default=math.nan)
-    return len(group), len(off), sum(each <= EXACT for each in off), worst
+    return len(group), len(off), sum(each <= EXACT_JAMB_ERROR for each in off), worst
 
 
 _EACH = (
@@ -153,7 +155,7 @@ def _stands_in(door: Door, wall: tuple[FloatArray, FloatArray]) -> bool:
     place = np.array(door.midpoint) - start
     chord = (np.array(door.end) - door.start) / door.width
     return bool(
-        -_IN_WALL <= place @ along <= length + _IN_WALL
-        and abs(along[0] * place[1] - along[1] * place[0]) <= _IN_WALL
-        and abs(chord @ along) >= math.cos(_ALONG)
+        -MAX_DOOR_LINE_OFFSET <= place @ along <= length + MAX_DOOR_LINE_OFFSET
+        and abs(along[0] * place[1] - along[1] * place[0]) <= MAX_DOOR_LINE_OFFSET
+        and abs(chord @ along) >= math.cos(MAX_DOOR_ANGLE)
     )

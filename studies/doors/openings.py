@@ -8,7 +8,8 @@ from pathlib import Path
 
 from semnav_env.features.scene import Door
 
-LABELS = Path(__file__).with_name("labels")
+LABELS_FOLDER = Path(__file__).with_name("labels")
+"""Where the labelled openings lie."""
 
 
 @dataclass(frozen=True)

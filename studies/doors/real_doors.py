@@ -14,20 +14,20 @@ from semnav_env.features.memory import SceneMemory
 from semnav_env.features.readers import open_log
 from semnav_env.features.scene import Door, Scene
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
-from studies.doors.openings import LABELS, LabelledOpening
+from studies.doors.openings import LABELS_FOLDER, LabelledOpening
 from studies.sheets import ResultSheet
 
 FREIBURG = Path("carmen") / "freiburg-079-corrected.log.gz"
-FREIBURG_LABELS = LABELS / "freiburg_079_openings.csv"
+FREIBURG_LABELS = LABELS_FOLDER / "freiburg_079_openings.csv"
 
-MEMORY = 5
-"""Scans that a short memory joins."""
+MEMORY_SCANS = 5
+"""Scans that the short memory joins."""
 
-PASS_GAP = 5
-"""A door out of good view for so many of the scans that are looked at ends a pass."""
+MAX_PASS_GAP = 5
+"""A door that is out of good view for so many of the scans that are looked at ends a pass."""
 
-PASS_SIGHTINGS = 3
-"""A pass has at least so many gated sightings."""
+MIN_PASS_SIGHTINGS = 3
+"""Fewest gated sightings of a pass."""
 
 
 class Glimpse(NamedTuple):
@@ -37,7 +37,7 @@ class Glimpse(NamedTuple):
         scan: the scan.
         pose: of the lidar in the log's frame.
         doors: what was detected, lidar frame.
-        remembered: what the last `MEMORY` scans together say, lidar frame.
+        remembered: what the last `MEMORY_SCANS` scans together say, lidar frame.
     """
 
     scan: Scan
@@ -75,10 +75,10 @@ def look_through(path: Path, settings: ExtractorSettings, every: int = 8) -> Ite
         ValueError: the log tells no poses.
         OSError: it cannot be opened.
     """
-    window: deque[tuple[Scene, Scan, Pose]] = deque(maxlen=MEMORY)
+    window: deque[tuple[Scene, Scan, Pose]] = deque(maxlen=MEMORY_SCANS)
     with open_log(path) as log:
         for number, record in enumerate(log):
-            if (-number) % every >= MEMORY:
+            if (-number) % every >= MEMORY_SCANS:
                 continue
             if record.pose is None:
                 raise ValueError(f"{path} tells no poses; give a log with corrected ones")
@@ -132,8 +132,8 @@ def count(
 def passes(glimpses: Sequence[Glimpse], target: LabelledTarget, gate: Gate) -> tuple[int, int]:
     """How many passes by a wanted door there were, and in how many it was found at least once.
 
-    A pass is `PASS_SIGHTINGS` gated sightings or more, none `PASS_GAP` scans or more after the
-    one before it.
+    A pass has at least `MIN_PASS_SIGHTINGS` gated sightings, each less than `MAX_PASS_GAP` scans
+    after the one before it.
     """
     found_in = [found for door in target.wanted for found in _passes(glimpses, door, gate)]
     return len(found_in), sum(found_in)
@@ -141,18 +141,18 @@ def passes(glimpses: Sequence[Glimpse], target: LabelledTarget, gate: Gate) -> t
 
 def _passes(glimpses: Sequence[Glimpse], door: Door, gate: Gate) -> Iterator[bool]:
     sightings: list[bool] = []
-    last = -PASS_GAP
+    last = -MAX_PASS_GAP
     for number, glimpse in enumerate(glimpses):
         (seen,) = seen_from(glimpse.pose, (door,))
         if gate.view(glimpse.scan, seen.start, seen.end) is not View.GATED:
             continue
-        if number - last >= PASS_GAP:
-            if len(sightings) >= PASS_SIGHTINGS:
+        if number - last >= MAX_PASS_GAP:
+            if len(sightings) >= MIN_PASS_SIGHTINGS:
                 yield any(sightings)
             sightings = []
         sightings.append(any(matches(d, seen.start, seen.end) for d in glimpse.doors))
         last = number
-    if len(sightings) >= PASS_SIGHTINGS:
+    if len(sightings) >= MIN_PASS_SIGHTINGS:
         yield any(sightings)
 
 
@@ -166,7 +166,7 @@ def door_sheet(glimpses: Sequence[Glimpse], openings: Sequence[LabelledOpening])
             c = count(glimpses, target, gate, memory)
             seen = (c.gated, c.recall, c.seen, c.recall_ungated)
             given = (c.detections, c.undecided, c.precision, c.precision_at_least)
-            name = f"last {MEMORY} scans" if memory else "single scans"
+            name = f"last {MEMORY_SCANS} scans" if memory else "single scans"
             rows.append((target.name, name, *seen, *given, all_passes, found))
     columns = (
         *("doors", "from", "gated", "recall", "in view", "recall, all in view"),

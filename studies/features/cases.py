@@ -22,13 +22,13 @@ from studies.truth import TrueView
 CORRIDOR, ANYWHERE = "corridor", "anywhere"
 PLACES = (CORRIDOR, ANYWHERE)
 
-CLEARANCE = 0.35
-"""The lidar is at least this far from everything solid, metres."""
+LIDAR_CLEARANCE = 0.35
+"""Least distance from the lidar to anything solid, metres: about half the width of a robot."""
 
-TRIES = 10_000
-"""So many random places are tried for a pose."""
+MAX_POSE_TRIES = 10_000
+"""Random places that are drawn for one pose before the plan is found to have no room."""
 
-LAYOUT = 20
+POSES_PER_LAYOUT = 20
 """Poses in one arrangement of clutter."""
 
 
@@ -78,19 +78,19 @@ def draw_cases(
         plan: the plan.
         poses: how many cases.
         sigmas: standard deviations of the ranges, metres; each case has a scan for each.
-        clutter: put things into the plan, anew for every `LAYOUT` poses.
+        clutter: put things into the plan, anew for every `POSES_PER_LAYOUT` poses.
         rng: source of randomness.
         spec: the lidar; its sigma does not matter.
 
     Raises:
         ValueError: there is no room to stand in the plan.
     """
-    for first in range(0, poses, LAYOUT):
+    for first in range(0, poses, POSES_PER_LAYOUT):
         layout = cluttered(plan, rng) if clutter else plan
         floor = free_floor(layout)
         view = TrueView(layout, spec)
         lidars = [(s, Lidar(layout, replace(spec, sigma=s))) for s in sigmas]
-        for number in range(first, min(first + LAYOUT, poses)):
+        for number in range(first, min(first + POSES_PER_LAYOUT, poses)):
             place = PLACES[number % 2]
             pose = _draw_pose(_area(floor, plan, place), layout, rng)
             key = (int(rng.integers(2**31)), 0, number)
@@ -109,9 +109,9 @@ def _area(floor: BaseGeometry, plan: FloorPlan, place: str) -> BaseGeometry:
 
 def _draw_pose(area: BaseGeometry, layout: FloorPlan, rng: np.random.Generator) -> Pose:
     west, south, east, north = area.bounds
-    for _ in range(TRIES):
+    for _ in range(MAX_POSE_TRIES):
         x, y = rng.uniform((west, south), (east, north)).tolist()
-        near = layout.solids.query(shapely.Point(x, y), "dwithin", CLEARANCE)
+        near = layout.solids.query(shapely.Point(x, y), "dwithin", LIDAR_CLEARANCE)
         if not len(near) and shapely.contains_xy(area, x, y):
             return x, y, float(rng.uniform(-math.pi, math.pi))
-    raise ValueError(f"no place in {layout.name} is {CLEARANCE} m from everything solid")
+    raise ValueError(f"no place in {layout.name} is {LIDAR_CLEARANCE} m from everything solid")

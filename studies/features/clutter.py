@@ -15,10 +15,10 @@ from shapely.geometry.base import BaseGeometry
 
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
 
-TRIES = 50
-"""So many places are tried for each thing."""
+MAX_PLACE_TRIES = 50
+"""Places that are drawn for one thing before it is left out."""
 
-FACETS = 9
+QUARTER_EDGES = 9
 """Edges of a quarter of a round thing: enough that the truth takes it for round."""
 
 
@@ -87,14 +87,14 @@ def _box(rng: np.random.Generator, spec: ClutterSpec) -> list[Polygon]:
 
 
 def _column(rng: np.random.Generator, spec: ClutterSpec) -> list[Polygon]:
-    return [Point(0.0, 0.0).buffer(rng.uniform(*spec.column_radius), quad_segs=FACETS)]
+    return [Point(0.0, 0.0).buffer(rng.uniform(*spec.column_radius), quad_segs=QUARTER_EDGES)]
 
 
 def _person(rng: np.random.Generator, spec: ClutterSpec) -> list[Polygon]:
     radius, apart = rng.uniform(*spec.leg_radius), rng.uniform(0.2, 0.45)
     turn = rng.uniform(0.0, math.tau)
     x, y = 0.5 * apart * math.cos(turn), 0.5 * apart * math.sin(turn)
-    return [Point(s * x, s * y).buffer(radius, quad_segs=FACETS) for s in (-1.0, 1.0)]
+    return [Point(s * x, s * y).buffer(radius, quad_segs=QUARTER_EDGES) for s in (-1.0, 1.0)]
 
 
 def _placed(
@@ -106,7 +106,7 @@ def _placed(
 ) -> list[Polygon]:
     """What `make` gives, moved to where it is free; nothing if no such place was found."""
     west, south, east, north = floor.bounds
-    for _ in range(TRIES):
+    for _ in range(MAX_PLACE_TRIES):
         x, y = rng.uniform((west, south), (east, north)).tolist()
         things = [translate(thing, x, y) for thing in make()]
         whole = shapely.union_all(things)

@@ -17,7 +17,7 @@ from studies.doors.real_doors import FREIBURG, FREIBURG_LABELS, door_sheet, look
 from studies.features.figures import save_figures
 from studies.features.real_logs import find_logs, log_row, log_sheet
 from studies.features.report import in_short, sheets
-from studies.features.study import DEFAULT, Study, all_strategies
+from studies.features.study import DEFAULT_STRATEGY, Study, all_strategies
 from studies.sheets import Cell, ResultSheet
 
 
@@ -42,7 +42,7 @@ class Arguments:
     plans: tuple[str, ...] = ()
     poses: int = 1000
     sigma: tuple[float, ...] = (0.0, 0.01, 0.02, 0.03)
-    strategies: tuple[str, ...] = (DEFAULT,)
+    strategies: tuple[str, ...] = (DEFAULT_STRATEGY,)
     data: Path | None = None
     labels: Path = FREIBURG_LABELS
     every: int = 8
@@ -86,8 +86,8 @@ class Arguments:
             raise ValueError(f"--out is {self.out}, which is a file; give a folder")
         known = all_strategies()
         names = tuple(known) if "all" in self.strategies else self.strategies
-        if DEFAULT not in names:
-            names = (DEFAULT, *names)
+        if DEFAULT_STRATEGY not in names:
+            names = (DEFAULT_STRATEGY, *names)
         if unknown := [name for name in names if name not in known]:
             raise ValueError(f"no strategy {unknown[0]!r}; there are: all, {', '.join(known)}")
         return {name: known[name] for name in names}

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from studies.features.metrics import (
-    BEARINGS,
-    RANGES,
+    BEARING_BORDERS,
+    RANGE_BORDERS,
     Score,
     binned,
     calibration,
@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = ("#1c7ed6", "#1a9e3f", "#e8590c", "#f2a900", "#8e3bb8", "#d62728")
+KIND_COLOURS = ("#1c7ed6", "#1a9e3f", "#e8590c", "#f2a900", "#8e3bb8", "#d62728")
 """Of walls, doors, full corners, potential corners, corridors and arcs."""
 
-FEWEST = 20
-"""A share of fewer than this many is not drawn."""
+MIN_DRAWN_COUNT = 20
+"""A share of fewer features than this is not drawn."""
 
 
 def save_figures(study: Study, sigma: float, folder: Path) -> list[Path]:
@@ -39,9 +39,14 @@ def save_figures(study: Study, sigma: float, folder: Path) -> list[Path]:
     """
     figures = {
         "by_noise": by_noise(study),
-        "by_range": by_bin(study, sigma, "range", RANGES, 1.0, "range, m"),
+        "by_range": by_bin(study, sigma, "range", RANGE_BORDERS, 1.0, "range, m"),
         "by_bearing": by_bin(
-            study, sigma, "bearing", BEARINGS, math.degrees(1.0), "bearing to either side, degrees"
+            study,
+            sigma,
+            "bearing",
+            BEARING_BORDERS,
+            math.degrees(1.0),
+            "bearing to either side, degrees",
         ),
         "confidence": reliability(study, sigma),
         "strategies": strategies(study),
@@ -87,7 +92,7 @@ def reliability(study: Study, sigma: float) -> Figure:
     bins = calibration(study.pooled(sigma=sigma).detections)
     ax.plot([0, 1], [0, 1], "--", color="0.6", label="as it should be")
     mean, share = [b.confidence for b in bins], [b.precision for b in bins]
-    ax.plot(mean, share, "o-", color=COLOURS[FeatureKind.DOOR], label="doors")
+    ax.plot(mean, share, "o-", color=KIND_COLOURS[FeatureKind.DOOR], label="doors")
     for each in bins:
         where = (each.confidence, each.precision)
         ax.annotate(
@@ -129,16 +134,16 @@ def _three() -> tuple[Figure, list[Axes]]:
 
 
 _READ: tuple[Callable[[Score], float], ...] = (
-    lambda each: each.recall if each.gated >= FEWEST else math.nan,
-    lambda each: each.precision if each.detections >= FEWEST else math.nan,
-    lambda each: each.f1 if min(each.gated, each.detections) >= FEWEST else math.nan,
+    lambda each: each.recall if each.gated >= MIN_DRAWN_COUNT else math.nan,
+    lambda each: each.precision if each.detections >= MIN_DRAWN_COUNT else math.nan,
+    lambda each: each.f1 if min(each.gated, each.detections) >= MIN_DRAWN_COUNT else math.nan,
 )
 
 
 def _draw(axes: list[Axes], kind: FeatureKind, places: list[float], scores: list[Score]) -> None:
     for ax, read in zip(axes, _READ, strict=True):
         values = [read(each) for each in scores]
-        ax.plot(places, values, "o-", color=COLOURS[kind], label=kind.label, markersize=4)
+        ax.plot(places, values, "o-", color=KIND_COLOURS[kind], label=kind.label, markersize=4)
 
 
 def _finish(axes: list[Axes], label: str, ticks: list[float]) -> None:

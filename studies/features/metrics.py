@@ -17,13 +17,13 @@ from studies.features.records import FeatureKind
 Table = NDArray[np.void]
 """Of `Sighting` or of `Detection`, see `records.as_table`."""
 
-RANGES = (0.0, 2.0, 4.0, 6.0, 8.0, 10.0)
+RANGE_BORDERS = (0.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 """Borders of the range bins, metres."""
 
-BEARINGS = tuple(math.radians(degrees) for degrees in (0.0, 30.0, 60.0, 90.0, 120.0, 180.0))
+BEARING_BORDERS = tuple(math.radians(degrees) for degrees in (0.0, 30.0, 60.0, 90.0, 120.0, 180.0))
 """Borders of the bins of the bearing to either side, radians."""
 
-CONFIDENCES = tuple(k / 10.0 for k in range(11))
+CONFIDENCE_BORDERS = tuple(k / 10.0 for k in range(11))
 """Borders of the confidence bins."""
 
 
@@ -122,7 +122,7 @@ class Bin:
     precision: float
 
 
-def calibration(detections: Table, borders: Sequence[float] = CONFIDENCES) -> list[Bin]:
+def calibration(detections: Table, borders: Sequence[float] = CONFIDENCE_BORDERS) -> list[Bin]:
     """A reliability table of the doors' confidences; bins without doors are left out."""
     doors = detections[detections["kind"] == FeatureKind.DOOR]
     bins = []

@@ -10,11 +10,11 @@ import numpy as np
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.scene import Wall, ends_of
 
-ASIDE = 0.1
-"""Two walls are the same where they are less than this apart, metres."""
+MAX_WALL_DISTANCE = 0.1
+"""Two walls cover each other where they are less than this apart, metres."""
 
-ASKEW = math.radians(10.0)
-"""And only if their directions differ by less."""
+MAX_WALL_ANGLE = math.radians(10.0)
+"""Walls whose directions differ by more than this never cover each other, radians."""
 
 
 class Overlap:
@@ -39,12 +39,12 @@ class Overlap:
         places = (offset * along[:, :, None]).sum(axis=-1)
         asides = along[:, :, None, 0] * offset[..., 1] - along[:, :, None, 1] * offset[..., 0]
         cosines = (other * along).sum(axis=-1)
-        straight = cosines > math.cos(ASKEW) * np.hypot(other[..., 0], other[..., 1])
+        straight = cosines > math.cos(MAX_WALL_ANGLE) * np.hypot(other[..., 0], other[..., 1])
         spans = np.clip(places, 0.0, self.lengths[:, None, None])
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = (asides[..., 1] - asides[..., 0]) / (places[..., 1] - places[..., 0])
             gaps = asides[..., :1] + slope[..., None] * (spans - places[..., :1])
-            same = straight & (np.abs(gaps) < ASIDE).all(axis=-1)
+            same = straight & (np.abs(gaps) < MAX_WALL_DISTANCE).all(axis=-1)
         self.spans = np.where(same[..., None], spans, (1.0, 0.0))
 
     @property

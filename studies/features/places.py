@@ -22,7 +22,7 @@ from studies.features.records import (
 
 T = TypeVar("T", Corner, CorridorProbe, Arc)
 
-AT_CORNER = 0.02
+MAX_CORNER_GAP = 0.02
 """A true wall with an end this close to a true corner is one of its walls, metres."""
 
 
@@ -52,7 +52,7 @@ def compare_corners(truth: Scene, found: Scene, limits: CountingLimits, full: bo
 
 def _is_clear_corner(corner: Corner, walls: Sequence[Wall], limits: CountingLimits) -> bool:
     ends = [(wall, end) for wall in walls for end in (wall.start, wall.end)]
-    near = [wall for wall, end in ends if math.dist(end, corner.point) < AT_CORNER]
+    near = [wall for wall, end in ends if math.dist(end, corner.point) < MAX_CORNER_GAP]
     return all(limits.shows_well(wall) for wall in near)
 
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from studies.features.cases import PLACES
 from studies.features.metrics import (
-    BEARINGS,
-    RANGES,
+    BEARING_BORDERS,
+    RANGE_BORDERS,
     Score,
     binned,
     calibration,
@@ -21,7 +21,7 @@ from studies.features.records import FeatureKind
 from studies.features.study import Outcome, Study
 from studies.sheets import Cell, ResultSheet
 
-COUNTS = (
+COUNT_COLUMNS = (
     *("in good view", "recall", "in view", "recall, all in view"),
     *("detections", "precision", "F1"),
 )
@@ -35,8 +35,8 @@ def sheets(study: Study, sigma: float) -> list[ResultSheet]:
         doors_by_plan(study, sigma),
         errors(study),
         strategies(study),
-        by_bin(study, sigma, "range", "range, m", RANGES, 1.0),
-        by_bin(study, sigma, "bearing", "bearing, degrees", BEARINGS, math.degrees(1.0)),
+        by_bin(study, sigma, "range", "range, m", RANGE_BORDERS, 1.0),
+        by_bin(study, sigma, "bearing", "bearing, degrees", BEARING_BORDERS, math.degrees(1.0)),
         reliability(study, sigma),
     ]
 
@@ -45,7 +45,9 @@ def in_short(study: Study, sigma: float) -> list[ResultSheet]:
     """Recall and precision over all poses for one noise; the strategies if there are several."""
     outcome = study.pooled(sigma=sigma)
     rows = [(kind.label, *_counts(outcome, kind)) for kind in FeatureKind]
-    short = ResultSheet(f"Over all poses, sigma {1e3 * sigma:g} mm", ("feature", *COUNTS), rows)
+    short = ResultSheet(
+        f"Over all poses, sigma {1e3 * sigma:g} mm", ("feature", *COUNT_COLUMNS), rows
+    )
     return [short, strategies(study)] if len(study.strategies) > 1 else [short]
 
 
@@ -60,7 +62,7 @@ def found_and_missed(study: Study) -> ResultSheet:
         for kind in FeatureKind
         if outcome.scans
     ]
-    columns = ("poses", "clutter", "sigma, mm", "feature", *COUNTS)
+    columns = ("poses", "clutter", "sigma, mm", "feature", *COUNT_COLUMNS)
     return ResultSheet("Found and missed, default settings", columns, rows)
 
 
@@ -75,7 +77,7 @@ def doors_by_plan(study: Study, sigma: float) -> ResultSheet:
         if outcome.scans
     ]
     title = f"Doors by floor plan, sigma {1e3 * sigma:g} mm"
-    return ResultSheet(title, ("floor plan", "poses", "clutter", *COUNTS), rows)
+    return ResultSheet(title, ("floor plan", "poses", "clutter", *COUNT_COLUMNS), rows)
 
 
 def errors(study: Study) -> ResultSheet:
@@ -127,7 +129,9 @@ def by_bin(
             strict=True,
         )
     ]
-    return ResultSheet(f"By {column}, sigma {1e3 * sigma:g} mm", ("feature", title, *COUNTS), rows)
+    return ResultSheet(
+        f"By {column}, sigma {1e3 * sigma:g} mm", ("feature", title, *COUNT_COLUMNS), rows
+    )
 
 
 def reliability(study: Study, sigma: float) -> ResultSheet:

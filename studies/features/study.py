@@ -19,7 +19,9 @@ from studies.features.comparison import compare
 from studies.features.metrics import Table
 from studies.features.records import CountingLimits, Detection, Sighting, as_table
 
-DEFAULT = "default"
+DEFAULT_STRATEGY = "default"
+"""Name of the default settings in the tables."""
+
 
 CHOICES: dict[str, type[IntEnum]] = {
     "breakpoint_rule": BreakpointRule,
@@ -34,7 +36,7 @@ Strategies = Mapping[str, ExtractorSettings]
 def all_strategies() -> dict[str, ExtractorSettings]:
     """The default settings and, beside them, every other named strategy in their place."""
     default = ExtractorSettings()
-    found = {DEFAULT: default}
+    found = {DEFAULT_STRATEGY: default}
     for choice, strategies in CHOICES.items():
         for name in strategy_names(strategies):
             if name != getattr(default, choice):
@@ -156,7 +158,7 @@ class Study:
 
     def pooled(
         self,
-        strategy: str = DEFAULT,
+        strategy: str = DEFAULT_STRATEGY,
         sigma: float | None = None,
         place: str | None = None,
         clutter: bool | None = None,

@@ -22,7 +22,12 @@ from studies.figures import IMAGES
 
 BEAMS, ANGLE_MIN, INCREMENT, SIGMA = 811, math.radians(-135), math.radians(270 / 810), 0.02
 HALL = ((-3.0, 8.0), (-5.0, 5.0))
-DIAMETERS, DISTANCES = (0.3, 0.4, 0.6, 0.8, 1.0, 2.0), ((1.0, 2.0), (2.0, 3.0), (3.0, 4.0))
+COLUMN_DIAMETERS = (0.3, 0.4, 0.6, 0.8, 1.0, 2.0)
+"""Of the columns of the table, metres."""
+
+DISTANCE_BINS = ((1.0, 2.0), (2.0, 3.0), (3.0, 4.0))
+"""Nearest and farthest centre of a column in a row of the table, metres."""
+
 Column = tuple[Point, float]
 
 
@@ -90,8 +95,8 @@ def main(scans: int = 300) -> None:
     """
     print("| diameter | distance | found | radius error, median | 90th percentile |")
     print("|---|---|---|---|---|")
-    for diameter in DIAMETERS:
-        for nearest, farthest in DISTANCES:
+    for diameter in COLUMN_DIAMETERS:
+        for nearest, farthest in DISTANCE_BINS:
             print(table_row(diameter, nearest, farthest, scans))
     print(false_arcs(scans))
     rng = np.random.default_rng(1)

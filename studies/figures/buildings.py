@@ -14,7 +14,8 @@ from studies.buildings.failure_pages import Failure, draw_failure
 from studies.figures import IMAGES
 
 FLOOR = "gdc_floors/3ne"
-SHOWN = 4
+FAILURES_SHOWN = 4
+"""Failures of each kind that are drawn."""
 
 
 def main(data: Path) -> None:
@@ -34,7 +35,7 @@ def main(data: Path) -> None:
     ax = above.subplots()
     draw_floor_plan(building.plan, ax, names=False)
     ax.set_title("an imported floor: places tinted, open doors green, closed ones red")
-    axes = below.subplots(2, SHOWN)
+    axes = below.subplots(2, FAILURES_SHOWN)
     for row, failures in zip(axes, (missed, false), strict=True):
         for panel, failure in zip(row, islice(failures, 2, None, 3), strict=False):
             draw_failure(panel, building.plan, failure)

@@ -22,16 +22,26 @@ from semnav_env.verifier import plan_goals
 from studies.figures import IMAGES
 
 FLOORS = ("2", "3ne")
-STARTS, FARTHEST, EACH = 60, 12.0, 2
+START_COUNT = 60
+"""Random starts on each floor."""
+
+MAX_GOAL_DISTANCE = 12.0
+"""Commands whose goal is farther from the start are left out, metres."""
+
+COMMANDS_PER_DOOR = 2
+"""Most commands for one door."""
+
 FILM = "3ne", "go to room 3.512", (-14, -5.04, 3.1)
-FRAME_EVERY, SHARE = 10, 0.5
+FRAME_EVERY = 10
+FILM_SCALE = 0.5
+"""Size of the film as a share of the frames."""
 
 
 def tasks(plan: FloorPlan) -> list[tuple[Command, tuple[float, float, float]]]:
-    """Commands by ordinals from random starts, at most `EACH` for a door."""
+    """Commands by ordinals from random starts, at most `COMMANDS_PER_DOOR` for a door."""
     rng = np.random.default_rng(0)
     found: dict[str | None, list[Any]] = {}
-    for _ in range(STARTS):
+    for _ in range(START_COUNT):
         start = sample_pose(plan, WHEELCHAIR, rng)
         for ordinal, side in ((1, Side.LEFT), (2, Side.LEFT), (1, Side.RIGHT), (2, Side.RIGHT)):
             command = Command((GoToDoor(DoorReference(ordinal, side), Approach.THROUGH),))
@@ -42,7 +52,7 @@ def tasks(plan: FloorPlan) -> list[tuple[Command, tuple[float, float, float]]]:
             away = np.hypot(goal.pose[0] - start[0], goal.pose[1] - start[1])
             door = door_of(goal)
             known = found.setdefault(door and door.name, [])
-            if away < FARTHEST and len(known) < EACH:
+            if away < MAX_GOAL_DISTANCE and len(known) < COMMANDS_PER_DOOR:
                 known.append((command, start))
     return [task for known in found.values() for task in known]
 
@@ -70,7 +80,7 @@ def main(data: Path) -> None:
     env = SemNavEnv(floor_plan=plans[name], observation=agent.observation, render_mode="rgb_array")
     there, frames = drive(env, agent, 0, {"command": command, "pose": start})
     print(f"film: {'done' if there else 'not done'}")
-    save_video(IMAGES / "real_floor.gif", frames, 15 / FRAME_EVERY, SHARE)
+    save_video(IMAGES / "real_floor.gif", frames, 15 / FRAME_EVERY, FILM_SCALE)
     for name, plan in plans.items():
         env = SemNavEnv(floor_plan=plan, observation=agent.observation)
         runs = [

@@ -65,7 +65,6 @@ NICHES = Scene(
 )
 """A recess and an arm, each with a door in its back, and a door in the end."""
 
-
 CROPS = {
     "corridor": ((-0.5, 30.5), (6.5, 11.7)),
     "west": ((-0.3, 7.8), (6.9, 11.3)),

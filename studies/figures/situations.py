@@ -18,8 +18,10 @@ from semnav_env.maps import FloorPlan, Material
 from studies.figures import IMAGES
 from tests.situations import ROWS, TABLE, Row, situation
 
-COLUMNS = 3
-BESIDE = 0.6
+PAGE_COLUMNS = 3
+"""Panels beside each other on a page."""
+
+LABEL_OFFSET = 0.6
 """From a door to its label, metres."""
 PAGES = {"rule_rows_doors": "DCFWJ", "rule_rows_facing": "KO", "rule_rows_places": "BRNE"}
 
@@ -29,10 +31,10 @@ def draw_page(name: str, letters: str) -> None:
     rows = [row for row in ROWS if row.id[0] in letters]
     drawn = [key for key, given in TABLE["situations"].items() if "plan" not in given]
     keys = [key for key in drawn if any(row.situation == key for row in rows)]
-    count = math.ceil(len(keys) / COLUMNS)
+    count = math.ceil(len(keys) / PAGE_COLUMNS)
     figure = Figure(figsize=(13.0, 2.0 * count), layout="constrained")
     FigureCanvasAgg(figure)
-    axes = figure.subplots(count, COLUMNS).flat
+    axes = figure.subplots(count, PAGE_COLUMNS).flat
     for ax, key in zip(axes, keys, strict=False):
         draw_situation(ax, key, [row for row in rows if row.situation == key])
     for ax in axes:
@@ -52,7 +54,7 @@ def draw_situation(ax: Axes, key: str, rows: list[Row]) -> None:
             refused.append(row.id)
         else:
             x, y = plan.door(row.expected).midpoint
-            labels[x, y + math.copysign(BESIDE, y)].append(row.id)
+            labels[x, y + math.copysign(LABEL_OFFSET, y)].append(row.id)
     for place, names in labels.items():
         _label(ax, place, " ".join(names))
     error = f" (refused: {', '.join(refused)})" if refused else ""

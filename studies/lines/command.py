@@ -16,8 +16,8 @@ from studies.features.cases import Case, draw_cases
 from studies.lines.line_accuracy import segmentations, wall_accuracy
 from studies.lines.line_quality import (
     EXTRACTORS,
-    STREAM,
-    VERTICES,
+    RANDOM_STREAM,
+    VERTEX_COUNTS,
     LineQuality,
     compare,
     found_logs,
@@ -29,7 +29,8 @@ from studies.lines.line_quality import (
 Means = dict[str, dict[int, LineQuality]]
 Published = dict[tuple[str, str], dict[int, float]]
 
-SIGMAS = (0.01, 0.03)
+RANGE_SIGMAS = (0.01, 0.03)
+"""Standard deviations of the simulated ranges, metres."""
 
 MEASURES = {
     "rmse": ("rmse", "range error of the beams that meet a line, m"),
@@ -74,7 +75,9 @@ class Arguments:
         plans = [load_floor_plan(name) for name in bundled_names()]
         rng = np.random.default_rng(self.seed)
         drawn = (
-            case for plan in plans for case in draw_cases(plan, self.poses, SIGMAS, False, rng)
+            case
+            for plan in plans
+            for case in draw_cases(plan, self.poses, RANGE_SIGMAS, False, rng)
         )
         cases: list[Case] = []
         total = self.poses * len(plans)
@@ -82,7 +85,7 @@ class Arguments:
             cases.append(case)
         rows = [
             (sigma, name, wall_accuracy(cases, sigma, settings))
-            for sigma in SIGMAS
+            for sigma in RANGE_SIGMAS
             for name, settings in segmentations(sigma).items()
         ]
         if self.json:
@@ -101,16 +104,16 @@ class Arguments:
     def _published(self, folder: Path) -> None:
         logs = list(found_logs(folder))
         if not logs:
-            names = ", ".join(f"{name}-corrected.log.gz" for name in STREAM)
+            names = ", ".join(f"{name}-corrected.log.gz" for name in RANDOM_STREAM)
             raise ValueError(f"{folder} holds none of {names}")
-        scans = [scan for name, path in logs for scan in published_scans(path, STREAM[name])]
+        scans = [scan for name, path in logs for scan in published_scans(path, RANDOM_STREAM[name])]
         done: list[list[LineQuality]] = []
-        total = len(scans) * len(VERTICES)
-        work = (compare(scan, n, EXTRACTORS) for n in VERTICES for scan in scans)
+        total = len(scans) * len(VERTEX_COUNTS)
+        work = (compare(scan, n, EXTRACTORS) for n in VERTEX_COUNTS for scan in scans)
         for row in tracked(work, lambda n: f"{n} of {total}", lambda: len(done) / total):
             done.append(row)
         means: Means = {name: {} for name in EXTRACTORS}
-        for k, n in enumerate(VERTICES):
+        for k, n in enumerate(VERTEX_COUNTS):
             rows = done[k * len(scans) : (k + 1) * len(scans)]
             for name, column in zip(EXTRACTORS, zip(*rows, strict=True), strict=True):
                 means[name][n] = mean_quality(list(column))
@@ -126,11 +129,11 @@ class Arguments:
         console = Console()
         console.print(f"{scans} scans of {', '.join(logs)}; by number of vertices")
         for field, (metric, title) in MEASURES.items():
-            table = Table("extractor", *map(str, VERTICES), title=title, title_justify="left")
+            table = Table("extractor", *map(str, VERTEX_COUNTS), title=title, title_justify="left")
             for name, by in means.items():
-                table.add_row(name, *(f"{getattr(by[n], field):.4f}" for n in VERTICES))
+                table.add_row(name, *(f"{getattr(by[n], field):.4f}" for n in VERTEX_COUNTS))
             for (published_metric, algorithm), row in published.items():
                 if published_metric == metric:
-                    cells = (f"{row[n]:.4f}" for n in VERTICES)
+                    cells = (f"{row[n]:.4f}" for n in VERTEX_COUNTS)
                     table.add_row(f"published {algorithm}, 260 scans", *cells)
             console.print(table)

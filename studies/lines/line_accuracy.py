@@ -18,10 +18,17 @@ from semnav_env.features.kernels.scratch import allocate_features, allocate_scra
 from semnav_env.features.strategies import Segmentation, strategy_names
 from studies.features.cases import Case
 
-LENGTH, NEAR = 0.3, 0.15
-"""Shorter walls do not count, and a wall may lie this far from a true one, metres."""
+MIN_WALL_LENGTH = 0.3
+"""Shorter walls do not count, metres."""
 
-SAMPLES, REPEATS = 11, 5
+MAX_WALL_DISTANCE = 0.15
+"""A wall that is farther from every true wall at some point is off, metres."""
+
+WALL_SAMPLES = 11
+"""Points of a wall that are compared with the truth."""
+
+TIMING_ROUNDS = 5
+"""The time is the best of so many rounds."""
 
 
 def segmentations(sigma: float) -> dict[str, ExtractorSettings]:
@@ -35,15 +42,15 @@ def segmentations(sigma: float) -> dict[str, ExtractorSettings]:
 
 @dataclass(frozen=True)
 class WallAccuracy:
-    """The walls of `LENGTH` and more that were found in some scans.
+    """The walls of `MIN_WALL_LENGTH` and more that were found in some scans.
 
     Attributes:
         walls: how many a scan.
-        off: share that is somewhere more than `NEAR` away from every true wall.
+        off: share that is somewhere more than `MAX_WALL_DISTANCE` away from every true wall.
         median: of the angle between a wall and the true wall beside its middle, degrees.
         p90: 90th percentile of the same.
         bridging: walls that run across an open door.
-        microseconds: what the whole chain takes for one scan, best of `REPEATS` rounds.
+        microseconds: what the whole chain takes for one scan, best of `TIMING_ROUNDS` rounds.
     """
 
     walls: float
@@ -62,7 +69,7 @@ def wall_accuracy(cases: Sequence[Case], sigma: float, settings: ExtractorSettin
     for case, scan in zip(cases, scans, strict=True):
         truth = np.array([(wall.start, wall.end) for wall in case.truth.walls]).reshape(-1, 2, 2)
         for wall in extract(scan, settings).walls:
-            if wall.length >= LENGTH:
+            if wall.length >= MIN_WALL_LENGTH:
                 count += 1
                 bridging += any(_crosses(wall, door) for door in case.truth.doors)
                 angles += _angle(wall, truth)
@@ -79,11 +86,11 @@ def wall_accuracy(cases: Sequence[Case], sigma: float, settings: ExtractorSettin
 
 def _angle(wall: Wall, truth: FloatArray) -> list[float]:
     """The angle to the true wall beside the middle of a wall, radians; nothing if it is off."""
-    points = np.linspace(wall.start, wall.end, SAMPLES)
+    points = np.linspace(wall.start, wall.end, WALL_SAMPLES)
     distances = _distances(points, truth)
-    if not len(truth) or distances.min(axis=1).max() > NEAR:
+    if not len(truth) or distances.min(axis=1).max() > MAX_WALL_DISTANCE:
         return []
-    start, end = truth[np.argmin(distances[SAMPLES // 2])]
+    start, end = truth[np.argmin(distances[WALL_SAMPLES // 2])]
     (ax, ay), (bx, by) = end - start, points[-1] - points[0]
     return [math.atan2(abs(ax * by - ay * bx), abs(ax * bx + ay * by))]
 
@@ -103,7 +110,7 @@ def _crosses(wall: Wall, door: Door) -> bool:
     shares: NDArray[np.float64] = np.array((0.25, 0.5, 0.75))[:, None]
     points = (1.0 - shares) * door.start + shares * np.array(door.end)
     segment = np.array([(wall.start, wall.end)])
-    return bool((_distances(points, segment) < NEAR).all())
+    return bool((_distances(points, segment) < MAX_WALL_DISTANCE).all())
 
 
 def seconds_a_scan(scans: Iterable[Scan], settings: ExtractorSettings) -> float:
@@ -121,7 +128,7 @@ def seconds_a_scan(scans: Iterable[Scan], settings: ExtractorSettings) -> float:
     record, features = settings.as_record(), allocate_features()
     scratch = allocate_scratch(max(len(sweep[0]) for sweep in sweeps))
     rounds = []
-    for _ in range(REPEATS + 1):
+    for _ in range(TIMING_ROUNDS + 1):
         start = time.perf_counter()
         for sweep in sweeps:
             extract_arrays(*sweep, record, scratch, *features)

@@ -16,9 +16,11 @@ from semnav_env.features.scan import Scan
 Lines = tuple[FloatArray, ...]
 """Polylines, each of shape (m, 2), metres, lidar frame."""
 
-LINK, MISSED = 1.0, 0.5
-"""What the published experiments used: the longest gap that is joined, and what a beam that meets
-no line counts, metres."""
+MAX_LINK_GAP = 1.0
+"""Longest gap that is joined in the published experiments, metres."""
+
+MISSED_ERROR = 0.5
+"""What a beam that meets no line counts in the published experiments, metres."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +44,7 @@ class Hits:
         ranges, angles = scan.ranges[beams], scan.angles[beams]
         directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)
         steps = np.hypot(*np.diff(ranges[:, None] * directions, axis=0).T)
-        linked = (np.diff(beams) == 1) & (steps <= LINK)
+        linked = (np.diff(beams) == 1) & (steps <= MAX_LINK_GAP)
         return cls(ranges, directions, np.concatenate(([False], linked))[: len(ranges)])
 
     @property
@@ -150,7 +152,7 @@ class _Chain:
         other = max(before, after)
         alone = self.before[other] < 0 or self.after[other] < 0
         unexplained = abs(at - other) + alone
-        return unexplained * MISSED**2 - chord(min(at, other), max(at, other))
+        return unexplained * MISSED_ERROR**2 - chord(min(at, other), max(at, other))
 
 
 def walls(scan: Scan, settings: ExtractorSettings | None = None) -> Lines:

@@ -22,7 +22,7 @@ from semnav_env.features import polylines
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.readers import open_log
 from semnav_env.features.scan import Scan
-from studies.lines.line_baselines import MISSED, Lines, end_point_fit, greedy_polylines
+from studies.lines.line_baselines import MISSED_ERROR, Lines, end_point_fit, greedy_polylines
 
 Extractor = Callable[[Scan, int], Lines]
 
@@ -36,10 +36,11 @@ EXTRACTORS: Mapping[str, Extractor] = {
 }
 """What is compared, from a scan and a number of vertices to lines."""
 
-VERTICES = (10, 20, 30, 40, 50)
+VERTEX_COUNTS = (10, 20, 30, 40, 50)
+"""Numbers of vertices of the published comparison."""
 
-BESIDE = 1e-3
-"""A beam that meets no line but passes the end of one by less meets that, radians."""
+MAX_END_ANGLE = 1e-3
+"""A beam that meets no line, but passes the end of one by less than this, meets it; radians."""
 
 
 def predicted_ranges(scan: Scan, lines: Lines) -> FloatArray:
@@ -52,7 +53,7 @@ def predicted_ranges(scan: Scan, lines: Lines) -> FloatArray:
             middle = np.arctan2(*(a / np.hypot(*a) + b / np.hypot(*b))[::-1])
             half = abs(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b)) / 2
             off = np.abs(np.remainder(angles - middle + np.pi, 2 * np.pi) - np.pi) - half
-            met = np.flatnonzero(off <= BESIDE)
+            met = np.flatnonzero(off <= MAX_END_ANGLE)
             slope = directions[met] @ (b[1] - a[1], a[0] - b[0])
             with np.errstate(divide="ignore", invalid="ignore"):
                 reach = (a[0] * b[1] - a[1] * b[0]) / slope
@@ -106,7 +107,7 @@ def _measured(
     scan: Scan, ranges: FloatArray, common: NDArray[np.bool_], vertices: int, seconds: float
 ) -> LineQuality:
     valid, met = scan.valid, np.isfinite(ranges)
-    error = np.full(len(ranges), MISSED)
+    error = np.full(len(ranges), MISSED_ERROR)
     error[valid & met] = scan.ranges[valid & met] - ranges[valid & met]
     return LineQuality(
         _rms(error[valid & met]),
@@ -135,7 +136,7 @@ def mean_quality(rows: list[LineQuality]) -> LineQuality:
     )
 
 
-STREAM = {
+RANDOM_STREAM = {
     "aces": 41,
     "csail": 122,
     "fhw": 204,
@@ -155,7 +156,7 @@ def published_scans(log: Path, stream: int, count: int = 20) -> list[Scan]:
 
     Args:
         log: the CARMEN log.
-        stream: position of the log's random numbers, as in `STREAM`.
+        stream: position of the log's random numbers, as in `RANDOM_STREAM`.
         count: how many were drawn.
 
     Raises:
@@ -183,7 +184,7 @@ def published_table(path: Path) -> dict[tuple[str, str], dict[int, float]]:
         rows = list(csv.DictReader(file))
     try:
         return {
-            (row["metric"], row["algorithm"]): {n: float(row[f"n={n}"]) for n in VERTICES}
+            (row["metric"], row["algorithm"]): {n: float(row[f"n={n}"]) for n in VERTEX_COUNTS}
             for row in rows
             if row["dataset"] == "real"
         }
@@ -193,7 +194,7 @@ def published_table(path: Path) -> dict[tuple[str, str], dict[int, float]]:
 
 def found_logs(folder: Path) -> Iterator[tuple[str, Path]]:
     """The logs in a folder whose published scans are known, by name."""
-    for name in STREAM:
+    for name in RANDOM_STREAM:
         path = folder / f"{name}-corrected.log.gz"
         if path.exists():
             yield name, path

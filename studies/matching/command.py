@@ -18,7 +18,7 @@ from semnav_env.maps.importers import load_vector_map
 from semnav_env.scripts.progress import tracked
 from studies.matching.drift import drift_of
 from studies.matching.matching import (
-    COVERED,
+    CHI_SQUARE_95,
     PairError,
     PairSpec,
     errors_of,
@@ -141,7 +141,7 @@ def _simulated_row(errors: list[PairError]) -> tuple[Cell, ...]:
         len(errors),
         *map(float, (*position, *angle)),
         float(np.mean([error.nees for error in errors])),
-        float(np.mean([error.nees < COVERED for error in errors])),
+        float(np.mean([error.nees < CHI_SQUARE_95 for error in errors])),
         sum(error.undetermined for error in errors),
         float(np.median([error.seconds for error in errors])) * 1e3,
     )

@@ -13,8 +13,8 @@ from semnav_env.features.frames import FloatArray, Pose, relative
 from semnav_env.features.mapping import MatchSettings, ScanOdometry
 from semnav_env.features.readers import LogRecord
 
-STRETCH = 10.0
-"""Drift is told over ways of this length, metres."""
+DRIFT_STRETCH = 10.0
+"""Length of the ways over which drift is told, metres."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +25,7 @@ class Drift:
         scans: how many.
         path: length of the way, metres.
         lost: scans that could not be matched.
-        position: error of the displacement over every way of `STRETCH` metres, metres.
+        position: error of the displacement over every way of `DRIFT_STRETCH` metres, metres.
         angle: error of the turn, radians, not negative.
     """
 
@@ -67,7 +67,7 @@ def drift_of(
 
 
 def _errors(found: list[Pose], true: list[Pose], way: FloatArray) -> tuple[FloatArray, FloatArray]:
-    stops = np.searchsorted(way, way + STRETCH)
+    stops = np.searchsorted(way, way + DRIFT_STRETCH)
     errors = [
         relative(relative(true[i], true[j]), relative(found[i], found[j]))
         for i, j in enumerate(stops.tolist())

@@ -23,10 +23,10 @@ from semnav_env.robots import WHEELCHAIR
 Way = tuple[Point, Point]
 """A straight way that a robot can take, metres."""
 
-CLEARANCE = 0.3
-"""From a sampled pose to the nearest thing, metres."""
+POSE_CLEARANCE = 0.3
+"""Least distance from a sampled pose to anything, metres."""
 
-COVERED = 7.815
+CHI_SQUARE_95 = 7.815
 """95 % of a chi-square with three degrees of freedom lies below this."""
 
 
@@ -132,7 +132,7 @@ def simulated_pairs(
     for first in poses:
         pose = _moved((0.0, 0.0, 0.0), rng.uniform(*spec.moved), rng.uniform(*spec.turned), rng)
         second = compose(first, pose)
-        if min(_clearance(sensor, first), _clearance(sensor, second)) < CLEARANCE:
+        if min(_clearance(sensor, first), _clearance(sensor, second)) < POSE_CLEARANCE:
             continue
         guess = _moved(pose, spec.guess_position, spec.guess_angle, rng)
         key = int(rng.integers(2**31))

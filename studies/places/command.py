@@ -10,7 +10,7 @@ from semnav_env.features import ExtractorSettings
 from studies.places.passage import PassageLimits
 from studies.places.place_scans import (
     CLUTTER_SLICES,
-    CORRIDOR,
+    CORRIDOR_LABEL,
     called_corridor,
     place_sheets,
     read_place_labels,
@@ -30,7 +30,7 @@ class Arguments:
     """
 
     data: Path
-    corridor: str = CORRIDOR
+    corridor: str = CORRIDOR_LABEL
     settings: ExtractorSettings = field(default_factory=ExtractorSettings)
     limits: PassageLimits = field(default_factory=PassageLimits)
     json: bool = False

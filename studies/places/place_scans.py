@@ -15,7 +15,8 @@ from studies.places.passage import PassageLimits, is_corridor
 from studies.sheets import Cell, ResultSheet
 
 CLUTTER_SLICES = Path("clutter_slices") / "clutter_slices.npz"
-CORRIDOR = "Corridor_main"
+CORRIDOR_LABEL = "Corridor_main"
+"""What the corridor is called in the labels."""
 
 
 @dataclass(frozen=True)

@@ -22,11 +22,12 @@ from semnav_env.maps.floor_plan import FloorPlan
 from studies.features.cases import draw_cases
 
 Labels = NDArray[np.int64]
-"""Which segment each beam belongs to, shape (n,); `NONE` for none."""
+"""Which segment each beam belongs to, shape (n,); `NO_SEGMENT` for none."""
 
-NONE = -1
+NO_SEGMENT = -1
+"""Label of a beam that belongs to no segment."""
 
-TOUCHING = 0.011
+MAX_TOUCH_GAP = 0.011
 """Pieces that end and begin this close together are one surface, metres."""
 
 CLOSED = 0.3
@@ -84,12 +85,12 @@ def label(scan: Scan, noise: float, truth: Scene, settings: ExtractorSettings) -
     """
     pieces = _in_beam_order(scan, truth)
     points = np.full((len(scan.ranges), 2), np.nan)
-    lines, surfaces = (np.full(len(scan.ranges), NONE) for _ in range(2))
+    lines, surfaces = (np.full(len(scan.ranges), NO_SEGMENT) for _ in range(2))
     kept: list[Wall] = []
     surface = 0
     for k, piece in enumerate(pieces):
         beams = _beams(scan, piece)
-        if k and math.dist(pieces[k - 1].end, piece.start) > TOUCHING:
+        if k and math.dist(pieces[k - 1].end, piece.start) > MAX_TOUCH_GAP:
             surface += 1
         surfaces[beams] = surface
         points[beams] = _hits(scan, piece, beams)
@@ -188,7 +189,7 @@ def found_surfaces(scan: Scan, settings: ExtractorSettings) -> Labels:
 
 def _filled(beams: int, first: list[int], last: list[int]) -> Labels:
     """Labels of beams in spans; what is between its ends belongs to a span, dropouts included."""
-    labels = np.full(beams, NONE)
+    labels = np.full(beams, NO_SEGMENT)
     for number, (a, b) in enumerate(zip(first, last, strict=True)):
         labels[a : b + 1] = number
     return labels

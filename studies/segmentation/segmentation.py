@@ -11,7 +11,7 @@ import numpy as np
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.settings import ExtractorSettings
 from studies.segmentation.segment_labels import (
-    NONE,
+    NO_SEGMENT,
     LabelledScan,
     Labels,
     found_lines,
@@ -34,8 +34,8 @@ def detected_length(
 
     Args:
         points: exact hits, metres, shape (n, 2).
-        true: the segment that each beam hits, or `NONE`.
-        found: the segment that each beam was put into, or `NONE`.
+        true: the segment that each beam hits, or `NO_SEGMENT`.
+        found: the segment that each beam was put into, or `NO_SEGMENT`.
         owners: what each true segment is a part of; itself if None. A found segment may span
             several parts of its owner.
 
@@ -43,15 +43,15 @@ def detected_length(
         Metres detected and metres expected.
     """
     if owners is None:
-        owners = np.arange(true.max(initial=NONE) + 1)
+        owners = np.arange(true.max(initial=NO_SEGMENT) + 1)
     steps = np.hypot(*np.diff(points, axis=0).T)
-    within = (true[1:] == true[:-1]) & (true[1:] != NONE)
+    within = (true[1:] == true[:-1]) & (true[1:] != NO_SEGMENT)
     expected = float(steps[within].sum())
-    same = within & (found[1:] == found[:-1]) & (found[1:] != NONE)
-    shape = (true.max(initial=NONE) + 1, found.max(initial=NONE) + 1)
+    same = within & (found[1:] == found[:-1]) & (found[1:] != NO_SEGMENT)
+    shape = (true.max(initial=NO_SEGMENT) + 1, found.max(initial=NO_SEGMENT) + 1)
     shared = np.zeros(shape)
     np.add.at(shared, (true[1:][same], found[1:][same]), steps[same])
-    whole = np.zeros((owners.max(initial=NONE) + 1, shape[1]))
+    whole = np.zeros((owners.max(initial=NO_SEGMENT) + 1, shape[1]))
     np.add.at(whole, owners, shared)
     if not shared.size:
         return 0.0, expected

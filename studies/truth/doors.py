@@ -12,10 +12,10 @@ from semnav_env.features.scene import Door, SceneLeaf
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor
 from studies.truth.sweep import Outline, distances_along, points_at
 
-HUNG = 0.05
+MAX_HINGE_GAP = 0.05
 """A leaf that begins this close to a jamb hangs there, metres."""
 
-GLIMPSE = 1e-6
+MIN_VISIBLE_SHARE = 1e-6
 """A smaller share of an opening in view is a matter of rounding."""
 
 
@@ -50,7 +50,7 @@ def open_doors(floor_plan: FloorPlan) -> list[OpenDoor]:
 def _with_leaf(door: PlanDoor, leaves: list[tuple[int, tuple[Point, ...]]]) -> OpenDoor:
     for jamb in (door.start, door.end):
         for number, points in leaves:
-            if math.dist(points[0], jamb) <= HUNG:
+            if math.dist(points[0], jamb) <= MAX_HINGE_GAP:
                 return OpenDoor(door, jamb, points[-1], number)
     return OpenDoor(door)
 
@@ -77,7 +77,7 @@ def see_door(
     if start[0] * end[1] - start[1] * end[0] < 0.0:
         start, end = end, start
     share = visible_share(start, end, outline, marks, range_max)
-    if share < GLIMPSE:
+    if share < MIN_VISIBLE_SHARE:
         return None
     leaf = _leaf(door, lidar, start, end) if door.surface in surfaces else None
     return Door(start, end, door.door.name, leaf=leaf, visible=share)

@@ -13,12 +13,12 @@ from semnav_env.features.frames import FloatArray, Point, Pose, to_local
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.features.scene import Arc, Wall
 from studies.truth.shapes import PlanCircle, Shapes
-from studies.truth.sweep import NOTHING, Outline
+from studies.truth.sweep import NO_OWNER, Outline
 
-JOINED = 0.01
+MAX_JOINT_GAP = 0.01
 """Stretches that end and begin this close together belong together, metres."""
 
-STRAIGHT = 0.01
+MAX_BOW = 0.01
 """What stays this close to a straight line is one straight wall, metres."""
 
 
@@ -55,9 +55,9 @@ def cut_into_runs(outline: Outline, shapes: Shapes, lidar: Pose, spec: LidarSpec
 
 
 def joined(outline: Outline, first: int, second: int) -> bool:
-    """Whether two stretches that follow each other touch; nothing touches `NOTHING`."""
+    """Whether two stretches that follow each other touch; nothing touches `NO_OWNER`."""
     gap = outline.starts[second] - outline.ends[first]
-    return bool(gap @ gap <= JOINED**2)  # false for NaN
+    return bool(gap @ gap <= MAX_JOINT_GAP**2)  # false for NaN
 
 
 def seam(outline: Outline) -> float:
@@ -78,7 +78,7 @@ def seam(outline: Outline) -> float:
 def _connected(outline: Outline) -> Iterator[list[int]]:
     """Successive stretches that touch."""
     group: list[int] = []
-    for k in np.flatnonzero(outline.owners != NOTHING).tolist():
+    for k in np.flatnonzero(outline.owners != NO_OWNER).tolist():
         if group and not (k == group[-1] + 1 and joined(outline, group[-1], k)):
             yield group
             group = []
@@ -94,7 +94,7 @@ def _by_shape(
 
     def surface(k: int) -> int:
         number = int(shapes.surfaces[outline.owners[k]])
-        return number if number in shapes.circles else NOTHING
+        return number if number in shapes.circles else NO_OWNER
 
     for number, part in groupby(group, key=surface):
         yield shapes.circles.get(number), list(part)
@@ -118,14 +118,14 @@ def _pieces(
 def straight_parts(points: FloatArray) -> list[int]:
     """Where a polyline bends: the indices of the points that matter.
 
-    What lies between two of them is within `STRAIGHT` of the line between them. Found as by
+    What lies between two of them is within `MAX_BOW` of the line between them. Found as by
     Douglas and Peucker (1973), who may split a straight side that is parallel to the line from
     the first point to the last; so splits that are not needed are taken back.
     """
     last = len(points) - 1
     bends = [0]
     for candidate, following in pairwise(_split(points, 0, last)):
-        if _farthest(points, bends[-1], following)[1] > STRAIGHT:
+        if _farthest(points, bends[-1], following)[1] > MAX_BOW:
             bends.append(candidate)
     return [*bends, last]
 
@@ -133,7 +133,7 @@ def straight_parts(points: FloatArray) -> list[int]:
 def _split(points: FloatArray, first: int, last: int) -> list[int]:
     """Indices after `first`, up to `last`, where a polyline must be split."""
     farthest, away = _farthest(points, first, last)
-    if away <= STRAIGHT:
+    if away <= MAX_BOW:
         return [last]
     return _split(points, first, farthest) + _split(points, farthest, last)
 
@@ -186,6 +186,6 @@ def _flagged(piece: Wall | Arc, end: str, outline: Outline, stretch: int, step: 
     beside, count = stretch + step, len(outline.owners)
     if isinstance(piece, Arc) or not (outline.full or 0 <= beside < count):
         return piece
-    reason = "rupture" if outline.owners[beside % count] == NOTHING else "break"
+    reason = "rupture" if outline.owners[beside % count] == NO_OWNER else "break"
     flags = {f"{end}_{reason}": True}
     return replace(piece, **flags)  # type: ignore[arg-type]

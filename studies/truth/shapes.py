@@ -14,20 +14,20 @@ from scipy.spatial import cKDTree
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
 
-ROUND_ERROR = 0.01
+MAX_CIRCLE_ERROR = 0.01
 """The points of a round surface lie this close to its circle, metres."""
 
-ROUND_STEP = math.radians(30.0)
-"""Each edge of a round surface spans at most this about the centre."""
+MAX_EDGE_ANGLE = math.radians(30.0)
+"""Greatest angle of an edge of a round surface about the centre, radians."""
 
-ROUND_EDGES = 4
+MIN_ROUND_EDGES = 4
 """Fewest edges of a round surface."""
 
-TOUCH = 1e-6
+SAME_END_DISTANCE = 1e-6
 """Ends this close together are one, metres."""
 
-STRAIGHT_ON = math.radians(0.5)
-"""Segments that meet at a smaller turn are one wall."""
+MAX_STRAIGHT_TURN = math.radians(0.5)
+"""Segments that meet at a smaller turn are one wall, radians."""
 
 
 @dataclass(frozen=True)
@@ -86,13 +86,13 @@ class Shapes:
 def fit_circle(surface: Surface) -> PlanCircle | None:
     """The circle that a surface follows, if it is round.
 
-    It is if all its points lie within `ROUND_ERROR` of one circle, fitted by least squares
-    (Kasa 1976), and it has at least `ROUND_EDGES` edges that turn the same way, each by at most
-    `ROUND_STEP` about the centre. A column drawn with twelve sides or more is round; an
+    It is if all its points lie within `MAX_CIRCLE_ERROR` of one circle, fitted by least squares
+    (Kasa 1976), and it has at least `MIN_ROUND_EDGES` edges that turn the same way, each by at most
+    `MAX_EDGE_ANGLE` about the centre. A column drawn with twelve sides or more is round; an
     octagonal one has eight walls.
     """
     points = np.array(surface.points, dtype=np.float64)
-    if len(points) <= ROUND_EDGES:
+    if len(points) <= MIN_ROUND_EDGES:
         return None
     origin = points.mean(axis=0)
     matrix = np.column_stack((2.0 * (points - origin), np.ones(len(points))))
@@ -105,8 +105,8 @@ def fit_circle(surface: Surface) -> PlanCircle | None:
     radius = math.sqrt(solution[2] + solution[:2] @ solution[:2])
     turns = _turns(np.arctan2(arms[:, 1], arms[:, 0]))
     one_way = bool((turns > 0.0).all() or (turns < 0.0).all())
-    close = bool((np.abs(np.hypot(*arms.T) - radius) <= ROUND_ERROR).all())
-    if not (close and one_way and (np.abs(turns) <= ROUND_STEP + 1e-9).all()):
+    close = bool((np.abs(np.hypot(*arms.T) - radius) <= MAX_CIRCLE_ERROR).all())
+    if not (close and one_way and (np.abs(turns) <= MAX_EDGE_ANGLE + 1e-9).all()):
         return None
     return PlanCircle((float(centre[0]), float(centre[1])), radius, float(np.abs(turns).sum()))
 
@@ -118,10 +118,12 @@ def straight_walls(segments: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
         The wall of each segment, shape (n,), and the walls' lengths, shape (k,), metres.
     """
     along = segments[:, 2:] - segments[:, :2]
-    pairs = cKDTree(segments.reshape(-1, 2)).query_pairs(TOUCH, output_type="ndarray") // 2
+    pairs = (
+        cKDTree(segments.reshape(-1, 2)).query_pairs(SAME_END_DISTANCE, output_type="ndarray") // 2
+    )
     a, b = along[pairs[:, 0]], along[pairs[:, 1]]
     sines = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    straight = np.abs(sines) < math.sin(STRAIGHT_ON) * np.hypot(*a.T) * np.hypot(*b.T)
+    straight = np.abs(sines) < math.sin(MAX_STRAIGHT_TURN) * np.hypot(*a.T) * np.hypot(*b.T)
     i, j = pairs[straight].T
     graph = coo_array((np.ones(len(i)), (i, j)), shape=(len(segments), len(segments)))
     _, walls = connected_components(graph, directed=False)

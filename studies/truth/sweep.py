@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.lidar_spec import LidarSpec
 
-NARROWEST = 1e-7
+SAME_DIRECTION_ANGLE = 1e-7
 """Directions closer together than this are one, radians."""
 
-SNAP = 1e-9
+END_SNAP = 1e-9
 """A point of a segment this close to its end is the end, metres."""
 
-NOTHING = -1
+NO_OWNER = -1
 """The owner of a direction without a return."""
 
 
@@ -33,7 +33,7 @@ class Outline:
 
     Attributes:
         angles: where each begins and where the last one ends, radians, shape (n + 1,).
-        owners: row of the segment that is seen, or `NOTHING`, shape (n,).
+        owners: row of the segment that is seen, or `NO_OWNER`, shape (n,).
         starts: first point of each, metres, shape (n, 2); NaN where nothing is seen.
         ends: last point of each, shape (n, 2).
         full: the sweep is a full circle, so the last stretch is followed by the first.
@@ -50,14 +50,18 @@ class Outline:
 
         Infinite without a return, zero outside of the lidar's field of view.
         """
-        turned = self.angles[0] + (angles - self.angles[0] + NARROWEST) % math.tau - NARROWEST
-        outside = turned > self.angles[-1] + NARROWEST
+        turned = (
+            self.angles[0]
+            + (angles - self.angles[0] + SAME_DIRECTION_ANGLE) % math.tau
+            - SAME_DIRECTION_ANGLE
+        )
+        outside = turned > self.angles[-1] + SAME_DIRECTION_ANGLE
         places = np.searchsorted(self.angles[1:-1], turned, side="right")
         stretches = np.concatenate((self.starts[places], self.ends[places]), axis=1)
         a, along = stretches[:, :2], stretches[:, 2:] - stretches[:, :2]
         facing = np.cos(angles) * along[:, 1] - np.sin(angles) * along[:, 0]
         distances = (a[:, 0] * along[:, 1] - a[:, 1] * along[:, 0]) / facing
-        distances = np.where(self.owners[places] == NOTHING, np.inf, distances)
+        distances = np.where(self.owners[places] == NO_OWNER, np.inf, distances)
         return np.where(outside, 0.0, distances)
 
 
@@ -85,8 +89,8 @@ def sweep(segments: FloatArray, marks: FloatArray, spec: LidarSpec, begin: float
     edges = _edges(np.arctan2(marks[:, 1], marks[:, 0]) - begin, span)
     middles = begin + 0.5 * (edges[:-1] + edges[1:])
     owners, distances = nearest(segments, middles)
-    owners[(distances >= spec.range_max) | (distances < spec.range_min)] = NOTHING
-    first = np.flatnonzero(np.diff(owners, prepend=NOTHING - 1))
+    owners[(distances >= spec.range_max) | (distances < spec.range_min)] = NO_OWNER
+    first = np.flatnonzero(np.diff(owners, prepend=NO_OWNER - 1))
     last = np.append(first[1:], len(owners))
     angles, owners = begin + np.append(edges[first], edges[last[-1]]), owners[first]
     starts = points_at(segments, owners, angles[:-1])
@@ -105,7 +109,7 @@ def nearest(segments: FloatArray, angles: FloatArray) -> tuple[NDArray[np.intp],
         Rows, shape (m,), and metres, shape (m,); infinity where there is none.
     """
     if not len(segments):
-        return np.full(len(angles), NOTHING, dtype=np.intp), np.full(len(angles), np.inf)
+        return np.full(len(angles), NO_OWNER, dtype=np.intp), np.full(len(angles), np.inf)
     distances = distances_along(segments, angles)
     rows = distances.argmin(axis=1)
     return rows, distances[np.arange(len(angles)), rows]
@@ -124,17 +128,17 @@ def distances_along(segments: FloatArray, angles: FloatArray) -> FloatArray:
 
 
 def points_at(segments: FloatArray, rows: NDArray[np.intp], angles: FloatArray) -> FloatArray:
-    """Where rays meet the segments of these rows, shape (k, 2); NaN for `NOTHING`."""
+    """Where rays meet the segments of these rows, shape (k, 2); NaN for `NO_OWNER`."""
     if not len(segments):
         return np.full((len(rows), 2), np.nan)
     a, along = segments[rows, :2], segments[rows, 2:] - segments[rows, :2]
     cos, sin = np.cos(angles), np.sin(angles)
-    with np.errstate(divide="ignore", invalid="ignore"):  # the row of `NOTHING` is any segment's
+    with np.errstate(divide="ignore", invalid="ignore"):  # the row of `NO_OWNER` is any segment's
         place = (a[:, 0] * sin - a[:, 1] * cos) / (cos * along[:, 1] - sin * along[:, 0])
-    snap = SNAP / np.hypot(*along.T)
+    snap = END_SNAP / np.hypot(*along.T)
     place = np.where(place < snap, 0.0, np.where(place > 1.0 - snap, 1.0, place))
     points = np.where((place == 1.0)[:, None], segments[rows, 2:], a + place[:, None] * along)
-    return np.where((rows == NOTHING)[:, None], np.nan, points)
+    return np.where((rows == NO_OWNER)[:, None], np.nan, points)
 
 
 def at_range(segments: FloatArray, limit: float) -> FloatArray:
@@ -152,6 +156,6 @@ def at_range(segments: FloatArray, limit: float) -> FloatArray:
 def _edges(angles: FloatArray, span: float) -> FloatArray:
     """Sorted distinct directions from 0 to `span`, both included."""
     turned = np.sort(angles % (math.tau))
-    turned = turned[(turned > NARROWEST) & (turned < span - NARROWEST)]
-    kept = turned[np.diff(turned, prepend=0.0) > NARROWEST]
+    turned = turned[(turned > SAME_DIRECTION_ANGLE) & (turned < span - SAME_DIRECTION_ANGLE)]
+    kept = turned[np.diff(turned, prepend=0.0) > SAME_DIRECTION_ANGLE]
     return np.concatenate(([0.0], kept, [span]))

@@ -18,7 +18,7 @@ from studies.truth.corridors import true_corridors
 from studies.truth.doors import open_doors, see_door
 from studies.truth.runs import cut_into_runs, seam
 from studies.truth.shapes import Shapes
-from studies.truth.sweep import NOTHING, Outline, at_range, crossings, sweep
+from studies.truth.sweep import NO_OWNER, Outline, at_range, crossings, sweep
 
 DEFAULT_SETTINGS = ExtractorSettings()
 
@@ -95,7 +95,7 @@ class TrueView:
         pieces = [piece for run in runs for piece in run.pieces]
         walls = [piece for piece in pieces if isinstance(piece, Wall)]
         joints = [j for run in runs for j in find_joints(run, self.settings.corner_angle)]
-        seen = set(self._shapes.surfaces[outline.owners[outline.owners != NOTHING]].tolist())
+        seen = set(self._shapes.surfaces[outline.owners[outline.owners != NO_OWNER]].tolist())
         reach = self.lidar.spec.range_max
         doors = [see_door(door, pose, outline, marks, seen, reach) for door in self._doors]
         return Scene(
@@ -117,7 +117,7 @@ class TrueView:
         outline = sweep(lines[near], marks, spec, spec.angle_min)
         if outline.full:
             outline = sweep(lines[near], marks, spec, seam(outline))
-        owners = np.append(near, NOTHING)[outline.owners]
+        owners = np.append(near, NO_OWNER)[outline.owners]
         return replace(outline, owners=owners), np.append(
             np.arctan2(marks[:, 1], marks[:, 0]), outline.angles
         )

@@ -25,7 +25,7 @@ from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import RobotSpec
 from semnav_env.verifier import place, plan_goals
 
-FARTHEST = 3
+MAX_ORDINAL = 3
 """Doors are counted up to this."""
 
 
@@ -102,7 +102,7 @@ def _leads_there(env: SemNavEnv, trial: Unsaid) -> bool:
 def _trials_from(pose: Pose, in_room: bool) -> Iterator[Unsaid]:
     into = [GoToDoor(DoorReference(1, side)) for side in (Side.LEFT, Side.RIGHT)]
     for side, turning in ((Side.LEFT, Turning.LEFT), (Side.RIGHT, Turning.RIGHT)):
-        for number in range(1, FARTHEST + 1):
+        for number in range(1, MAX_ORDINAL + 1):
             door = GoToDoor(DoorReference(number, side))
             for before in [()] if in_room else [(first,) for first in into]:
                 said, meant = (*before, door), (*before, Leave(), Turn(turning), door)
