@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from enum import IntEnum
 
 import numpy as np
 
+from semnav_env.features.rules import DoorRules
 from semnav_env.features.strategies import BreakpointRule, Segmentation, strategy_names
 
 _RECORD_TYPES = {"float": "f8", "int": "i8", "bool": "?", "str": "i8"}
@@ -16,6 +17,8 @@ _STRATEGIES: dict[str, type[IntEnum]] = {
     "segmentation": Segmentation,
 }
 """What the fields that hold a name choose from; the kernels get the number behind the name."""
+
+_DOOR = DoorRules()
 
 
 @dataclass(frozen=True)
@@ -58,11 +61,10 @@ class ExtractorSettings:
         merge_offset: a step between two walls that is still taken for one wall, metres.
         robust_fit: fit every line once more with less weight on points that are off it.
         confidence: how many standard deviations of a line fit are tolerated.
-        door_width_min: narrowest door, metres (thesis section 3.1: 0.8; room doors that were
-            measured are 0.76 to 0.83 clear).
-        door_width_max: widest door, metres (thesis section 3.1: 1.2).
-        door_width_tolerance: added to both limits, metres; on top of it each jamb may lie one
-            beam spacing inside the gap that was measured.
+        door_width_min: narrowest door, metres, see `rules.DoorRules`.
+        door_width_max: widest door, metres, see `rules.DoorRules`.
+        door_width_tolerance: added to both limits, metres, see `rules.DoorRules`; on top of it each
+            jamb may lie one beam spacing inside the gap that was measured.
         door_angle_tolerance: angle between a door and its wall on top of the fit's own
             uncertainty, radians (thesis: 2 degrees in all; walls drawn or built a few centimetres
             off need more).
@@ -127,9 +129,9 @@ class ExtractorSettings:
     merge_offset: float = 0.015
     robust_fit: bool = False
     confidence: float = 2.0
-    door_width_min: float = 0.7
-    door_width_max: float = 1.2
-    door_width_tolerance: float = 0.05
+    door_width_min: float = _DOOR.width_min
+    door_width_max: float = _DOOR.width_max
+    door_width_tolerance: float = _DOOR.width_tolerance
     door_angle_tolerance: float = math.radians(4.0)
     door_point_tolerance: float = 0.05
     door_wall_gap: float = 0.4
@@ -168,6 +170,20 @@ class ExtractorSettings:
                     f"{small} is {getattr(self, small)}; it must not exceed {large}, "
                     f"which is {getattr(self, large)}"
                 )
+
+    @property
+    def door_rules(self) -> DoorRules:
+        """What counts as a door by these settings."""
+        return DoorRules(self.door_width_min, self.door_width_max, self.door_width_tolerance)
+
+    def with_doors(self, rules: DoorRules) -> ExtractorSettings:
+        """The same settings with other doors."""
+        return replace(
+            self,
+            door_width_min=rules.width_min,
+            door_width_max=rules.width_max,
+            door_width_tolerance=rules.width_tolerance,
+        )
 
     def as_record(self) -> np.ndarray:
         """The settings as the kernels take them: a structured array of shape (1,)."""

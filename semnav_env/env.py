@@ -22,6 +22,7 @@ from semnav_env.observations import Moment, ObservationType, as_observation
 from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.robots.actions import Actions
+from semnav_env.rules import Rules, with_doors_of
 from semnav_env.simulator import OdometrySettings, RobotSetup, Sensed, Simulator
 from semnav_env.tasks import (
     AdaptiveTask,
@@ -103,7 +104,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     observation: a mode, see above, or an observation type. lidar: "tim561", "barbret" or a
     `LidarSpec`; its rate is the control rate. odometry: how dead reckoning errs. extractor: limits
     of the feature extractor. corrects_drift: whether walls that are seen again correct odometry.
-    rewards: `RewardWeights`, or an object with `terms(tick)`. dynamics: what else moves.
+    rules: what a door is, how words are grounded, and what success is; robot and judge follow the
+    same. rewards: `RewardWeights`, or an object with `terms(tick)`. dynamics: what else moves.
     task: a command, a list of commands, or a `Task`: what episodes are asked to be. episodes: to
     draw from instead: the name of a split, a file, or `Episode`s. max_seconds: of simulated time.
     render_mode: "rgb_array" or "human" (extra `render`).
@@ -133,6 +135,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         dynamics: Dynamics = OFF,
         task: object = None,
         episodes: Episodes | None = None,
+        rules: Rules = Rules(),
         max_seconds: float = 120.0,
         render_mode: str | None = None,
     ) -> None:
@@ -150,7 +153,9 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             )
         if task is not None and episodes is not None:
             raise ValueError("give task= or episodes=, not both")
-        self.extractor, self.corrects_drift, self.rewards = extractor, corrects_drift, rewards
+        check_kind("rules", rules, Rules)
+        self.rules, self.extractor = with_doors_of(rules, extractor)
+        self.corrects_drift, self.rewards = corrects_drift, rewards
         self.episodes = None if episodes is None else FrozenEpisodes(episodes)
         self.task: Task = as_task(task) if self.episodes is None else self.episodes
         self.observation_type = as_observation(observation)
@@ -261,7 +266,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         """Set everything up that belongs to one floor plan and one robot."""
         self.floor_plan, self.setup = floor_plan, setup
         self.simulator = Simulator(floor_plan, setup, self.plan_source.dynamics)
-        self._missions = MissionMaker(floor_plan, setup.robot)
+        self._missions = MissionMaker(floor_plan, setup.robot, self.rules)
         self._actions = Actions(setup.robot)
         self._renderer = Renderer(self.world.still)
         self.tracker = BeliefTracker(
@@ -269,7 +274,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             setup.robot.lidar_mount,
             self.extractor,
             corrects_drift=self.corrects_drift and not setup.exact,
-            known_scene=floor_plan.scene if setup.exact else None,
+            known_scene=floor_plan.scene_by(self.rules.door) if setup.exact else None,
+            rules=self.rules,
         )
 
     def _begin(self, mission: Mission) -> None:

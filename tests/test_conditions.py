@@ -73,7 +73,7 @@ def test_exactly_one_branch_is_carried_out() -> None:
     text = "if there is a door on the left, stop, otherwise turn around. In any case turn left"
     follower = following(text)
     assert follower.active == 1
-    assert follower.advance(lambda: DOORS, START, 0.0)
+    assert follower.advance(lambda: DOORS, START, 0.0, 1 / 15)
     assert follower.active == 3
     assert "left" in follower.goal.because
 
@@ -88,7 +88,7 @@ def test_a_condition_is_decided_at_the_end_of_the_corridor() -> None:
     follower = following(text, complete=False)
     assert follower.active == 0
     assert isinstance(follower.goal, SeekGoal)
-    follower.advance(lambda: DOORS, (14.0, 0.0, 0.0), 0.5)
+    follower.advance(lambda: DOORS, (14.0, 0.0, 0.0), 0.5, 1 / 15)
     follower.look(DOORS, (14.0, 0.0, 0.0))
     assert follower.active == 2
     assert isinstance(follower.goal, StopGoal)

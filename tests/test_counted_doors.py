@@ -11,7 +11,7 @@ from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import GroundingError, PassGoal, ground
-from semnav_env.grounding.doors import doors_along
+from semnav_env.grounding.counted_doors import doors_along
 from semnav_env.maps import load_floor_plan
 from tests.grounded import DOORS, QUARTER, START, clause, goal_of, middle
 from tests.hand_made import box, corridor

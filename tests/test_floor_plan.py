@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from shapely import box
 
+from semnav_env.features.rules import DoorRules
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_env.maps.doorways import DoorState, clear_width, door_state
-from semnav_env.maps.floor_plan import WIDEST_DOOR
 
 
 def hall(*extra: Surface, door_open: bool = True) -> FloorPlan:
@@ -72,12 +72,12 @@ def test_the_scene_holds_open_doors_only() -> None:
 
 def test_openings_wider_than_a_door_are_no_doors_of_the_scene() -> None:
     """The plan may call it a door; the extractor would not."""
-    widths = {"door": 1.2, "just": WIDEST_DOOR, "gate": 1.4}
+    widths = {"door": 1.2, "just": DoorRules().widest, "gate": 1.4}
     doors = tuple(PlanDoor(name, (0.0, 0.0), (width, 0.0)) for name, width in widths.items())
     plan = replace(hall(), doors=doors)
     assert [door.name for door in plan.scene.doors] == ["door", "just"]
     assert plan.door("gate").open
-    assert not plan.door("gate").counts
+    assert not plan.door("gate").counts(DoorRules())
 
 
 def test_plans_are_values() -> None:

@@ -31,7 +31,7 @@ def following(text: str, scene: Scene = SCENE, care: float = 1.0, margin: float 
 
 def drive(follower: Follower, *poses: Pose, scene: Scene = SCENE, speed: float = 0.5) -> list[bool]:
     """Whether a clause was completed at each pose."""
-    return [follower.advance(lambda: scene, pose, speed) for pose in poses]
+    return [follower.advance(lambda: scene, pose, speed, 1 / 15) for pose in poses]
 
 
 def test_a_door_clause_is_done_when_the_centre_crosses_the_line() -> None:

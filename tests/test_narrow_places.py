@@ -13,7 +13,7 @@ from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import points_to_parent
 from semnav_env.features.kernels.narrow_places import is_narrow_place
 from semnav_env.features.scene import Door, PlainWalls, Scene
-from semnav_env.grounding.doors import doors_along
+from semnav_env.grounding.counted_doors import doors_along
 
 OPENING = np.array([0.0, 0.6, 0.0, -0.6])
 

@@ -107,7 +107,7 @@ def look(text: str, scene: Scene, pose: Pose, begin: Pose | None = None) -> Foll
     """A robot that began its last clause at `begin`, knows a scene and is now at a pose."""
     follower = Follower(parse(text))
     follower.start(scene, pose if begin is None else begin)
-    follower.advance(lambda: scene, pose, 0.0)
+    follower.advance(lambda: scene, pose, 0.0, 1 / 15)
     follower.look(scene, pose)
     return follower
 
@@ -129,7 +129,7 @@ def test_without_a_door_behind_the_search_goes_back_on() -> None:
     follower = look(text, seen_ahead(BEHIND, 3.0), pose, begin)
     assert isinstance(follower.goal, SeekGoal)
     assert follower.goal.pose[0] == pytest.approx(4.0, abs=0.05)
-    follower.advance(lambda: BEHIND, (5.0, 0.0, 3.1), 0.5)
+    follower.advance(lambda: BEHIND, (5.0, 0.0, 3.1), 0.5, 1 / 15)
     follower.look(BEHIND, (5.0, 0.0, 3.1))
     assert isinstance(follower.goal, PassGoal)
     assert follower.goal.door == BEHIND.doors[0]
@@ -137,7 +137,7 @@ def test_without_a_door_behind_the_search_goes_back_on() -> None:
 
 def test_a_finished_search_behind_says_what_there_is() -> None:
     follower = look("go through the fourth door behind you", BEHIND, (8, 0, 3.1), (8, 0, 0))
-    follower.advance(lambda: BEHIND, (-1.6, 0.0, 3.1), 0.5)
+    follower.advance(lambda: BEHIND, (-1.6, 0.0, 3.1), 0.5, 1 / 15)
     follower.look(BEHIND, (-1.6, 0.0, 3.1))
     assert follower.impossible == "no fourth door behind you: the hallway ended after 3"
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
@@ -14,25 +15,23 @@ from hypothesis import strategies as st
 
 from semnav_env.agents.evaluation import drive
 from semnav_env.agents.oracle import OracleAgent
-from semnav_env.commands import Command, GoBack, GoToRoom, parse
+from semnav_env.commands import Clause, Command, GoBack, GoToRoom, parse
 from semnav_env.commands.rooms import plain_name
 from semnav_env.commands.sampling import sample_command
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
-from semnav_env.grounding import GroundingError
-from semnav_env.grounding.follower import STANDSTILL
-from semnav_env.grounding.goal import BESIDE
+from semnav_env.grounding import Goal, GroundingError
 from semnav_env.maps import bundled_names, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import sample_pose
 from semnav_env.metrics import Recording
 from semnav_env.robots import WHEELCHAIR
+from semnav_env.rules import Rules, SuccessRules
 from semnav_env.tasks.sampling import sample_feasible
-from semnav_env.verifier import FAILURES, Verdict, Verifier, astray, plan_mission, verifier
+from semnav_env.verifier import FAILURES, Verdict, Verifier, plan_mission, verifier
 from semnav_env.verifier import recheck as second
-from semnav_env.verifier.astray import ASTRAY
+from semnav_env.verifier.astray import went_astray
 from semnav_env.verifier.recheck import recheck
-from semnav_env.verifier.verifier import STILL, STILL_FOR
 from tests.erring import ErringAgent, ghost, targets
 
 PLANS = {name: load_floor_plan(name) for name in bundled_names()}
@@ -103,11 +102,14 @@ def test_both_judge_driven_episodes_alike(name: str, robot: str) -> None:
         assert driven.metrics.success == (driven.verifier.verdict is Verdict.DONE)
 
 
+def went_astray_sooner(clause: Clause, goal: Goal, pose: Pose, rules: SuccessRules) -> bool:
+    return went_astray(clause, goal, pose, replace(rules, wrong_arm_depth=0.6))
+
+
 @pytest.mark.parametrize(
     ("module", "name", "value"),
     [
-        (astray, "ASTRAY", 0.6),
-        (verifier, "STILL", 2.0),
+        (verifier, "went_astray", went_astray_sooner),
         (verifier, "first_crossed", lambda *_: -1),
     ],
 )
@@ -118,6 +120,16 @@ def test_a_verifier_that_judges_otherwise_is_found_out(
     glides = [glide("office_cross", seed) for seed in range(60)]
     verdicts = [
         (judge.verdict, recheck(recording, judge.mission.floor_plan, judge.goals).verdict)
+        for judge, recording in filter(None, glides)
+    ]
+    assert any(one != other for one, other in verdicts)
+
+
+def test_other_rules_give_other_verdicts() -> None:
+    rules = Rules(success=SuccessRules(still_speed=2.0, still_yaw_rate=2.0))
+    glides = [glide("office_cross", seed) for seed in range(60)]
+    verdicts = [
+        (judge.verdict, recheck(recording, judge.mission.floor_plan, judge.goals, rules).verdict)
         for judge, recording in filter(None, glides)
     ]
     assert any(one != other for one, other in verdicts)
@@ -178,9 +190,3 @@ def test_the_second_opinion_imports_no_verifier_or_follower() -> None:
     names = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     names |= {a.name for node in ast.walk(tree) if isinstance(node, ast.Import) for a in node.names}
     assert not [name for name in names if "verifier" in name or "follower" in name]
-
-
-def test_both_hold_the_same_limits() -> None:
-    assert (second.INSIDE_ARM, second.BEHIND_JUNCTION) == (ASTRAY, 2 * ASTRAY)
-    assert (second.AT_REST, second.STILL_SPEED, second.STILL_RATE) == (STANDSTILL, STILL, STILL)
-    assert (second.LONGEST_STAND, second.BESIDE_WAY) == (STILL_FOR, BESIDE)

@@ -32,10 +32,11 @@ from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding import GroundingError, PassGoal, ReachGoal, SeekGoal, ground
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.known_way import next_on_way
-from semnav_env.grounding.ways import PACE, Trail, Way, paced
+from semnav_env.grounding.ways import WAY_SPACING, Trail, Way, paced
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.room_guide import RoomGuide
+from semnav_env.rules import GroundingRules
 from semnav_env.verifier import Motion, Verdict, Verifier, plan_goals, plan_mission
 from tests.hand_made import corridor
 
@@ -237,7 +238,9 @@ def test_whoever_moves_begins_to_wait_anew() -> None:
     follower = Follower(parse("wait for 2 seconds"), complete=True)
     follower.start(DOORS, (0.0, 0.0, 0.0))
     speeds = [0.0] * 25 + [0.5] + [0.0] * 25
-    assert not any(follower.advance(lambda: DOORS, (0.0, 0.0, 0.0), speed) for speed in speeds)
+    assert not any(
+        follower.advance(lambda: DOORS, (0.0, 0.0, 0.0), speed, 1 / 15) for speed in speeds
+    )
 
 
 @given(st.lists(st.tuples(st.floats(-20, 20), st.floats(-20, 20)), min_size=1, max_size=12))
@@ -251,10 +254,10 @@ def test_a_trail_leads_back_to_its_start_without_loops(corners: list[tuple[float
     assert back.places[-1] == (0.0, 0.0)
     assert back.heading == 0.3
     steps = np.hypot(*np.diff(back.places, axis=0).T)
-    assert (steps <= 1.5 * PACE).all()
+    assert (steps <= 1.5 * WAY_SPACING).all()
     kept = np.array(back.places[1:])
     for k, place in enumerate(kept):
-        assert (np.hypot(*(kept[k + 1 :] - place).T) >= PACE / 2 - 1e-9).all()
+        assert (np.hypot(*(kept[k + 1 :] - place).T) >= WAY_SPACING / 2 - 1e-9).all()
 
 
 def test_a_way_is_driven_place_by_place_despite_drift() -> None:
@@ -262,11 +265,11 @@ def test_a_way_is_driven_place_by_place_despite_drift() -> None:
     (clause,) = parse("go back to the start").clauses
     goal = ground(clause, DOORS, (0.0, 0.0, 0.0), way=way)
     for x in np.arange(0.0, 19.0, 0.5):
-        towards = next_on_way(goal, (float(x), 0.8, 0.0))
+        towards = next_on_way(goal, (float(x), 0.8, 0.0), GroundingRules())
         assert isinstance(towards, SeekGoal)
         ahead, beside = to_local((float(x), 0.8, 0.0), towards.pose[:2])
         assert beside == pytest.approx(0.0, abs=1e-9)
-        assert 0.0 < ahead < 3 * PACE
+        assert 0.0 < ahead < 3 * WAY_SPACING
     assert goal.reached_by((19.6, 0.8, 0.0), 0.5)
     assert not goal.reached_by((19.0, 0.8, 0.0), 0.5)
 
@@ -277,7 +280,7 @@ def test_a_way_that_bends_a_little_leads_to_no_place_beside_it() -> None:
     (clause,) = parse("go back to the start").clauses
     goal = ground(clause, DOORS, (0.0, 0.0, 0.0), way=way)
     for beside in (-0.4, 0.0, 0.4):
-        towards = next_on_way(goal, (0.2, beside, 0.0))
+        towards = next_on_way(goal, (0.2, beside, 0.0), GroundingRules())
         assert math.dist(towards.pose[:2], (3.0, 0.0)) == pytest.approx(abs(beside), abs=1e-6)
 
 

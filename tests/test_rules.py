@@ -15,11 +15,11 @@ from semnav_env.belief import BeliefTracker
 from semnav_env.commands import parse
 from semnav_env.features.frames import Point, Pose, compose, relative, to_parent
 from semnav_env.grounding import GroundingError
-from semnav_env.grounding.doors import STAND_OFF
 from semnav_env.grounding.goal import door_of
 from semnav_env.lidar import Lidar
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.routes.route import Route
+from semnav_env.rules import GroundingRules
 from semnav_env.verifier import plan_goals
 from tests.situations import ROWS, Row, situation
 
@@ -62,7 +62,7 @@ def way(row: Row) -> Iterator[Pose]:
     stops = [pose for goal in goals for pose in (goal.onward or goal.pose, goal.pose)]
     if last.corridor is not None and re.search("last|other", row.command):
         stops.append(last.corridor.place(last.corridor.end - 1.0))
-    stops.append(compose(last.pose, (-STAND_OFF - 0.3, 0.0, 0.0)))
+    stops.append(compose(last.pose, (-GroundingRules().stand_off - 0.3, 0.0, 0.0)))
     for here, there in pairwise([row.begin, *stops]):
         if math.dist(here[:2], there[:2]) > 0.1:
             route = Route(here, np.array([here[:2], there[:2]]), there[2])

@@ -13,7 +13,8 @@ from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import GroundingError, PassGoal, ground
-from semnav_env.grounding.surroundings import doors_around, doors_of_the_room
+from semnav_env.grounding.room_exits import room_exits
+from semnav_env.grounding.visible_doors import doors_around
 from semnav_env.maps import load_floor_plan
 from semnav_env.tasks.implicit import with_implicit_steps
 from semnav_env.verifier import plan_goals
@@ -34,16 +35,16 @@ def test_the_nearest_wall_with_a_door_counts() -> None:
     here: Pose = (0.0, 0.0, 0.0)
     near, across = Door((2.0, 0.5), (2.0, 1.5)), Door((5.0, -0.5), (5.0, 0.5))
     beside = Door((-1.0, -3.0), (0.0, -3.0))
-    assert doors_of_the_room([near, across], Scene((), ()), here) == [near]
-    assert doors_of_the_room([across, near, beside], Scene((), ()), here) == [near, beside]
-    assert doors_of_the_room([across], Scene((), ()), here) == [across]
+    assert room_exits([near, across], Scene((), ()), here) == [near]
+    assert room_exits([across, near, beside], Scene((), ()), here) == [near, beside]
+    assert room_exits([across], Scene((), ()), here) == [across]
     wall = Wall((6.5, -9.0), (6.5, 9.0))
     cupboard = Door((0.5, -2.0), (-0.5, -2.0))
-    assert doors_of_the_room([near, cupboard], Scene((wall,), ()), here) == [near]
+    assert room_exits([near, cupboard], Scene((wall,), ()), here) == [near]
     close = Wall((-3.0, -2.6), (3.0, -2.6))
-    assert doors_of_the_room([near, cupboard], Scene((close,), ()), here) == [near]
-    assert doors_of_the_room([cupboard], Scene((close,), ()), here) == [cupboard]
-    assert doors_of_the_room([cupboard], Scene((Wall((-3.0, -3.2), (3.0, -3.2)),), ()), here) != []
+    assert room_exits([near, cupboard], Scene((close,), ()), here) == [near]
+    assert room_exits([cupboard], Scene((close,), ()), here) == [cupboard]
+    assert room_exits([cupboard], Scene((Wall((-3.0, -3.2), (3.0, -3.2)),), ()), here) != []
     goal = ground(Leave(), Scene((), (across, near)), here)
     assert goal.door == near
     with pytest.raises(GroundingError, match="by which door"):

@@ -23,15 +23,10 @@ from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.ways import KnownWays, Way
+from semnav_env.rules import Rules, with_doors_of
 
 NO_WAYS: Mapping[int, Way] = MappingProxyType({})
 ORIGIN: Pose = (0.0, 0.0, 0.0)
-
-AIM = 0.5
-"""Share of the tolerances of success that the robot aims for, as its belief is not exact."""
-
-JAMB_MARGIN = 0.3
-"""How far beside and behind a perceived jamb a crossing still counts, metres."""
 
 
 class BeliefTracker:
@@ -48,6 +43,8 @@ class BeliefTracker:
         corrects_drift: walls that are seen again correct the odometry (Mes 2021).
         known_scene: all walls and doors, odometry frame, where they are known; then commands are
             grounded on them and not on what is remembered.
+        rules: what a door is, and the distances and tolerances of grounding. What a door is may be
+            said by `extractor` instead.
 
     Attributes:
         ranges: of the last scan, metres, shape (beams,).
@@ -67,6 +64,7 @@ class BeliefTracker:
         extractor: ExtractorSettings = ExtractorSettings(),
         corrects_drift: bool = True,
         known_scene: Scene | None = None,
+        rules: Rules = Rules(),
     ) -> None:
         self.lidar, self.mount = lidar_spec(lidar), mount
         self.corrects_drift, self.known_scene = corrects_drift, known_scene
@@ -76,6 +74,7 @@ class BeliefTracker:
         self.bumps = BumpMap(self.lidar, mount)
         self._updates = -1
         self._beams = np.ascontiguousarray(self.lidar.directions.T)
+        self.rules, extractor = with_doors_of(rules, extractor)
         self._record = extractor.as_record()
         self._scratch = allocate_scratch(self.lidar.beams)
         self._attention = Attention()
@@ -110,8 +109,14 @@ class BeliefTracker:
         """
         self.memory.clear()
         self.bumps.clear()
-        self.follower = Follower(command, care=AIM, jamb_margin=JAMB_MARGIN, guide=KnownWays(ways))
-        self.follower.complete = self.known_scene is not None
+        self.follower = Follower(
+            command,
+            complete=self.known_scene is not None,
+            care=self.rules.grounding.caution,
+            jamb_margin=self.rules.grounding.door_margin,
+            guide=KnownWays(ways),
+            rules=self.rules,
+        )
         self._attention = Attention()
         self._updates = 0
         self._pose, self._odometry = ORIGIN, ORIGIN

@@ -20,6 +20,7 @@ from semnav_env.grounding import Goal, GroundingError, UnclearError, ground
 from semnav_env.grounding.conditions import is_met
 from semnav_env.grounding.goal import door_of
 from semnav_env.grounding.junctions import junctions_ahead
+from semnav_env.grounding.search import Found
 from semnav_env.grounding.situation import Situation
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import is_clear
@@ -54,13 +55,14 @@ class AmbiguityFilter:
 
     def met(self, condition: IfThere, begin: Pose) -> bool | None:
         """Whether a condition is met; None if some could say otherwise, or not find out."""
-        found = {
+        answers = {
             is_met(condition, Situation(scene, begin, begin, complete=True))
             for scene in self.scenes
         }
-        if len(found) > 1:
+        if len(answers) > 1:
             return None
-        met = bool(found.pop())
+        (answer,) = answers
+        met = isinstance(answer, Found) and answer.value
         there = met is not condition.absent
         return met if there or self._seen_to_end(begin) else None
 

@@ -22,7 +22,7 @@ from semnav_env.episodes.walk import carries_out
 from semnav_env.episodes.wording import worded
 from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.grounding import Goal, ReachGoal
-from semnav_env.grounding.surroundings import doors_around
+from semnav_env.grounding.visible_doors import doors_around
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import is_clear, placement_error, sample_pose

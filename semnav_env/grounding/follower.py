@@ -6,22 +6,26 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from semnav_env.commands import Command
-from semnav_env.commands.clauses import Follow, GoBack, GoToDoor, IfThere, Turn, Turning
+from semnav_env.commands.clauses import GoBack, IfThere
 from semnav_env.commands.command import reference_of
 from semnav_env.features.frames import Pose, to_local
 from semnav_env.features.scene import Door, Scene
-from semnav_env.grounding.conditions import after, hangs_on_condition, in_context, is_met
+from semnav_env.grounding.clause_order import (
+    after,
+    comes_after_corridor,
+    in_context,
+    is_only_a_direction,
+)
+from semnav_env.grounding.conditions import is_met
+from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
+from semnav_env.grounding.goals import search_goal
 from semnav_env.grounding.ground import goal_of
 from semnav_env.grounding.known_way import next_on_way
-from semnav_env.grounding.situation import GroundingError, Situation, is_behind, looks_along, turned
+from semnav_env.grounding.search import Found, Searching
+from semnav_env.grounding.situation import Situation, is_behind, looks_along, turned
 from semnav_env.grounding.ways import Guide, KnownWays, Trail, Way
-
-STANDSTILL = 0.05
-"""Slower than this is standing still, m/s."""
-
-PERIOD = 1.0 / 15.0
-"""Between two scans, seconds."""
+from semnav_env.rules import Rules
 
 
 @dataclass
@@ -39,6 +43,7 @@ class Follower:
         jamb_margin: how far beside a jamb a crossing still counts, and how far behind it the
             robot must be, metres; perceived jambs are not exact.
         guide: points out the ways to rooms.
+        rules: distances and tolerances.
         active: index of the clause under way; the number of clauses when all are done.
         begin: where that clause began.
         goal: where it leads.
@@ -51,6 +56,7 @@ class Follower:
     care: float = 1.0
     jamb_margin: float = 0.0
     guide: Guide = field(default_factory=lambda: KnownWays({}), repr=False)
+    rules: Rules = field(default=Rules(), repr=False)
     active: int = field(default=0, init=False)
     begin: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     goal: Goal = field(default=StopGoal((0.0, 0.0, 0.0)), init=False)
@@ -77,9 +83,7 @@ class Follower:
         """Whether every clause has been carried out."""
         return self.active >= len(self.command.clauses)
 
-    def advance(
-        self, scene: Callable[[], Scene], pose: Pose, speed: float, seconds: float = PERIOD
-    ) -> bool:
+    def advance(self, scene: Callable[[], Scene], pose: Pose, speed: float, seconds: float) -> bool:
         """Note where the robot is now; begin the next clause if this one is done.
 
         Args:
@@ -91,14 +95,16 @@ class Follower:
         Returns:
             Whether a clause was completed.
         """
-        self._still = self._still + seconds if speed < STANDSTILL else 0.0
+        stopped = speed < self.rules.success.standstill_speed
+        self._still = self._still + seconds if stopped else 0.0
         completed = not self.done and self._completed(pose)
         self._last = pose
         self._trail.note(pose)
         along = to_local(self._ahead, (pose[0], pose[1]))[0]
         if along > self._farthest_along:
             self._farthest, self._farthest_along = pose, along
-        if self._ahead != self.begin and looks_along(pose, self._ahead[2]):
+        angle = self.rules.grounding.inspection_angle
+        if self._ahead != self.begin and looks_along(pose, self._ahead[2], angle):
             self._looked_back = True
         if completed:
             self._begin_next(scene(), pose)
@@ -106,7 +112,7 @@ class Follower:
 
     def target(self, pose: Pose) -> Goal:
         """What a robot at a pose should head for now: the goal, or the next place on the way."""
-        return next_on_way(self.goal, pose)
+        return next_on_way(self.goal, pose, self.rules.grounding)
 
     def look(self, scene: Scene, pose: Pose) -> None:
         """Ground the active clause anew, on what is known by now."""
@@ -114,31 +120,43 @@ class Follower:
             self.goal = StopGoal(pose, "done")
             return
         try:
-            goal = self._ground(scene, pose)
+            found = self._ground(scene, pose)
             self.impossible = None
-            if isinstance(goal, bool):
-                self._go_on(after(self.command.clauses, self.active, goal))
+            if isinstance(found, Found):
+                self._go_on(after(self.command.clauses, self.active, found.value))
                 self._begin_clause(scene, self.begin, pose)
             else:
-                self.goal = goal
+                self.goal = found
         except GroundingError as error:
             self.impossible = str(error)
             self.goal = StopGoal(pose, self.impossible)
 
-    def _ground(self, scene: Scene, pose: Pose) -> Goal | bool:
-        """The goal of the active clause, or whether its condition is met."""
-        here = pose if self._way else self._farthest  # what was looked at stays so on coming back
-        here = (*here[:2], self._ahead[2] if self._looked_back else pose[2])
-        after_corridor, way, beside = self._after_corridor, self._way, self._beside
-        situation = Situation(scene, self.begin, here, self.complete, after_corridor, way, beside)
-        clause = in_context(self.command.clauses, self.active)
-        return (
-            is_met(clause, situation) if isinstance(clause, IfThere) else goal_of(clause, situation)
-        )
-
     def skip_to_next(self, scene: Scene) -> None:
         """Take the active clause for done."""
         self._begin_next(scene, self.goal.next_begin)
+
+    def _ground(self, scene: Scene, pose: Pose) -> Goal | Found[bool]:
+        """The goal of the active clause, or whether its condition is met."""
+        situation = self._situation(scene, pose)
+        clause = in_context(self.command.clauses, self.active)
+        if not isinstance(clause, IfThere):
+            return goal_of(clause, situation)
+        found = is_met(clause, situation)
+        return search_goal(found) if isinstance(found, Searching) else found
+
+    def _situation(self, scene: Scene, pose: Pose) -> Situation:
+        here = pose if self._way else self._farthest  # what was looked at stays so on coming back
+        here = (*here[:2], self._ahead[2] if self._looked_back else pose[2])
+        return Situation(
+            scene,
+            self.begin,
+            here,
+            self.complete,
+            comes_after_corridor(self.command.clauses, self.active),
+            self._way,
+            self._beside,
+            rules=self.rules,
+        )
 
     def _begin_next(self, scene: Scene, pose: Pose) -> None:
         """Begin where the clause before leads, so that counting does not depend on the driving."""
@@ -159,10 +177,11 @@ class Follower:
         self.active = index
 
     def _begin_clause(self, scene: Scene, begin: Pose, pose: Pose) -> None:
-        while not self.done and self._is_only_a_direction(self.active):
+        clauses = self.command.clauses
+        while not self.done and is_only_a_direction(clauses, self.active):
             self.active += 1
         self.begin, self._farthest, self._still = begin, pose, 0.0
-        back = not self.done and is_behind(reference_of(self.command.clauses[self.active]))
+        back = not self.done and is_behind(reference_of(clauses[self.active]))
         self._ahead, self._looked_back = (turned(begin) if back else begin), False
         self._farthest_along = to_local(self._ahead, (pose[0], pose[1]))[0]
         self._way = None if self.done else self._way_from(begin, pose)
@@ -172,29 +191,6 @@ class Follower:
         if isinstance(self.command.clauses[self.active], GoBack):
             return self._trail.back(pose)
         return self.guide(self.active, begin)
-
-    def _is_only_a_direction(self, index: int) -> bool:
-        """Whether a clause is "go down the hallway" and the next one says how far."""
-        clauses = self.command.clauses
-        if clauses[index] != Follow() or index + 1 == len(clauses):
-            return False
-        if hangs_on_condition(clauses, index):
-            return False
-        following = clauses[index + 1]
-        on_the_spot = isinstance(following, Turn) and following.degrees is not None
-        return isinstance(following, Follow | Turn | GoToDoor) and not on_the_spot
-
-    @property
-    def _after_corridor(self) -> bool:
-        """Whether a bare turn means the next place that offers it, not here."""
-        if self.active == 0:
-            return False
-        if hangs_on_condition(self.command.clauses, self.active - 1):
-            return False  # it may not have been done
-        before, clause = self.command.clauses[self.active - 1 : self.active + 1]
-        aside = isinstance(clause, Turn) and clause.turning is not Turning.AROUND
-        passed = isinstance(before, Follow) and before.past and aside
-        return passed or self._is_only_a_direction(self.active - 1)
 
     def _completed(self, pose: Pose) -> bool:
         match self.goal:

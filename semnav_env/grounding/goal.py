@@ -12,9 +12,6 @@ from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
 from semnav_env.features.scene import Door
 from semnav_env.grounding.crossing import crossing_share
 
-BESIDE = 1.5
-"""So far beside the end of such a way is still there, metres."""
-
 
 class GoalKind(IntEnum):
     """The number by which an observation tells what reaching a goal means."""
@@ -78,6 +75,9 @@ class ReachGoal(BaseGoal):
         door: the doorway to stand before; its `name` only on a true scene.
         junction: the junction at which to turn.
         beside: the door beside which the goal lies, of "until the second door".
+        offset_tolerance: where it is not None, `distance_tolerance` counts along the pose's heading
+            only, and this one across it, metres: at the end of a known way, where odometry may
+            have drifted.
     """
 
     kind: ClassVar[GoalKind] = GoalKind.REACH
@@ -87,6 +87,7 @@ class ReachGoal(BaseGoal):
     door: Door | None = None
     junction: Junction | None = field(default=None, compare=False, repr=False)
     beside: Door | None = field(default=None, compare=False, repr=False)
+    offset_tolerance: float | None = field(default=None, compare=False, repr=False)
 
     @property
     def fixes_heading(self) -> bool:
@@ -94,13 +95,11 @@ class ReachGoal(BaseGoal):
         return self.heading_tolerance < math.pi
 
     def reached_by(self, pose: Pose, share: float = 1.0) -> bool:
-        """Whether `pose` lies within the tolerances, or within a `share` of them.
-
-        At the end of a known way it is enough to be beside the goal: odometry may have drifted.
-        """
-        if self.places:
-            along, beside = to_local(self.pose, pose[:2])
-            return abs(along) <= share * self.distance_tolerance and abs(beside) <= BESIDE
+        """Whether `pose` lies within the tolerances, or within a `share` of them."""
+        if self.offset_tolerance is not None:
+            along, offset = to_local(self.pose, pose[:2])
+            near = abs(along) <= share * self.distance_tolerance
+            return near and abs(offset) <= self.offset_tolerance
         distance = math.hypot(pose[0] - self.pose[0], pose[1] - self.pose[1])
         error = abs(wrap_angle(pose[2] - self.pose[2]))
         return distance <= share * self.distance_tolerance and (

@@ -16,12 +16,13 @@ from semnav_env.commands.clauses import (
 from semnav_env.commands.command import reference_of
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
-from semnav_env.grounding.door_goals import ground_door, ground_leave
+from semnav_env.grounding.corridor_goals import follow_goal, turn_goal
+from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, StopGoal
-from semnav_env.grounding.junctions import ground_follow, ground_turn
-from semnav_env.grounding.rooms import ground_way
-from semnav_env.grounding.situation import GroundingError, Situation
+from semnav_env.grounding.goals import door_goal, leave_goal, way_goal
+from semnav_env.grounding.situation import Situation
 from semnav_env.grounding.ways import Way
+from semnav_env.rules import Rules
 
 
 def ground(
@@ -33,6 +34,7 @@ def ground(
     complete: bool = False,
     after_corridor: bool = False,
     way: Way | None = None,
+    rules: Rules = Rules(),
 ) -> Goal:
     """Find what a clause refers to.
 
@@ -45,6 +47,7 @@ def ground(
         after_corridor: the clause follows "go down the hallway", so a bare turn means the next
             place that offers it.
         way: to the room that the clause names, or back, in the scene's frame.
+        rules: distances and tolerances.
 
     Returns:
         The goal in the scene's frame. A `SeekGoal` while the referent is not seen yet.
@@ -53,7 +56,8 @@ def ground(
         GroundingError: the referent cannot be there; the message says what is.
     """
     here = begin if pose is None else pose
-    return goal_of(clause, Situation(scene, begin, here, complete, after_corridor, way))
+    situation = Situation(scene, begin, here, complete, after_corridor, way, rules=rules)
+    return goal_of(clause, situation)
 
 
 def goal_of(clause: Clause, situation: Situation) -> Goal:
@@ -65,18 +69,17 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
     situation = situation.towards(reference_of(clause))
     match clause:
         case GoToDoor():
-            return ground_door(clause, situation)
+            return door_goal(clause, situation)
         case Turn():
-            return ground_turn(clause, situation)
+            return turn_goal(clause, situation)
         case Follow():
-            return ground_follow(clause, situation)
+            return follow_goal(clause, situation)
         case Leave():
-            return ground_leave(situation)
+            return leave_goal(situation)
         case GoToRoom() | GoBack():
-            return ground_way(clause, situation)
+            return way_goal(clause, situation)
         case IfThere():
             raise GroundingError(f"{clause}: a condition leads nowhere by itself")
         case Stop():
-            wait = float(clause.seconds)
-            return StopGoal(situation.begin, str(clause), wait)
+            return StopGoal(situation.begin, str(clause), float(clause.seconds))
     raise TypeError(f"{clause!r} is no clause")

@@ -5,38 +5,25 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from semnav_env.commands.references import LAST, OTHER, DoorReference, Side
+from semnav_env.commands.references import LAST, OTHER, Side
 from semnav_env.features.frames import Pose, compose, to_local
 from semnav_env.features.kernels.probing import BODY_WIDTH
 from semnav_env.features.scene import Door
-from semnav_env.grounding.goal import Goal, SeekGoal
-from semnav_env.grounding.situation import GroundingError, Situation, UnclearError
-from semnav_env.grounding.surroundings import (
-    doors_across,
-    heading_between,
-    heading_through,
-    own_doorway,
-    shared_width,
-)
+from semnav_env.grounding.door_geometry import heading_between, heading_through, shared_width
+from semnav_env.grounding.search import Found, Searching
+from semnav_env.grounding.situation import Situation
+from semnav_env.grounding.visible_doors import doors_across, own_doorway
 
-FROM_DOOR, FROM_ROBOT = 8.0, 5.0
-"""Farther across than this no door is opposite a door, or opposite the robot, metres."""
-
-STEPPED_OUT = 0.5
-"""Who has come so far out of a doorway has seen what is opposite it, metres ..."""
-
-STEP_OUT = 1.0
-"""... so one looks from here."""
-
-OF_ONE = (1, LAST, OTHER)
+ORDINALS_OF_ONE = (1, LAST, OTHER)
 """The ordinals that a single door can have."""
 
-ROUND_ABOUT = {Side.AHEAD: 0.0, Side.LEFT: math.pi / 2, Side.RIGHT: -math.pi / 2}
+VIEW_HEADINGS = {Side.AHEAD: 0.0, Side.LEFT: math.pi / 2, Side.RIGHT: -math.pi / 2}
+"""Headings of the views from the robot's own place, from the corridor's axis, radians."""
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
-    """Where one looks straight across.
+class AcrossView:
+    """A view straight across.
 
     Attributes:
         pose: from where and which way, in the scene's frame.
@@ -55,10 +42,12 @@ class Look:
 
     def faced(self, situation: Situation) -> Door | None:
         """The door that shares the most of this width; None if none does."""
-        most = FROM_ROBOT if self.door is None else FROM_DOOR
+        rules = situation.rules.grounding
+        from_robot = self.door is None
+        most = rules.opposite_robot_distance if from_robot else rules.opposite_door_distance
         shares = {
             door: shared_width(door, self.pose, self.half_width)
-            for door in doors_across(situation.scene, self.pose, self.door)
+            for door in doors_across(situation.scene, self.pose, self.door, rules)
             if to_local(self.pose, door.midpoint)[0] <= most
         }
         best = max(shares, key=shares.__getitem__, default=None)
@@ -67,14 +56,25 @@ class Look:
     def is_done(self, situation: Situation) -> bool:
         """Whether there is nothing left to look at there."""
         if self.door is None:
-            return self._is_looked_at(situation)
+            return self._is_inspected(situation)
         out = to_local(self.pose, situation.pose[:2])[0]
-        return out > STEPPED_OUT and situation.looks_along(self.pose[2])
+        stepped_out = out > situation.rules.grounding.across_distance
+        return stepped_out and situation.looks_along(self.pose[2])
 
-    def _is_looked_at(self, situation: Situation) -> bool:
-        """Whether a robot has seen what is on this side, for it looks ahead and sees walls aside.
+    def search(self, situation: Situation, what: object) -> Searching:
+        """Turn there; or come out of the doorway to look."""
+        if not situation.scene.walls:
+            return Searching(str(what), situation.begin)
+        if not situation.looks_along(self.pose[2]):
+            return situation.turn_to(self.pose[2], what)
+        step = situation.rules.grounding.lookout_step
+        return Searching(str(what), compose(self.pose, (step, 0.0, 0.0)))
 
-        It turns to a gap on one side; gaps on both are a crossing.
+    def _is_inspected(self, situation: Situation) -> bool:
+        """Whether a robot in a corridor has seen what is on this side.
+
+        It looks ahead and sees the walls aside, so it turns only to a gap in them on one side; gaps
+        on both sides are a crossing.
         """
         if self.side is Side.AHEAD:
             return bool(situation.scene.walls)
@@ -88,65 +88,40 @@ class Look:
         width = (here - self.half_width, here, here + self.half_width)
         return any(math.isinf(situation.corridor.side_at(left, along)) for along in width)
 
-    def goal(self, situation: Situation, what: object) -> Goal:
-        """Turn there; or come out of the doorway to look."""
-        if not situation.scene.walls:
-            return SeekGoal(situation.begin, str(what))
-        if not situation.looks_along(self.pose[2]):
-            return situation.turn_to(self.pose[2], what)
-        out = compose(self.pose, (STEP_OUT, 0.0, 0.0))
-        return SeekGoal(out, str(what))
 
+def doors_opposite(
+    reference: object, situation: Situation
+) -> Found[dict[AcrossView, Door]] | Searching:
+    """The doors opposite, by the views that meet them.
 
-def find_opposite(reference: DoorReference, situation: Situation) -> tuple[Door, float] | Goal:
-    """The door opposite and the heading through it, or the goal of looking for it.
-
-    Raises:
-        GroundingError: there is none.
-        UnclearError: there are several.
+    A robot that was sent to a door, or past it, looks across from that door; one that stands in a
+    doorway looks on through it. Any other robot looks ahead and to both sides.
     """
-    if reference.ordinal not in OF_ONE:
-        raise GroundingError(f"no {str(reference).removeprefix('the ')}: at most one is opposite")
-    found = doors_opposite(reference, situation)
-    if not isinstance(found, dict):
-        return found
-    if len(found) > 1:
-        sides = " and ".join(sorted(look.side for look in found))
-        raise UnclearError(f"{reference}: there is one {sides} there; say on which side")
-    for look, door in found.items():
-        return door, heading_through(door, look.pose[2])
-    here = "this place" if _look(situation) is None else "that door"
-    raise GroundingError(f"no door opposite: none faces {here}")
+    view = view_from_door(situation)
+    views = _views_from_robot(situation) if view is None else [view]
+    met = {each: door for each in views if (door := each.faced(situation)) is not None}
+    missing = [each for each in views if not each.is_done(situation)]
+    if met or situation.complete or not missing:
+        return Found(met)
+    return missing[0].search(situation, reference)
 
 
-def doors_opposite(reference: DoorReference, situation: Situation) -> dict[Look, Door] | Goal:
-    """The doors opposite, by the looks that meet them; or the goal of looking for them.
-
-    Who was sent to a door, or past it, looks across from that door; who stands in a doorway looks
-    on through it. Anyone else looks ahead and to both sides.
-    """
-    look = _look(situation)
-    looks = _looks_round(situation) if look is None else [look]
-    found = {each: door for each in looks if (door := each.faced(situation)) is not None}
-    missing = [each for each in looks if not each.is_done(situation)]
-    if found or situation.complete or not missing:
-        return found
-    return missing[0].goal(situation, reference)
-
-
-def _look(situation: Situation) -> Look | None:
-    """The look across from a door."""
+def view_from_door(situation: Situation) -> AcrossView | None:
+    """The view across from the door that the robot was sent to, or from its doorway."""
     begin, door = situation.begin, situation.beside
     about = begin[2]
     if door is not None:
         about = heading_between(door.midpoint, begin[:2])
     else:
-        door = own_doorway(situation.scene, begin)
+        door = own_doorway(situation.scene, begin, situation.rules.grounding)
     if door is None:
         return None
-    return Look((*door.midpoint, heading_through(door, about)), Side.OPPOSITE, door)
+    return AcrossView((*door.midpoint, heading_through(door, about)), Side.OPPOSITE, door)
 
 
-def _looks_round(situation: Situation) -> list[Look]:
+def _views_from_robot(situation: Situation) -> list[AcrossView]:
     axis = (*situation.begin[:2], situation.corridor.frame[2])
-    return [Look(compose(axis, (0.0, 0.0, turn)), side) for side, turn in ROUND_ABOUT.items()]
+    return [
+        AcrossView(compose(axis, (0.0, 0.0, heading)), side)
+        for side, heading in VIEW_HEADINGS.items()
+    ]

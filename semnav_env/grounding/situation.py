@@ -3,38 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from semnav_env.commands.references import DoorReference, Side
 from semnav_env.features.corridor import Corridor, corridor_at
 from semnav_env.features.frames import Pose, compose
 from semnav_env.features.scene import Door, Scene
-from semnav_env.grounding.goal import Goal, ReachGoal, SeekGoal
+from semnav_env.grounding.search import Searching
 from semnav_env.grounding.ways import Way
-
-LOOK_AHEAD = 4.0
-"""How far ahead of the robot the goal of a search lies, metres."""
-
-END_MARGIN = 1.0
-"""How far before the end of a corridor the robot's centre stops, metres."""
-
-THERE = 0.45
-"""So near the place to look from a robot has come to it, metres."""
-
-AT_END = END_MARGIN + THERE
-"""Within this distance of its end a corridor has been seen to its end, metres."""
-
-LOOKED_AT = math.radians(40.0)
-"""Who is turned by less from a direction has looked there, radians."""
-
-
-class GroundingError(ValueError):
-    """The referent of a clause cannot be there; the message says what is."""
-
-
-class UnclearError(GroundingError):
-    """More must be said: several things fit a clause, or something else is meant by it."""
+from semnav_env.rules import Rules
 
 
 @dataclass(frozen=True)
@@ -44,13 +22,14 @@ class Situation:
     Attributes:
         scene: remembered or true walls and doors.
         begin: where the clause began, in the scene's frame.
-        pose: how far the robot has come since then, in the scene's frame; and which way it looks
-            now, or has looked since then if that is where to look.
-        complete: the scene holds everything there is.
+        pose: how far the robot has come since then, in the scene's frame. Its heading is where the
+            robot looks now, or the direction it had to look in if it has done so since then.
+        complete: the scene holds everything there is, so there is nothing to look for.
         after_corridor: the clause before was "go down the hallway".
         way: that was pointed out or driven, for a clause that needs one.
         beside: the door that the clause before led to, and not through.
         back: `begin` is turned around, see `towards`.
+        rules: distances and tolerances.
     """
 
     scene: Scene
@@ -61,6 +40,7 @@ class Situation:
     way: Way | None = None
     beside: Door | None = None
     back: bool = False
+    rules: Rules = field(default=Rules(), repr=False)
 
     @cached_property
     def corridor(self) -> Corridor:
@@ -75,24 +55,31 @@ class Situation:
     @property
     def seen_to_end(self) -> bool:
         """Whether nothing of the corridor is left to be looked at."""
+        if self.complete:
+            return True
         looked = not self.back or self.looks_along(self.begin[2])
-        return self.complete or (looked and self.progress > self.corridor.end - AT_END)
+        end = self.corridor.end - self.rules.grounding.seen_end_distance
+        return looked and self.progress > end
+
+    @property
+    def last_stop(self) -> float:
+        """How far along the corridor a robot goes at most, metres."""
+        return self.corridor.end - self.rules.grounding.end_margin
 
     def towards(self, reference: object) -> Situation:
-        """The same for one who turns to what is spoken of: around, if that is behind."""
+        """The situation of a robot that turns to what is spoken of: around, if that is behind."""
         return replace(self, begin=turned(self.begin), back=True) if is_behind(reference) else self
 
     def looks_along(self, heading: float) -> bool:
-        """Whether the robot is turned that way by now."""
-        return looks_along(self.pose, heading)
+        """Whether the robot has looked in that direction."""
+        return looks_along(self.pose, heading, self.rules.grounding.inspection_angle)
 
-    def turn_to(self, heading: float, what: object) -> Goal:
-        """Turn on the spot to look for something; never done, for it is no end in itself."""
-        pose = (*self.begin[:2], heading)
-        return ReachGoal(pose, 0.0, 0.0, f"looking for {what}")
+    def turn_to(self, heading: float, what: object) -> Searching:
+        """A search by turning on the spot, where the clause began."""
+        return Searching(str(what), (*self.begin[:2], heading), on_the_spot=True)
 
-    def seek(self, what: object, at_most: float = math.inf) -> Goal:
-        """Go on along the corridor and keep looking for something; first turn to where it may be.
+    def go_on(self, what: object, at_most: float = math.inf) -> Searching:
+        """A search along the corridor; first the robot turns to where the referent may be.
 
         Args:
             what: is being looked for.
@@ -100,26 +87,13 @@ class Situation:
         """
         if self.back and not self.looks_along(self.begin[2]):
             return self.turn_to(self.begin[2], what)
-        along = min(self.progress + LOOK_AHEAD, self._farthest(at_most))
-        pose = self.corridor.place(along)
-        return SeekGoal(pose, str(what), corridor=self.corridor)
+        along = min(self.progress + self.rules.grounding.look_ahead, min(self.last_stop, at_most))
+        return Searching(str(what), self.corridor.place(along), self.corridor)
 
     def has_come(self, at_most: float) -> bool:
-        """Whether the robot has gone as far as `seek` would lead it."""
-        return self.progress > self._farthest(at_most) - THERE
-
-    def _farthest(self, at_most: float) -> float:
-        return min(self.corridor.end - END_MARGIN, at_most)
-
-    def missing(self, what: str, count: int) -> GroundingError:
-        """The error for something that is not there: "no third door: the hallway ended after 2".
-
-        Args:
-            what: was looked for, beginning with "the".
-            count: how many of the kind there are.
-        """
-        there = f"ended after {count}" if count else "has none"
-        return GroundingError(f"no {what.removeprefix('the ')}: the hallway {there}")
+        """Whether the robot has gone as far as `go_on` would lead it."""
+        lookout = min(self.last_stop, at_most)
+        return self.progress > lookout - self.rules.grounding.lookout_distance
 
 
 def is_behind(reference: object) -> bool:
@@ -127,11 +101,11 @@ def is_behind(reference: object) -> bool:
     return isinstance(reference, DoorReference) and reference.side is Side.BEHIND
 
 
-def looks_along(pose: Pose, heading: float) -> bool:
-    """Whether one is turned to a heading, more or less."""
-    return math.cos(pose[2] - heading) > math.cos(LOOKED_AT)
+def looks_along(pose: Pose, heading: float, most: float) -> bool:
+    """Whether a pose's heading differs from another one by less than `most`, radians."""
+    return math.cos(pose[2] - heading) > math.cos(most)
 
 
 def turned(pose: Pose) -> Pose:
-    """The pose of one who has turned around."""
+    """The pose turned around on the spot."""
     return compose(pose, (0.0, 0.0, math.pi))

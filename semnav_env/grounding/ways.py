@@ -11,19 +11,10 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_angle
 from semnav_env.features.scene import Door, Scene
+from semnav_env.rules import GroundingRules
 
-PACE = 1.5
-"""Distance between the places of a way, metres."""
-
-MISPLACED = (1.5, 1.0)
-"""A door may be seen so far from where it was pointed out, through it and beside it, metres; beside
-it less than from door to door."""
-
-CROSSED = 0.5
-"""A robot that is farther behind a door faces another one, metres: less than half a corridor."""
-
-ACROSS = math.radians(30.0)
-"""And so far it may be turned."""
+WAY_SPACING = 1.5
+"""Distance between the places of a way, metres: a corridor's width, so that none is cut across."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +22,7 @@ class Way:
     """The way to a place, as one who knows the building would point it out.
 
     Attributes:
-        places: (x, y) in metres, `PACE` apart: from where it begins to where it leads.
+        places: (x, y) in metres, `WAY_SPACING` apart: from where it begins to where it leads.
         door: the doorway that leads in; None where there is none to pass.
         heading: through that door, or else of the robot at the last place, radians.
     """
@@ -67,7 +58,7 @@ class KnownWays:
         return self.ways.get(clause)
 
 
-def door_near(scene: Scene, way: Way, pose: Pose) -> Door | None:
+def door_near(scene: Scene, way: Way, pose: Pose, rules: GroundingRules) -> Door | None:
     """The door of a scene that is the way's, for a robot before it; None if it is not seen."""
     if way.door is None:
         return None
@@ -76,34 +67,38 @@ def door_near(scene: Scene, way: Way, pose: Pose) -> Door | None:
     near = [
         door
         for door in scene.doors
-        if _is_near(door, pointed_out) and _apart(door, before)[0] > -CROSSED
+        if _is_near(door, pointed_out, rules) and _apart(door, before)[0] > -rules.way_door_passed
     ]
     return min(near, key=lambda door: abs(_apart(door, pointed_out)[1]), default=None)
 
 
-def _is_near(door: Door, pointed_out: Pose) -> bool:
+def _is_near(door: Door, pointed_out: Pose, rules: GroundingRules) -> bool:
     """Whether a door may be the one that was pointed out, by its middle and the heading through."""
     through, beside = _apart(door, pointed_out)
     run = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0])
-    turned = abs(math.cos(run - pointed_out[2])) >= math.sin(ACROSS)
-    return abs(through) < MISPLACED[0] and abs(beside) < MISPLACED[1] and not turned
+    turned = abs(math.cos(run - pointed_out[2])) >= math.sin(rules.way_door_angle)
+    near = abs(through) < rules.way_door_depth and abs(beside) < rules.way_door_offset
+    return near and not turned
 
 
 def _apart(door: Door, pointed_out: Pose) -> Point:
+    """How far a door's middle lies from a pose, along its heading and to its left, metres."""
     return to_local(pointed_out, door.midpoint)
 
 
 def paced(points: FloatArray | Sequence[Point]) -> tuple[Point, ...]:
-    """Places `PACE` apart along a line, shape (k, 2); its ends included, at least two."""
+    """Places `WAY_SPACING` apart along a line, shape (k, 2); its ends included, at least two."""
     line = np.asarray(points, dtype=np.float64)
     along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))))
-    stops = np.append(PACE * np.arange(max(1, math.ceil(along[-1] / PACE))), along[-1])
+    stops = np.append(
+        WAY_SPACING * np.arange(max(1, math.ceil(along[-1] / WAY_SPACING))), along[-1]
+    )
     x, y = (np.interp(stops, along, line[:, axis]) for axis in (0, 1))
     return tuple(zip(x.tolist(), y.tolist(), strict=True))
 
 
 class Trail:
-    """Where the robot has been: places `PACE` apart, without the loops that it drove."""
+    """Where the robot has been: places `WAY_SPACING` apart, without the loops that it drove."""
 
     def __init__(self, start: Pose) -> None:
         self._places = [start[:2]]
@@ -112,9 +107,13 @@ class Trail:
     def note(self, pose: Pose) -> None:
         """Add the place where the robot is now; call it often."""
         here = pose[:2]
-        if math.dist(here, self._places[-1]) < PACE:
+        if math.dist(here, self._places[-1]) < WAY_SPACING:
             return
-        met = (k for k, place in enumerate(self._places[:-1]) if math.dist(here, place) < PACE / 2)
+        met = (
+            k
+            for k, place in enumerate(self._places[:-1])
+            if math.dist(here, place) < WAY_SPACING / 2
+        )
         if (first := next(met, None)) is not None:
             del self._places[first + 1 :]
         else:

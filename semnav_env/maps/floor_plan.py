@@ -11,11 +11,8 @@ from numpy.typing import NDArray
 from shapely import Polygon, STRtree, linestrings
 
 from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.rules import DoorRules
 from semnav_env.features.scene import Door, PlainWalls, Scene
-from semnav_env.features.settings import ExtractorSettings
-
-WIDEST_DOOR = ExtractorSettings().door_width_max + ExtractorSettings().door_width_tolerance
-"""A doorway wider than this is an opening of the wall, as for a robot that looks at it, metres."""
 
 
 class Material(StrEnum):
@@ -73,15 +70,13 @@ class PlanDoor:
         """Distance between the jambs, metres."""
         return self.as_door().width
 
-    @property
-    def counts(self) -> bool:
-        """Whether "the second door" counts it: it is open, and no wider than a robot's door."""
-        return self.open and not self.is_opening
+    def counts(self, rules: DoorRules) -> bool:
+        """Whether "the second door" counts it: it is open, and as wide as a door."""
+        return self.open and rules.narrowest <= self.width <= rules.widest
 
-    @property
-    def is_opening(self) -> bool:
+    def is_opening(self, rules: DoorRules) -> bool:
         """Whether it is too wide for a door, open or not: an opening of the wall."""
-        return self.width > WIDEST_DOOR
+        return self.width > rules.widest
 
     def as_door(self) -> Door:
         """The door as a scene holds it."""
@@ -173,11 +168,22 @@ class FloorPlan:
         """All rooms, corridors, intersections and open areas."""
         return self.rooms + self.corridors + self.intersections + self.areas
 
-    @cached_property
+    @property
     def scene(self) -> Scene:
-        """All walls (glass included) and all doors that count, world frame."""
-        doors = tuple(door.as_door() for door in self.doors if door.counts)
-        return Scene(PlainWalls(self.segments), doors)
+        """`scene_by` the usual rules."""
+        return self.scene_by(DoorRules())
+
+    def scene_by(self, rules: DoorRules) -> Scene:
+        """All walls (glass included) and all doors that count by some rules, world frame."""
+        if rules not in self._scenes:
+            doors = tuple(door.as_door() for door in self.doors if door.counts(rules))
+            self._scenes[rules] = Scene(PlainWalls(self.segments), doors)
+        return self._scenes[rules]
+
+    @cached_property
+    def _scenes(self) -> dict[DoorRules, Scene]:
+        """The scenes that were asked for."""
+        return {}
 
     @property
     def room_names(self) -> tuple[str, ...]:

@@ -24,7 +24,7 @@ from semnav_env.metrics.events import (
     Turned,
 )
 from semnav_env.metrics.recording import Recording
-from semnav_env.verifier.verifier import STILL
+from semnav_env.rules import SuccessRules
 
 STAND = 1.0
 """Standing for so long is a stop, seconds."""
@@ -137,7 +137,9 @@ def _turns(recording: Recording) -> Iterator[Turned]:
 
 
 def _stops(recording: Recording) -> Iterator[Stopped]:
-    still = (recording.speeds < STILL) & (np.abs(recording.velocities[:, 2]) < STILL)
+    rules = SuccessRules()
+    yaw_rates = np.abs(recording.velocities[:, 2])
+    still = (recording.speeds < rules.still_speed) & (yaw_rates < rules.still_yaw_rate)
     for start, stop in runs(still):
         duration = (stop - start) * recording.period
         if start > 0 and duration >= STAND:

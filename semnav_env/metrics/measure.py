@@ -7,7 +7,6 @@ from itertools import pairwise
 import numpy as np
 
 from semnav_env.features.frames import FloatArray, path_length
-from semnav_env.grounding.follower import STANDSTILL
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.maps.geodesic import WaysTo
 from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
@@ -15,6 +14,7 @@ from semnav_env.metrics.paths import THRESHOLD, cls, ndtw, resampled, soft_spl, 
 from semnav_env.metrics.recording import Recording
 from semnav_env.metrics.results import Metrics
 from semnav_env.robots import RobotSpec
+from semnav_env.rules import SuccessRules
 from semnav_env.verifier import Verdict, Verifier, place
 
 NEAR = 1.0
@@ -96,7 +96,7 @@ def ever_met(goal: Goal, recording: Recording) -> bool:
 def stood_there(goal: StopGoal, recording: Recording) -> bool:
     """Whether the robot stood still within `NEAR` of a goal for as long as the goal says."""
     away = np.hypot(*(recording.path[1:] - goal.pose[:2]).T)
-    stands = (recording.speeds[1:] < STANDSTILL) & (away < NEAR)
+    stands = (recording.speeds[1:] < SuccessRules().standstill_speed) & (away < NEAR)
     since = steps = 0
     for stood in stands.tolist():
         since = since + 1 if stood else 0

@@ -14,7 +14,7 @@ from semnav_env.commands.references import DoorReference
 from semnav_env.features.extract import to_scene
 from semnav_env.features.frames import Point, Pose, compose, points_to_parent, relative
 from semnav_env.features.scene import Door, Scene
-from semnav_env.grounding.doors import doors_along
+from semnav_env.grounding.counted_doors import doors_along
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
@@ -122,7 +122,7 @@ def door_numbers(scene: Scene, follower: Follower) -> dict[int, int]:
     clause = clauses[min(follower.active, len(clauses) - 1)]
     reference = reference_of(clause)
     side = reference.side if isinstance(reference, DoorReference) else None
-    counted = doors_along(scene, corridor, side)
+    counted = doors_along(scene, corridor, side, follower.rules.grounding)
     order = {id(item.door): number for number, item in enumerate(counted, start=1)}
     return {i: order[id(d)] for i, d in enumerate(scene.doors) if id(d) in order}
 

@@ -24,7 +24,7 @@ from semnav_env.commands import (
 )
 from semnav_env.features.corridor import Corridor
 from semnav_env.features.frames import FloatArray, points_to_local
-from semnav_env.grounding.doors import CountedDoor, doors_along
+from semnav_env.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.situation import Situation
 from semnav_env.routes.naming import names_of_door, names_of_junction

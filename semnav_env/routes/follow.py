@@ -10,17 +10,19 @@ import shapely
 from semnav_env.commands import Approach, Command
 from semnav_env.features.frames import FloatArray, path_length, to_parent
 from semnav_env.grounding.crossing import first_crossed
-from semnav_env.grounding.doors import STAND_OFF
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.route import Route, RouteError
+from semnav_env.rules import GroundingRules
 from semnav_env.verifier import Motion, Verifier, plan_mission
+
+_STAND_OFF = GroundingRules().stand_off
 
 BEHIND_DOOR = 2.0
 """A route that ends so near behind a door leads through that door, metres."""
 
 BEFORE_DOOR = 0.2
-"""A route leads up to a door if it ends `STAND_OFF` before its middle, give or take so much."""
+"""A route leads up to a door if it ends `stand_off` before its middle, give or take so much."""
 
 SHORTEST = 0.5
 """A shorter route that turns nowhere leads nowhere, metres."""
@@ -69,7 +71,7 @@ def destination(floor_plan: FloorPlan, route: Route) -> tuple[str, Approach] | N
             return name, Approach.THROUGH
     if route.facing is not None:
         x, y, heading = poses[-1].tolist()
-        middle = to_parent((x, y, heading), (STAND_OFF, 0.0))
+        middle = to_parent((x, y, heading), (_STAND_OFF, 0.0))
         for door in floor_plan.doors:
             if door.open and math.dist(door.midpoint, middle) <= BEFORE_DOOR:
                 return door.name, Approach.TO

@@ -13,7 +13,7 @@ from semnav_env.commands import (
     Turning,
 )
 from semnav_env.features.corridor import Corridor, Junction
-from semnav_env.grounding.doors import CountedDoor
+from semnav_env.grounding.counted_doors import CountedDoor
 from semnav_env.grounding.junctions import junctions_ahead
 
 KINDS = (Place.CORNER, Place.T_JUNCTION, Place.INTERSECTION, Place.TURNING, Place.END)

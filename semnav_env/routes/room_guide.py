@@ -10,7 +10,7 @@ import shapely
 from semnav_env.commands import Command, GoToRoom
 from semnav_env.commands.rooms import plain_name
 from semnav_env.features.frames import FloatArray, Point, Pose, wrap_angle
-from semnav_env.grounding.situation import GroundingError
+from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.ways import Way, paced
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.maps.geodesic import Geodesic

@@ -10,11 +10,13 @@ import shapely
 from semnav_env.commands import Approach
 from semnav_env.commands.suggest import did_you_mean
 from semnav_env.features.frames import FloatArray, Point, Pose
-from semnav_env.grounding.doors import STAND_OFF
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.follow import crossings
 from semnav_env.routes.route import Route, RouteError
+from semnav_env.rules import GroundingRules
+
+_STAND_OFF = GroundingRules().stand_off
 
 AT_ROOM = 0.5
 """A door so near to a room is one of its doors, metres."""
@@ -98,19 +100,19 @@ def _to_door(start: Pose, way: FloatArray, door: PlanDoor, approach: Approach) -
     if outward @ (middle - _before(way, middle)) < 0:
         outward = -outward
     if approach is Approach.THROUGH:
-        apart = np.hypot(*(way - middle).T) > STAND_OFF / 2
+        apart = np.hypot(*(way - middle).T) > _STAND_OFF / 2
         apart[0] = True
-        inside = middle + np.outer((-STAND_OFF / 2, STAND_OFF), outward)
+        inside = middle + np.outer((-_STAND_OFF / 2, _STAND_OFF), outward)
         return Route(start, np.vstack((way[apart], inside)))
-    apart = np.hypot(*(way - middle).T) > STAND_OFF
+    apart = np.hypot(*(way - middle).T) > _STAND_OFF
     apart[0] = True
     heading = math.atan2(outward[1], outward[0])
-    return Route(start, np.vstack((way[apart], middle - STAND_OFF * outward)), heading)
+    return Route(start, np.vstack((way[apart], middle - _STAND_OFF * outward)), heading)
 
 
 def _before(way: FloatArray, middle: FloatArray) -> FloatArray:
     """The last point of a way that is clearly before the doorway that it leads to."""
-    apart = np.flatnonzero(np.hypot(*(way - middle).T) > STAND_OFF / 2)
+    apart = np.flatnonzero(np.hypot(*(way - middle).T) > _STAND_OFF / 2)
     return np.asarray(way[apart[-1] if len(apart) else 0])
 
 

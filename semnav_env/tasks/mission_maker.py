@@ -15,6 +15,7 @@ from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import RobotSpec
 from semnav_env.routes.room_guide import RoomGuide
+from semnav_env.rules import Rules
 from semnav_env.tasks.implicit import with_implicit_steps
 from semnav_env.tasks.request import EpisodeRequest
 from semnav_env.tasks.sampling import sample_feasible, sample_start
@@ -30,10 +31,11 @@ class MissionMaker:
     Args:
         floor_plan: where.
         robot: which body must find room.
+        rules: what a door is, and what success is.
     """
 
-    def __init__(self, floor_plan: FloorPlan, robot: RobotSpec) -> None:
-        self.floor_plan, self.robot = floor_plan, robot
+    def __init__(self, floor_plan: FloorPlan, robot: RobotSpec, rules: Rules = Rules()) -> None:
+        self.floor_plan, self.robot, self.rules = floor_plan, robot, rules
         self.geodesic = Geodesic(floor_plan)
 
     def make(self, request: EpisodeRequest, rng: np.random.Generator) -> Mission:
@@ -54,7 +56,9 @@ class MissionMaker:
         start, command = self._complete(pose, command, rng)
         if request.implicit_steps:
             command = self._with_implicit_steps(command, start)
-        return plan_mission(self.floor_plan, self.geodesic, command, start, request.feasible)
+        return plan_mission(
+            self.floor_plan, self.geodesic, command, start, request.feasible, self.rules
+        )
 
     def _complete(
         self, pose: Pose | None, command: Command | None, rng: np.random.Generator
@@ -65,7 +69,7 @@ class MissionMaker:
         objections: Counter[str] = Counter()
         for _ in range(MOST_DRAWS):
             start = pose or sample_start(self.floor_plan, self.robot, rng)
-            drawn = command or sample_feasible(self.floor_plan, start, rng)
+            drawn = command or sample_feasible(self.floor_plan, start, rng, rules=self.rules)
             if drawn is None:
                 continue
             objection = self._objection(drawn, start) if command is not None else ""
@@ -91,7 +95,7 @@ class MissionMaker:
         """Why a command cannot be carried out from there; empty if it can."""
         try:
             guide = RoomGuide(self.floor_plan, command, self.geodesic)
-            plan_goals(self.floor_plan, command, start, guide)
+            plan_goals(self.floor_plan, command, start, guide, self.rules)
         except GroundingError as error:
             return str(error)
         return ""

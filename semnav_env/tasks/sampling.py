@@ -27,6 +27,7 @@ from semnav_env.grounding import Goal, GroundingError, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import is_clear, placement_error, sample_pose
 from semnav_env.robots import RobotSpec
+from semnav_env.rules import Rules
 from semnav_env.verifier import plan_goals
 
 TRIES = 50
@@ -94,7 +95,11 @@ def beside_door(floor_plan: FloorPlan, pose: Pose) -> bool:
 
 
 def sample_feasible(
-    floor_plan: FloorPlan, start: Pose, rng: np.random.Generator, most_clauses: int = 3
+    floor_plan: FloorPlan,
+    start: Pose,
+    rng: np.random.Generator,
+    most_clauses: int = 3,
+    rules: Rules = Rules(),
 ) -> Command | None:
     """A random command of one to `most_clauses` clauses that can be carried out from `start`.
 
@@ -104,7 +109,7 @@ def sample_feasible(
     for _ in range(TRIES):
         command = _draw(rng, most_clauses)
         try:
-            goals = plan_goals(floor_plan, command, start)
+            goals = plan_goals(floor_plan, command, start, rules=rules)
         except GroundingError:
             continue
         if all(_has_space(floor_plan, goal) for goal in goals):

@@ -6,16 +6,21 @@ from collections.abc import Iterator
 
 from semnav_env.commands import Command
 from semnav_env.features.frames import Point, Pose
+from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, PassGoal, SeekGoal
-from semnav_env.grounding.situation import GroundingError
 from semnav_env.grounding.ways import Guide
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.routes.room_guide import RoomGuide
+from semnav_env.rules import Rules
 
 
 def plan_goals(
-    floor_plan: FloorPlan, command: Command, start: Pose, guide: Guide | None = None
+    floor_plan: FloorPlan,
+    command: Command,
+    start: Pose,
+    guide: Guide | None = None,
+    rules: Rules = Rules(),
 ) -> tuple[Goal, ...]:
     """The goals of a command on the true scene, each grounded where the one before ends.
 
@@ -24,24 +29,30 @@ def plan_goals(
         command: what to do.
         start: from where.
         guide: points out the ways to rooms; a `RoomGuide` of the floor plan if not given.
+        rules: distances and tolerances.
 
     Raises:
         GroundingError: a clause cannot be carried out.
     """
-    return tuple(goals_in_turn(floor_plan, command, start, guide))
+    return tuple(goals_in_turn(floor_plan, command, start, guide, rules))
 
 
 def goals_in_turn(
-    floor_plan: FloorPlan, command: Command, start: Pose, guide: Guide | None = None
+    floor_plan: FloorPlan,
+    command: Command,
+    start: Pose,
+    guide: Guide | None = None,
+    rules: Rules = Rules(),
 ) -> Iterator[Goal]:
     """As `plan_goals`, but the goals before the clause that cannot be carried out come first."""
     guide = RoomGuide(floor_plan, command) if guide is None else guide
-    follower = Follower(command, complete=True, guide=guide)
-    follower.start(floor_plan.scene, start)
+    follower = Follower(command, complete=True, guide=guide, rules=rules)
+    scene = floor_plan.scene_by(rules.door)
+    follower.start(scene, start)
     while not follower.done:
         check_grounded(follower)
         yield follower.goal
-        follower.skip_to_next(floor_plan.scene)
+        follower.skip_to_next(scene)
 
 
 def check_grounded(follower: Follower) -> None:

@@ -12,12 +12,14 @@ import numpy as np
 
 from semnav_env.commands import Command
 from semnav_env.features.frames import FloatArray, Pose, path_length
+from semnav_env.features.scene import Scene
+from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal
-from semnav_env.grounding.situation import GroundingError
 from semnav_env.grounding.ways import Way
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.room_guide import RoomGuide
+from semnav_env.rules import Rules
 from semnav_env.verifier.goals import goals_in_turn, place
 
 
@@ -32,6 +34,7 @@ class Mission:
         start: pose of the robot's centre, world frame.
         goals: of the clauses on the true scene, each grounded where the one before ends.
         ways: to the rooms that the command names, by the number of the clause, world frame.
+        rules: by which it is grounded and judged.
     """
 
     floor_plan: FloorPlan
@@ -40,6 +43,12 @@ class Mission:
     start: Pose
     goals: tuple[Goal, ...]
     ways: Mapping[int, Way] = field(repr=False)
+    rules: Rules = field(default=Rules(), repr=False)
+
+    @property
+    def scene(self) -> Scene:
+        """All walls and all doors that count, world frame."""
+        return self.floor_plan.scene_by(self.rules.door)
 
     @cached_property
     def route(self) -> FloatArray:
@@ -66,6 +75,7 @@ def plan_mission(
     command: Command,
     start: Pose,
     feasible: bool = True,
+    rules: Rules = Rules(),
 ) -> Mission:
     """Ground a command on the floor plan.
 
@@ -76,6 +86,7 @@ def plan_mission(
         start: its pose, world frame.
         feasible: whether the command must be one that can be carried out. If not, goals and route
             of one that cannot lead as far as it can.
+        rules: distances and tolerances.
 
     Raises:
         GroundingError: the command cannot be carried out from there; says what there is.
@@ -83,9 +94,9 @@ def plan_mission(
     guide = RoomGuide(floor_plan, command, geodesic)
     goals: tuple[Goal, ...] = ()
     try:
-        for goal in goals_in_turn(floor_plan, command, start, guide):
+        for goal in goals_in_turn(floor_plan, command, start, guide, rules):
             goals += (goal,)
     except GroundingError:
         if feasible:
             raise
-    return Mission(floor_plan, geodesic, command, start, goals, dict(guide.ways))
+    return Mission(floor_plan, geodesic, command, start, goals, dict(guide.ways), rules)

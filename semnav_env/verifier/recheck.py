@@ -20,21 +20,11 @@ from shapely.affinity import affine_transform
 from semnav_env.features.corridor import Junction, SideOpening
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.frames import Point as Position
+from semnav_env.features.rules import DoorRules
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal, wait_of
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.metrics.recording import Recording
-
-INSIDE_ARM, BEHIND_JUNCTION = 1.2, 2.4
-"""So far inside an arm that is not named, or behind the junction that is, is a wrong turn, m."""
-
-ARM_AHEAD = 0.5
-"""Arms whose far edge is no farther ahead than this do not count, metres."""
-
-AT_REST, STILL_SPEED, STILL_RATE = 0.05, 0.02, 0.02
-"""A "stop" is done below the first, m/s; the robot stands still below the others, m/s, rad/s."""
-
-LONGEST_STAND, SHORT_STAND = 10.0, 1.0
-"""Standing still for longer, or for longer at the very end, is stopping short, seconds."""
+from semnav_env.rules import Rules, SuccessRules
 
 ROUNDING = 1e-9
 """What lies on the very limit of a goal is within it, however computed; metres and radians."""
@@ -44,9 +34,6 @@ FAR = 1000.0
 
 DONE, WRONG_DOOR, WRONG_TURN = "done", "wrong door", "wrong turn"
 STOPPED_SHORT, OUT_OF_TIME = "stopped short", "out of time"
-
-BESIDE_WAY = 1.5
-"""So far beside the end of a known way is still there, metres."""
 
 Mask = NDArray[np.bool_]
 Jambs: TypeAlias = tuple[Position, Position]
@@ -67,35 +54,45 @@ class SecondOpinion:
     step: int
 
 
-def recheck(recording: Recording, floor_plan: FloorPlan, goals: Sequence[Goal]) -> SecondOpinion:
+def recheck(
+    recording: Recording, floor_plan: FloorPlan, goals: Sequence[Goal], rules: Rules = Rules()
+) -> SecondOpinion:
     """Judge a recorded path.
 
     Args:
         recording: of the episode; what comes after its end is not looked at.
         floor_plan: the truth.
         goals: what the command asks for, one after the other, on the true scene.
+        rules: what the judge accepts.
     """
-    path = _Path(recording)
+    path = _Path(recording, rules.success)
     last = 0
     for done, goal in enumerate(goals):
         met = _first(path.meets(goal, last), after=last)
-        failure = _first_failure(path, floor_plan, goal, last, met, done + 1 == len(goals))
+        failure = _first_failure(path, floor_plan, goal, last, met, done + 1 == len(goals), rules)
         if failure is not None:
             return SecondOpinion(failure[1], done, failure[0])
         if met is None:
-            stands = path.standing[-1] > SHORT_STAND
+            stands = path.standing[-1] > rules.success.final_still_seconds
             return SecondOpinion(STOPPED_SHORT if stands else OUT_OF_TIME, done, recording.steps)
         last = met
     return SecondOpinion(DONE, len(goals), last)
 
 
 def _first_failure(
-    path: _Path, floor_plan: FloorPlan, goal: Goal, after: int, met: int | None, final: bool
+    path: _Path,
+    floor_plan: FloorPlan,
+    goal: Goal,
+    after: int,
+    met: int | None,
+    final: bool,
+    rules: Rules,
 ) -> tuple[int, str] | None:
     """The first failure behind `after`, before a goal is met or in that very step."""
-    wrong_door = path.crosses_any(_forbidden(floor_plan, goal))
-    wrong_turn = path.enters(_wrong_places(goal))
-    too_still = path.standing > LONGEST_STAND + wait_of(goal) + path.period / 2
+    wrong_door = path.crosses_any(_forbidden(floor_plan, goal, rules.door))
+    wrong_turn = path.enters(_wrong_places(goal, rules.success))
+    longest = rules.success.still_seconds + wait_of(goal)
+    too_still = path.standing > longest + path.period / 2
     if met is not None:
         wrong_turn[met] = False  # to arrive is never a wrong turn
         too_still[met] &= not final
@@ -108,14 +105,14 @@ def _first_failure(
 class _Path:
     """A recorded path as Shapely's geometries; masks have one value per row, the first false."""
 
-    def __init__(self, recording: Recording) -> None:
-        self._recording = recording
+    def __init__(self, recording: Recording, rules: SuccessRules) -> None:
+        self._recording, self._rules = recording, rules
         self._points = shapely.points(recording.path)
         pairs = np.stack((recording.path[:-1], recording.path[1:]), axis=1)
         self._pieces = shapely.linestrings(pairs)
         self.period = recording.period
         rates = np.abs(recording.velocities[:, 2])
-        moving = (recording.speeds >= STILL_SPEED) | (rates >= STILL_RATE)
+        moving = (recording.speeds >= rules.still_speed) | (rates >= rules.still_yaw_rate)
         self.standing = _lasting(~moving) * recording.period
 
     def crosses(self, door: Jambs) -> Mask:
@@ -145,14 +142,14 @@ class _Path:
                 return self._arrives(goal)
 
     def _stands(self, goal: StopGoal, since: int) -> Mask:
-        slow = self._recording.speeds < AT_REST
+        slow = self._recording.speeds < self._rules.standstill_speed
         slow[: since + 1] = False
         return np.asarray(slow & (_lasting(slow) * self.period >= goal.wait - 1e-6))
 
     def _arrives(self, goal: ReachGoal) -> Mask:
-        if goal.places:
-            reach = goal.distance_tolerance + ROUNDING
-            there = _placed(goal.pose, shapely.box(-reach, -BESIDE_WAY, reach, BESIDE_WAY))
+        if goal.offset_tolerance is not None:
+            reach, side = goal.distance_tolerance + ROUNDING, goal.offset_tolerance
+            there = _placed(goal.pose, shapely.box(-reach, -side, reach, side))
             return _later(shapely.covers(there, self._points)[1:])
         away = shapely.distance(self._points, Point(goal.pose[:2]))
         near = away <= goal.distance_tolerance + ROUNDING
@@ -176,28 +173,29 @@ def _left_of(path: FloatArray, door: Jambs) -> Mask:
     return np.asarray(shapely.is_ccw(shapely.linearrings(rings)))
 
 
-def _forbidden(floor_plan: FloorPlan, goal: Goal) -> list[Jambs]:
+def _forbidden(floor_plan: FloorPlan, goal: Goal, rules: DoorRules) -> list[Jambs]:
     """The doors that must not be crossed: not the goal's, nor on a known way, nor too wide."""
     own = goal.door.name if isinstance(goal, PassGoal) else None
     way = LineString(goal.places) if len(goal.places) > 1 else LineString()
-    doors = [door for door in floor_plan.doors if door.name != own and not door.is_opening]
+    doors = [door for door in floor_plan.doors if door.name != own and not door.is_opening(rules)]
     jambs = [(door.start, door.end) for door in doors]
     return [door for door in jambs if not way.intersects(LineString(door))]
 
 
-def _wrong_places(goal: Goal) -> list[Polygon]:
+def _wrong_places(goal: Goal, rules: SuccessRules) -> list[Polygon]:
     """Where the robot has gone astray: arms that are not named, and far behind the junction."""
     if goal.corridor is None:
         return []
     frame, named = goal.corridor.frame, _named_arm(goal)
     boxes = [
-        _arm(opening, INSIDE_ARM)
+        _arm(opening, rules.wrong_arm_depth)
         for junction in goal.corridor.junctions
         for opening in junction.openings
-        if opening is not named and opening.far > ARM_AHEAD
+        if opening is not named and opening.far > rules.passed_arm_distance
     ]
     if isinstance(goal, ReachGoal) and goal.junction is not None:
-        boxes.append(shapely.box(goal.junction.far + BEHIND_JUNCTION, -FAR, FAR, FAR))
+        missed = goal.junction.far + rules.missed_turn_distance
+        boxes.append(shapely.box(missed, -FAR, FAR, FAR))
     return [_placed(frame, box) for box in boxes]
 
 

@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from semnav_env.features.frames import Pose
+from semnav_env.features.rules import DoorRules
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.grounding.follower import Follower
@@ -17,15 +18,6 @@ from semnav_env.simulator.sensed import Motion
 from semnav_env.verifier.astray import went_astray
 from semnav_env.verifier.mission import Mission
 from semnav_env.verifier.verdict import Verdict, verdicts
-
-STILL_FOR = 10.0
-"""After standing still for so long before the end, the robot has stopped short, seconds."""
-
-STILL = 0.02
-"""Slower than this is standing still, m/s and rad/s."""
-
-STILL_AT_THE_END = 1.0
-"""A robot that stands still for longer when time runs out has stopped short, seconds."""
 
 
 class Verifier:
@@ -46,8 +38,10 @@ class Verifier:
 
     def __init__(self, mission: Mission) -> None:
         self.mission = mission
-        self.follower = Follower(mission.command, complete=True, guide=KnownWays(mission.ways))
-        self.follower.start(mission.floor_plan.scene, mission.start)
+        self.follower = Follower(
+            mission.command, complete=True, guide=KnownWays(mission.ways), rules=mission.rules
+        )
+        self.follower.start(mission.scene, mission.start)
         self.failure: Verdict | None = None
         self.crossed: list[str] = []
         self._met: list[Goal] = []
@@ -57,10 +51,11 @@ class Verifier:
     def update(self, motion: Motion) -> bool:
         """Judge one control period; returns whether it completed a clause."""
         pose, speed, yaw_rate, _, seconds = motion
-        still = speed < STILL and abs(yaw_rate) < STILL
+        rules = self.mission.rules.success
+        still = speed < rules.still_speed and abs(yaw_rate) < rules.still_yaw_rate
         self._still = self._still + seconds if still else 0.0
         goal = self.follower.goal
-        allowed = STILL_FOR + wait_of(goal)
+        allowed = rules.still_seconds + wait_of(goal)
         completed = self.follower.advance(self._scene, pose, speed, seconds)
         if completed:
             self._met.append(goal)
@@ -71,7 +66,7 @@ class Verifier:
     def out_of_time(self) -> None:
         """The episode ended before the command was carried out."""
         if not self.over:
-            stopped = self._still > STILL_AT_THE_END
+            stopped = self._still > self.mission.rules.success.final_still_seconds
             self.failure = Verdict.STOPPED_SHORT if stopped else Verdict.OUT_OF_TIME
 
     @property
@@ -110,14 +105,14 @@ class Verifier:
         return verdicts(clauses, follower.active, self.failure, follower.skipped)
 
     def _scene(self) -> Scene:
-        return self.mission.floor_plan.scene
+        return self.mission.scene
 
     def _judge(self, goal: Goal, completed: bool, pose: Pose, too_still: bool) -> None:
-        crossed = self._crossed_door(pose)
+        crossed, rules = self._crossed_door(pose), self.mission.rules.door
         if crossed is not None:
             self.crossed.append(crossed.name)
         if (self.failure is None and not self.follower.done) or completed:
-            if crossed is not None and not _may_cross(goal, crossed):
+            if crossed is not None and not _may_cross(goal, crossed, rules):
                 self.failure = Verdict.WRONG_DOOR
             elif not completed and self._went_astray(goal, pose):
                 self.failure = Verdict.WRONG_TURN
@@ -125,7 +120,8 @@ class Verifier:
                 self.failure = Verdict.STOPPED_SHORT
 
     def _went_astray(self, goal: Goal, pose: Pose) -> bool:
-        return went_astray(self.mission.command.clauses[self.follower.active], goal, pose)
+        clause = self.mission.command.clauses[self.follower.active]
+        return went_astray(clause, goal, pose, self.mission.rules.success)
 
     def _crossed_door(self, pose: Pose) -> PlanDoor | None:
         plan = self.mission.floor_plan
@@ -133,12 +129,12 @@ class Verifier:
         return None if index < 0 else plan.doors[index]
 
 
-def _may_cross(goal: Goal, crossed: PlanDoor) -> bool:
+def _may_cross(goal: Goal, crossed: PlanDoor, rules: DoorRules) -> bool:
     """Whether a goal is to pass that very door, or lies beyond it on the way that is known.
 
     What is too wide to count as a door may be crossed anyway.
     """
-    if crossed.is_opening:
+    if crossed.is_opening(rules):
         return True
     if isinstance(goal, PassGoal) and goal.door.name == crossed.name:
         return True

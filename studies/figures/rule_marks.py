@@ -12,7 +12,7 @@ from semnav_env.features.corridor import Corridor
 from semnav_env.features.frames import Point, Pose, compose
 from semnav_env.features.scene import Scene
 from semnav_env.grounding import Goal, GoalKind, PassGoal, ReachGoal
-from semnav_env.grounding.doors import doors_along
+from semnav_env.grounding.counted_doors import doors_along
 
 COLOURS = {Side.LEFT: "tab:blue", Side.RIGHT: "tab:orange", Side.AHEAD: "tab:purple"}
 LETTERS = {Side.LEFT: "L", Side.RIGHT: "R", Side.AHEAD: "A"}

@@ -1,0 +1,51 @@
+"""How doors lie to a pose and to one another."""
+
+from __future__ import annotations
+
+import math
+
+from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
+from semnav_env.features.scene import Door
+
+
+def heading_between(start: Point, end: Point) -> float:
+    """The heading from one place to another, radians."""
+    return math.atan2(end[1] - start[1], end[0] - start[0])
+
+
+def heading_through(door: Door, about: float) -> float:
+    """The heading at right angles to a door that is nearest to another one, radians."""
+    normal = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0]) + math.pi / 2
+    return wrap_angle(normal if math.cos(normal - about) > 0 else normal + math.pi)
+
+
+def bearing(pose: Pose, door: Door) -> float:
+    """The angle between a pose's heading and the direction to a door's middle, 0 to pi radians."""
+    return abs(wrap_angle(heading_between(pose[:2], door.midpoint) - pose[2]))
+
+
+def shared_width(door: Door, pose: Pose, half: float) -> float:
+    """How much of a door lies straight ahead of a strip that reaches `half` to both sides, metres.
+
+    Negative where the door lies beside the strip.
+    """
+    sides = to_local(pose, door.start)[1], to_local(pose, door.end)[1]
+    return min(max(sides), half) - max(min(sides), -half)
+
+
+def lies_across(door: Door, pose: Pose) -> bool:
+    """Whether a door lies ahead and more across a pose's heading than along it."""
+    (ax, ay), (bx, by) = to_local(pose, door.start), to_local(pose, door.end)
+    return ax + bx > 0.0 and abs(bx - ax) < abs(by - ay)
+
+
+def lies_behind(door: Door, other: Door, pose: Pose, least: float) -> bool:
+    """Whether a door is on the far side of the line of another one, by more than `least` metres.
+
+    `here` and `there` are signed distances from that line: of different signs on its two sides.
+    """
+    (ax, ay), (bx, by) = other.start, other.end
+    dx, dy = (bx - ax) / other.width, (by - ay) / other.width
+    here = dx * (pose[1] - ay) - dy * (pose[0] - ax)
+    there = dx * (door.midpoint[1] - ay) - dy * (door.midpoint[0] - ax)
+    return here * there < 0.0 and abs(there) > least

@@ -1,0 +1,94 @@
+"""The goals of clauses that lead to a door, through one, out of a room, or where a way leads."""
+
+from __future__ import annotations
+
+import math
+
+from semnav_env.commands.clauses import Approach, GoBack, GoToDoor, GoToRoom
+from semnav_env.commands.references import Side
+from semnav_env.grounding.counted_doors import CountedDoor
+from semnav_env.grounding.door_geometry import heading_through
+from semnav_env.grounding.errors import GroundingError
+from semnav_env.grounding.find import find_door, find_exit
+from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
+from semnav_env.grounding.search import Searching
+from semnav_env.grounding.situation import Situation
+from semnav_env.grounding.ways import Way, door_near
+
+
+def search_goal(search: Searching) -> SeekGoal | ReachGoal:
+    """The goal of looking for something.
+
+    A search on the spot is a goal that no pose reaches, for turning is no end in itself.
+    """
+    if search.on_the_spot:
+        return ReachGoal(search.lookout, 0.0, 0.0, f"looking for {search.what}")
+    return SeekGoal(search.lookout, search.what, corridor=search.corridor)
+
+
+def door_goal(clause: GoToDoor, situation: Situation) -> Goal:
+    """The goal of "go through the second door on the right", or to it."""
+    found = find_door(clause.door, situation)
+    if isinstance(found, Searching):
+        return search_goal(found)
+    door, because = found.value, str(clause.door)
+    across = door.side in (Side.BEHIND, Side.OPPOSITE)  # not along the corridor
+    corridor = None if across else situation.corridor
+    stand_off = situation.rules.grounding.stand_off
+    if clause.approach is Approach.THROUGH:
+        behind, line = door.pose(stand_off), door.pose(0.0)
+        return PassGoal(behind, door.door, because, corridor=corridor, onward=line)
+    accepted = situation.rules.success
+    return ReachGoal(
+        door.pose(-stand_off),
+        accepted.door_distance,
+        accepted.door_heading,
+        because,
+        door.door,
+        corridor=corridor,
+    )
+
+
+def leave_goal(situation: Situation) -> Goal:
+    """The goal of "leave the room"."""
+    found = find_exit(situation)
+    if isinstance(found, Searching):
+        return search_goal(found)
+    door = found.value
+    behind, line = door.pose(situation.rules.grounding.stand_off), door.pose(0.0)
+    return PassGoal(behind, door.door, "leave the room", onward=line)
+
+
+def way_goal(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
+    """The goal of "go to the kitchen" and of "go back to the start".
+
+    The door that is seen where one was pointed out is the one to pass; until it is seen, the one
+    that was pointed out.
+
+    Raises:
+        GroundingError: the robot has not been told the way.
+    """
+    way, because = situation.way, str(clause)
+    if way is None:
+        raise GroundingError(f"{clause}: the robot has not been told the way there")
+    if way.door is None:
+        return _end_of_way(way, because, situation)
+    rules = situation.rules.grounding
+    door = door_near(situation.scene, way, situation.pose, rules) or way.door
+    line = CountedDoor(door, 0.0, Side.AHEAD, heading_through(door, way.heading))
+    behind, onward = line.pose(rules.stand_off), line.pose(0.0)
+    return PassGoal(behind, door, because, onward=onward, places=way.places)
+
+
+def _end_of_way(way: Way, because: str, situation: Situation) -> ReachGoal:
+    """Be where the way leads, facing as the last stretch of it does."""
+    (ax, ay), (bx, by) = way.places[-2:]
+    accepted = situation.rules.success
+    return ReachGoal(
+        (bx, by, math.atan2(by - ay, bx - ax)),
+        accepted.way_distance,
+        because=because,
+        offset_tolerance=accepted.way_offset,
+        onward=(bx, by, way.heading),
+        places=way.places,
+    )
