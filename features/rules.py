@@ -14,7 +14,7 @@ class DoorRules:
         width_min: narrowest door, metres. Barbret 2021, section 3.1, has 0.8; room doors that were
             measured are 0.76 to 0.83 clear.
         width_max: widest door, metres (Barbret 2021, section 3.1).
-        width_tolerance: added to both limits, metres: what a lidar adds to or takes from a width.
+        width_tolerance: added to both limits, metres: the error of a measured width.
 
     Raises:
         ValueError: a width is negative or not finite, or the narrowest door exceeds the widest.

@@ -19,11 +19,11 @@ class GroundingRules:
 
     Attributes:
         stand_off: distance from a door at which the robot's centre stands before or behind it,
-            metres: room for the wheelchair's footplate, 0.6 m ahead of its centre.
+            metres: room for a body to face the door without touching it.
         doorway_exit: distance that a robot drives out of a doorway before it turns, metres: so far
             its body is clear of the jambs.
-        look_ahead: distance ahead of the robot at which the goal of a search lies, metres: half of
-            what a lidar sees well.
+        look_ahead: distance ahead of the robot at which the goal of a search lies, metres: well
+            within a lidar's range.
         end_margin: distance before the end of a corridor at which the robot stops, metres: room to
             turn on the spot.
         lookout_distance: distance at which a lookout point counts as reached, metres: more than
@@ -64,10 +64,10 @@ class GroundingRules:
             begins, so that this doorway does not count, metres: half of a door's width.
         faced_door_distance: a door no farther ahead than this is the one that a robot turns away
             from, metres.
-        way_door_depth: distance along the way through it from where a door was pointed out within
-            which it may be seen, metres: what odometry drifts by.
-        way_door_offset: the same distance across the way, metres: less than from door to door.
-        way_door_angle: largest difference between its direction and the one pointed out, radians.
+        way_door_depth: largest distance of a seen door from where it was pointed out, in the
+            direction through it, metres: odometry drifts.
+        way_door_offset: the same distance along the wall, metres: less than from door to door.
+        way_door_angle: largest angle between a seen door and the one pointed out, radians.
         way_door_passed: a robot farther behind a door faces another one, metres: less than half a
             corridor.
         places_ahead: number of places farther on that a robot on a known way heads for.
@@ -132,8 +132,8 @@ class SuccessRules:
         door_heading: largest heading error there, radians.
         junction_distance: largest distance from the place inside the arm after a turn, metres: all
             of an arm's width.
-        turn_distance: largest distance from where a turn on the spot was begun, metres: SPOT and
-            the wheelchair need room to turn.
+        turn_distance: largest distance from where a turn on the spot was begun, metres: a body
+            may need room to turn.
         turn_heading: largest heading error after a turn, radians: less than between two arms.
         turn_heading_min: least heading error that is accepted after a turn by some degrees,
             radians: what odometry is off by; above it half of the angle, up to `turn_heading`.
@@ -142,17 +142,18 @@ class SuccessRules:
         way_offset: largest distance beside the end of a known way, metres: odometry has drifted on
             a long way.
         standstill_speed: below it the robot has stopped, as "stop" asks, m/s.
-        still_speed: below it the robot stands still, which ends an episode in time, m/s.
-        still_yaw_rate: below it, too, rad/s.
+        still_speed: below it and `still_yaw_rate` the robot stands still, which ends an episode
+            after a while, m/s.
+        still_yaw_rate: the same for turning, rad/s.
         still_seconds: longest time of standing still, beyond what a clause asks for, seconds.
         final_still_seconds: standing still for longer when time runs out is stopping short,
             seconds.
-        wrong_arm_depth: distance inside an arm that a clause does not name from which on it is a
-            wrong turn, metres: a body that has left the corridor.
-        missed_turn_distance: distance behind the junction at which to turn from which on it is a
-            wrong turn, metres.
-        passed_arm_distance: an arm whose far edge is no farther ahead of where the clause began
-            than this was behind the robot, and is no wrong turn, metres.
+        wrong_arm_depth: a robot farther inside an arm that the clause does not name has taken a
+            wrong turn, metres: its body has left the corridor.
+        missed_turn_distance: a robot farther behind the junction at which it was to turn has taken
+            a wrong turn, metres: twice `wrong_arm_depth`.
+        passed_arm_distance: an arm counts as passed, and is no wrong turn, if its far edge lies no
+            farther ahead than this of where the clause began, metres.
     """
 
     door_distance: float = 0.7

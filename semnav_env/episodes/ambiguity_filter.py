@@ -20,7 +20,7 @@ from semnav_env.grounding import Goal, GroundingError, UnclearError, ground
 from semnav_env.grounding.conditions import is_met
 from semnav_env.grounding.goal import door_of
 from semnav_env.grounding.junctions import junctions_ahead
-from semnav_env.grounding.search import Found
+from semnav_env.grounding.search import Known
 from semnav_env.grounding.situation import Situation
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import is_clear
@@ -62,7 +62,7 @@ class AmbiguityFilter:
         if len(answers) > 1:
             return None
         (answer,) = answers
-        met = isinstance(answer, Found) and answer.value
+        met = isinstance(answer, Known) and answer.value
         there = met is not condition.absent
         return met if there or self._seen_to_end(begin) else None
 

@@ -7,11 +7,11 @@ from semnav_env.commands.references import OTHER, DoorReference, Place, PlaceRef
 from semnav_env.grounding.find import named_doors
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.opposite import ORDINALS_OF_ONE, doors_opposite
-from semnav_env.grounding.search import Found, Searching
+from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation
 
 
-def is_met(condition: IfThere, situation: Situation) -> Found[bool] | Searching:
+def is_met(condition: IfThere, situation: Situation) -> Known[bool] | Searching:
     """Whether a condition is met, as far as it is known.
 
     What is there is known as soon as it is seen; that nothing is there, at the end of the corridor,
@@ -23,7 +23,7 @@ def is_met(condition: IfThere, situation: Situation) -> Found[bool] | Searching:
         if isinstance(found, Searching):
             return found
         there = bool(found.value) and condition.what.ordinal in ORDINALS_OF_ONE
-        return Found(there is not condition.absent)
+        return Known(there is not condition.absent)
     (count, more), wanted = _count(condition.what, situation), condition.what.ordinal
     from_start, all_known = wanted > OTHER, situation.seen_to_end or not more
     if (from_start or all_known) and count >= max(1, abs(wanted)):
@@ -32,7 +32,7 @@ def is_met(condition: IfThere, situation: Situation) -> Found[bool] | Searching:
         there = False
     else:
         return situation.go_on(condition.what)
-    return Found(there is not condition.absent)
+    return Known(there is not condition.absent)
 
 
 def _count(what: DoorReference | PlaceReference, situation: Situation) -> tuple[int, bool]:

@@ -14,12 +14,12 @@ from semnav_env.grounding.errors import GroundingError, UnclearError
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.opposite import ORDINALS_OF_ONE, doors_opposite, view_from_door
 from semnav_env.grounding.room_exits import room_exits
-from semnav_env.grounding.search import Found, Searching
+from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation, is_behind, turned
 from semnav_env.grounding.visible_doors import doors_around, own_doorway
 
 
-def find_door(reference: DoorReference, situation: Situation) -> Found[CountedDoor] | Searching:
+def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
     """The door that a reference names.
 
     Args:
@@ -49,7 +49,7 @@ def find_door(reference: DoorReference, situation: Situation) -> Found[CountedDo
         side = None if situation.back else reference.side
         if _may_hide_a_door(situation, side, door.along):
             return situation.go_on(f"doors before {reference}", door.along)
-    return Found(door)
+    return Known(door)
 
 
 def named_doors(reference: DoorReference, situation: Situation) -> tuple[list[CountedDoor], bool]:
@@ -81,7 +81,7 @@ def named_doors(reference: DoorReference, situation: Situation) -> tuple[list[Co
     return straight, not straight
 
 
-def find_exit(situation: Situation) -> Found[CountedDoor] | Searching:
+def find_exit(situation: Situation) -> Known[CountedDoor] | Searching:
     """The door of "leave the room": the doorway that the robot has just come by.
 
     A robot that has not come by one leaves by the only door in view.
@@ -106,12 +106,12 @@ def find_exit(situation: Situation) -> Found[CountedDoor] | Searching:
         door = around[0]
         away = heading_through(door, heading_between(begin[:2], door.midpoint))
         inward = (*door.midpoint, wrap_angle(away + math.pi))
-    return Found(CountedDoor(door, 0.0, Side.BEHIND, wrap_angle(inward[2] + math.pi)))
+    return Known(CountedDoor(door, 0.0, Side.BEHIND, wrap_angle(inward[2] + math.pi)))
 
 
 def find_junction(
     reference: PlaceReference | None, turning: Turning | None, situation: Situation
-) -> Found[Junction] | Searching:
+) -> Known[Junction] | Searching:
     """The junction that a reference names.
 
     Only junctions that open to the side of the turn count. Without a reference it is the next
@@ -129,7 +129,7 @@ def find_junction(
         junctions = junctions_ahead(corridor, None, turning, rules)
     counted = ordinal > 0 or situation.seen_to_end
     if counted and len(junctions) >= abs(ordinal):
-        return Found(junctions[ordinal - 1 if ordinal > 0 else ordinal])
+        return Known(junctions[ordinal - 1 if ordinal > 0 else ordinal])
     name = junction_name(reference) + ("" if turning is None else f" that leads {turning}")
     if situation.seen_to_end:
         raise _missing(name, len(junctions))
@@ -143,7 +143,7 @@ def junction_name(reference: PlaceReference | None) -> str:
 
 def _find_opposite(
     reference: DoorReference, situation: Situation
-) -> Found[CountedDoor] | Searching:
+) -> Known[CountedDoor] | Searching:
     if reference.ordinal not in ORDINALS_OF_ONE:
         raise GroundingError(f"no {str(reference).removeprefix('the ')}: at most one is opposite")
     found = doors_opposite(reference, situation)
@@ -154,7 +154,7 @@ def _find_opposite(
         raise UnclearError(f"{reference}: there is one {sides} there; say on which side")
     for view, door in found.value.items():
         outward = heading_through(door, view.pose[2])
-        return Found(CountedDoor(door, 0.0, Side.OPPOSITE, outward))
+        return Known(CountedDoor(door, 0.0, Side.OPPOSITE, outward))
     here = "this place" if view_from_door(situation) is None else "that door"
     raise GroundingError(f"no door opposite: none faces {here}")
 

@@ -22,7 +22,7 @@ from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopG
 from semnav_env.grounding.goals import search_goal
 from semnav_env.grounding.ground import goal_of
 from semnav_env.grounding.known_way import next_on_way
-from semnav_env.grounding.search import Found, Searching
+from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation, is_behind, looks_along, turned
 from semnav_env.grounding.ways import Guide, KnownWays, Trail, Way
 from semnav_env.rules import Rules
@@ -122,7 +122,7 @@ class Follower:
         try:
             found = self._ground(scene, pose)
             self.impossible = None
-            if isinstance(found, Found):
+            if isinstance(found, Known):
                 self._go_on(after(self.command.clauses, self.active, found.value))
                 self._begin_clause(scene, self.begin, pose)
             else:
@@ -135,7 +135,7 @@ class Follower:
         """Take the active clause for done."""
         self._begin_next(scene, self.goal.next_begin)
 
-    def _ground(self, scene: Scene, pose: Pose) -> Goal | Found[bool]:
+    def _ground(self, scene: Scene, pose: Pose) -> Goal | Known[bool]:
         """The goal of the active clause, or whether its condition is met."""
         situation = self._situation(scene, pose)
         clause = in_context(self.command.clauses, self.active)

@@ -10,7 +10,7 @@ from semnav_env.features.frames import Pose, compose, to_local
 from semnav_env.features.kernels.probing import BODY_WIDTH
 from semnav_env.features.scene import Door
 from semnav_env.grounding.door_geometry import heading_between, heading_through, shared_width
-from semnav_env.grounding.search import Found, Searching
+from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation
 from semnav_env.grounding.visible_doors import doors_across, own_doorway
 
@@ -91,7 +91,7 @@ class AcrossView:
 
 def doors_opposite(
     reference: object, situation: Situation
-) -> Found[dict[AcrossView, Door]] | Searching:
+) -> Known[dict[AcrossView, Door]] | Searching:
     """The doors opposite, by the views that meet them.
 
     A robot that was sent to a door, or past it, looks across from that door; one that stands in a
@@ -102,7 +102,7 @@ def doors_opposite(
     met = {each: door for each in views if (door := each.faced(situation)) is not None}
     missing = [each for each in views if not each.is_done(situation)]
     if met or situation.complete or not missing:
-        return Found(met)
+        return Known(met)
     return missing[0].search(situation, reference)
 
 

@@ -1,4 +1,4 @@
-"""What a search for a referent gives: it is found, or here is where to look for it."""
+"""What a search for a referent gives: it is known, or here is where to look for it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
-class Found(Generic[T]):
+class Known(Generic[T]):
     """What a reference names, or the answer to what was asked.
 
     Attributes:

@@ -15,12 +15,13 @@ from studies.figures import (
     real_floor,
     routes,
     rules,
+    rules_table,
     situations,
 )
 
 FIGURES = (
     *(arcs, buildings, drift, features_tables, language, lines, logs, mapping, offices),
-    *(real_floor, routes, rules, situations),
+    *(real_floor, routes, rules, rules_table, situations),
 )
 
 if __name__ == "__main__":
