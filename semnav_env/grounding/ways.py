@@ -14,7 +14,7 @@ from semnav_env.features.scene import Door, Scene
 from semnav_env.rules import GroundingRules
 
 WAY_SPACING = 1.5
-"""Distance between the places of a way, metres: a corridor's width, so that none is cut across."""
+"""Distance between the places of a way, metres: about the width of a corridor."""
 
 
 @dataclass(frozen=True, slots=True)
