@@ -1,4 +1,9 @@
-"""Grounding: what a clause refers to in a scene, and how far the robot is in following it."""
+"""Grounding: what a clause refers to in a scene, and how far the robot is in following it.
+
+Calls go one way: a `Follower` has the active clause grounded (`ground`, `conditions`), goals are
+made (`goals`, `corridor_goals`) of what is found (`find`), and finding asks what there is in a
+situation (`counted_doors`, `junctions`, `opposite`, `visible_doors`, `room_exits`).
+"""
 
 from semnav_env.grounding.errors import GroundingError, UnclearError
 from semnav_env.grounding.goal import Goal, GoalKind, PassGoal, ReachGoal, SeekGoal, StopGoal
