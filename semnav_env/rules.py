@@ -74,9 +74,9 @@ class GroundingRules:
         way_drift: largest distance beside a known way that the robot keeps to, metres: what
             odometry drifts by.
         straight_way_angle: a known way that turns by less leads straight on, radians.
-        door_margin: distance beside a seen jamb at which a crossing still counts for the robot, and
+        jamb_margin: distance beside a seen jamb at which a crossing still counts for the robot, and
             behind the door that the robot must be, metres: seen jambs are not exact.
-        caution: share of a success tolerance within which the robot itself takes a goal as reached,
+        care: share of a success tolerance within which the robot itself takes a goal as reached,
             so that it aims well inside what the judge accepts.
     """
 
@@ -113,8 +113,8 @@ class GroundingRules:
     places_ahead: int = 2
     way_drift: float = 1.5
     straight_way_angle: float = 0.6
-    door_margin: float = 0.3
-    caution: float = 0.5
+    jamb_margin: float = 0.3
+    care: float = 0.5
 
     @property
     def seen_end_distance(self) -> float:

@@ -112,8 +112,8 @@ class BeliefTracker:
         self.follower = Follower(
             command,
             complete=self.known_scene is not None,
-            care=self.rules.grounding.caution,
-            jamb_margin=self.rules.grounding.door_margin,
+            care=self.rules.grounding.care,
+            jamb_margin=self.rules.grounding.jamb_margin,
             guide=KnownWays(ways),
             rules=self.rules,
         )
