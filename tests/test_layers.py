@@ -145,7 +145,7 @@ def needed(name, seen):
     return seen
 
 
-ROBOTS_SIDE = {"belief", "features", "commands", "grounding"}
+ROBOTS_SIDE = {"belief", "features", "commands", "grounding", "rules"}
 """What runs on a robot as it is."""
 
 
