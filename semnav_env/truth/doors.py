@@ -10,7 +10,7 @@ import numpy as np
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local
 from semnav_env.features.scene import Door, SceneLeaf
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor
-from studies.truth.sweep import Outline, distances_along, points_at
+from semnav_env.truth.sweep import Outline, distances_along, points_at
 
 MAX_HINGE_GAP = 0.05
 """A leaf that begins this close to a jamb hangs there, metres."""
