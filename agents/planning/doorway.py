@@ -64,11 +64,6 @@ def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
     return np.concatenate([np.empty((0, 2)), *others])
 
 
-def target_before(door: Door, approach: Point) -> DriveTarget:
-    """A target before the door on its axis, facing it."""
-    return DriveTarget(poses_through(door, approach)[0], 0.15, 0.15)
-
-
 def target_behind(door: Door, approach: Point) -> DriveTarget:
     """A target wholly through the door, in any heading: a leaf may bar the way along its axis."""
     behind = poses_through(door, approach, after=THROUGH_DISTANCE)[1]
