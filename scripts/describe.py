@@ -12,7 +12,7 @@ import numpy as np
 from tyro.conf import arg
 
 from semnav_env.commands import Approach, paraphrases, to_program
-from semnav_env.commands.language import language_of
+from semnav_env.commands.languages import language_of
 from semnav_env.features.frames import Point
 from semnav_env.features.plot import check_suffix
 from semnav_env.grounding.goal import door_of

@@ -70,7 +70,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     | corridors, corridors_mask | 24 * 2, 24 | x, y of midpoints of corridor entrances |
     | remembered_doors, .._mask | 16 * 4, 16 | doors seen in three or more scans so far |
     | bumps, bumps_mask | 16 * 4, 16 | x, y of ends of walls bumped into unseen, such as glass |
-    | command | 8 * 5 | the command as tokens, see `commands.tokens.encode` |
+    | command | 8 * 5 | the command as tokens, see `commands.encode` |
     | clause | 8 | one-hot: the clause that the robot believes to be under way |
     | odometry | 7 | x, y, cosine and sine of heading as the robot believes; its speeds |
     | goal | 13 | seek, reach, pass or stop; x, y, cosine, sine; jambs; has a door |

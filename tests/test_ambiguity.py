@@ -13,7 +13,7 @@ from semnav_env.commands import (
     parse,
     readings,
 )
-from semnav_env.commands.language import languages
+from semnav_env.commands.languages import languages
 from tests.command_strategies import commands
 
 AMBIGUOUS = {

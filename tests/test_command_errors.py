@@ -7,7 +7,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from semnav_env.commands import Command, CommandError, parse
-from semnav_env.commands.language import english
+from semnav_env.commands.languages import english
 from semnav_env.commands.normalise import MAX_CHARACTERS, MAX_WORDS
 from semnav_env.commands.suggest import nearest
 from tests.command_strategies import commands, without_rooms

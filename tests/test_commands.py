@@ -34,7 +34,7 @@ from semnav_env.commands import (
     sample_clause,
     sample_command,
 )
-from semnav_env.commands.language import languages
+from semnav_env.commands.languages import languages
 from tests.command_strategies import clauses, commands
 
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from semnav_env.commands import Command, CommandError, paraphrases, parse, sample_command
-from semnav_env.commands.language import Language, language_of
+from semnav_env.commands.language import Language
+from semnav_env.commands.languages import language_of
 
 LANGUAGES = ("en", "de")
 OFFICE = parse(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from lark import Lark, logger
 
 from semnav_env.commands import Command, CommandError, IfThere, grammar, parse
-from semnav_env.commands.language import english, languages
+from semnav_env.commands.languages import english, languages
 from semnav_env.commands.normalise import SIGNS
 from semnav_env.commands.words import pieces
 from tests.command_strategies import commands

@@ -28,7 +28,7 @@ from semnav_env.commands import (
     token_mask,
     token_space,
 )
-from semnav_env.commands.tokens import COUNTS, Verb
+from semnav_env.commands.tokens import COLUMN_SIZES, TokenVerb
 from tests.command_strategies import commands, without_rooms
 
 SHAPE = (MAX_CLAUSES, CLAUSE_FEATURES)
@@ -71,7 +71,7 @@ def test_the_columns_are_as_written_down() -> None:
 @given(
     arrays(np.int64, SHAPE, elements=st.integers(-1, 33))
     | st.tuples(
-        *(arrays(np.int64, MAX_CLAUSES, elements=st.integers(0, n - 1)) for n in COUNTS)
+        *(arrays(np.int64, MAX_CLAUSES, elements=st.integers(0, n - 1)) for n in COLUMN_SIZES)
     ).map(np.column_stack)
 )
 def test_any_integers_are_a_command_or_refused(tokens: Any) -> None:
@@ -116,7 +116,7 @@ def test_rooms_are_numbered_by_their_place_among_the_names(command: Command) -> 
     tokens = encode(command, rooms)
     assert token_space().contains(tokens)
     assert decode(tokens, rooms) == command
-    assert [rooms[n - 1] for v, _, _, n, _ in tokens.tolist() if v == Verb.GO_TO_ROOM] == names
+    assert [rooms[n - 1] for v, _, _, n, _ in tokens.tolist() if v == TokenVerb.GO_TO_ROOM] == names
 
 
 def test_a_room_that_is_not_there_has_no_number() -> None:

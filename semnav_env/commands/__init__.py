@@ -1,4 +1,4 @@
-"""Commands: from words to typed clauses, and back to words."""
+"""Commands: texts become typed clauses, and clauses become texts and tokens."""
 
 from semnav_env.commands.clauses import (
     Approach,
@@ -14,6 +14,8 @@ from semnav_env.commands.clauses import (
     Turning,
 )
 from semnav_env.commands.command import MAX_CLAUSES, Command
+from semnav_env.commands.decoding import decode
+from semnav_env.commands.encoding import encode
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.interpreters import (
     GrammarInterpreter,
@@ -38,7 +40,7 @@ from semnav_env.commands.references import (
     Unit,
 )
 from semnav_env.commands.sampling import sample_clause, sample_command
-from semnav_env.commands.tokens import CLAUSE_FEATURES, decode, encode, token_mask, token_space
+from semnav_env.commands.tokens import CLAUSE_FEATURES, token_mask, token_space
 
 __all__ = [
     "CLAUSE_FEATURES",

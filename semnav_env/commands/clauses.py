@@ -1,6 +1,6 @@
-"""The clauses of a command: frozen values whose text is canonical English.
+"""The clauses of a command: frozen values that can be put in words.
 
-`parse(str(clause)).clauses == (clause,)` for every clause.
+`str(clause)` is canonical English, and `parse(str(clause)).clauses == (clause,)`.
 """
 
 from __future__ import annotations
@@ -11,21 +11,22 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeAlias
 
-from semnav_env.commands.language import Language, english
+from semnav_env.commands.language import Language
+from semnav_env.commands.languages import english
 from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference
 from semnav_env.commands.rooms import MAX_NAME
 
 MAX_DEGREES, DEGREE_STEP = 360, 5
-"""Turns by degrees go up to a full one, in steps of five."""
+"""The largest turn by degrees, a full one, and the step of such turns, degrees."""
 
 MAX_SECONDS = 100
-"""The longest wait, seconds."""
+"""The longest wait, seconds; the most that a token holds."""
 
 _NAME = re.compile(rf"(?=.{{1,{MAX_NAME}}}$)[a-z0-9]+(?:[ ._-][a-z0-9]+)*", re.ASCII)
 
 
 class Turning(StrEnum):
-    """Which way to turn."""
+    """The direction of a turn."""
 
     LEFT = "left"
     RIGHT = "right"
@@ -33,14 +34,14 @@ class Turning(StrEnum):
 
 
 class Approach(StrEnum):
-    """How far a door clause goes: up to the door, or through it."""
+    """Whether a robot stops in front of a door or goes through it."""
 
     TO = "to"
     THROUGH = "through"
 
 
-class _Said(ABC):
-    """A clause that says itself."""
+class _SpokenClause(ABC):
+    """Base of all clauses: a clause can be put in the words of a language."""
 
     __slots__ = ()
 
@@ -53,12 +54,12 @@ class _Said(ABC):
 
 
 @dataclass(frozen=True, slots=True)
-class Follow(_Said):
+class Follow(_SpokenClause):
     """Follow the hallway: "go down the hallway until the next intersection".
 
     Attributes:
-        until: how far; None leaves it to the next clause, or to the end of the hallway.
-        past: go on until it lies behind, so that it no longer counts.
+        until: how far; None if the next clause says it, or the end of the hallway does.
+        past: go on until `until` lies behind, so that it no longer counts.
     """
 
     until: PlaceReference | DoorReference | Distance | None = None
@@ -79,13 +80,14 @@ class Follow(_Said):
 
 
 @dataclass(frozen=True, slots=True)
-class Turn(_Said):
+class Turn(_SpokenClause):
     """Change direction: "turn left at the second intersection".
 
     Attributes:
         turning: which way.
-        at: where; None is here.
-        degrees: by how much, on the spot; None is into what leads that way, or a quarter turn.
+        at: where; None means here.
+        degrees: turn on the spot by so much; None means into the arm on that side, or by a quarter
+            turn if there is none.
     """
 
     turning: Turning
@@ -113,12 +115,12 @@ class Turn(_Said):
 
 
 @dataclass(frozen=True, slots=True)
-class GoToDoor(_Said):
+class GoToDoor(_SpokenClause):
     """Go to a door or through it: "go through the second door on the right".
 
     Attributes:
         door: which door.
-        approach: stop before it, or go through it ("through", "into", "in" and "enter").
+        approach: stop in front of it, or go through it ("through", "into", "in" and "enter").
     """
 
     door: DoorReference
@@ -130,12 +132,12 @@ class GoToDoor(_Said):
 
 
 @dataclass(frozen=True, slots=True)
-class GoToRoom(_Said):
-    """Go into a room that the floor plan names: "go to the kitchen", "go to room 3.508".
+class GoToRoom(_SpokenClause):
+    """Go into a room by its name in the floor plan: "go to the kitchen", "go to room 3.508".
 
     Attributes:
-        name: small letters a to z and digits, parted by single spaces, dots, hyphens or
-            underscores; at most `MAX_NAME` characters.
+        name: its plain name: small letters a to z and digits, parted by single spaces, dots,
+            hyphens or underscores; at most `MAX_NAME` characters.
     """
 
     name: str
@@ -150,8 +152,8 @@ class GoToRoom(_Said):
 
 
 @dataclass(frozen=True, slots=True)
-class Leave(_Said):
-    """Leave the room that one is in: "leave the room"."""
+class Leave(_SpokenClause):
+    """Leave the room in which the robot is: "leave the room"."""
 
     def say(self, language: Language) -> str:
         """In the words of a language."""
@@ -159,8 +161,8 @@ class Leave(_Said):
 
 
 @dataclass(frozen=True, slots=True)
-class GoBack(_Said):
-    """Go back to where the command began: "go back to the start"."""
+class GoBack(_SpokenClause):
+    """Go back to the pose at which the command began: "go back to the start"."""
 
     def say(self, language: Language) -> str:
         """In the words of a language."""
@@ -168,11 +170,11 @@ class GoBack(_Said):
 
 
 @dataclass(frozen=True, slots=True)
-class Stop(_Said):
+class Stop(_SpokenClause):
     """Stand still: "stop", "wait for 5 seconds".
 
     Attributes:
-        seconds: for how long, 1 to `MAX_SECONDS`; 0 leaves it open.
+        seconds: for how long, 1 to `MAX_SECONDS`; 0 if the command does not say.
     """
 
     seconds: int = 0
@@ -189,13 +191,13 @@ class Stop(_Said):
 
 
 @dataclass(frozen=True, slots=True)
-class IfThere(_Said):
-    """Do the next clause only if something is there: "if you see the first door on the left, ...".
+class IfThere(_SpokenClause):
+    """Carry out the next clause only if something is there: "if there is a door on the left, ...".
 
     Attributes:
         what: a door or a place ahead.
-        absent: do it only if it is not there.
-        otherwise: the clause after that one is for the other case.
+        absent: carry it out only if that is not there.
+        otherwise: the clause after the next one is for the other case.
     """
 
     what: DoorReference | PlaceReference

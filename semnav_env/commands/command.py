@@ -1,4 +1,4 @@
-"""A command: what the robot is told to do, clause by clause."""
+"""A command: the clauses that a robot is to carry out, and how they depend on each other."""
 
 from __future__ import annotations
 
@@ -9,24 +9,26 @@ from itertools import pairwise
 from typing import get_args
 
 from semnav_env.commands.clauses import Clause, Follow, GoToDoor, IfThere, Turn
-from semnav_env.commands.language import Language, language_of
+from semnav_env.commands.language import Language
+from semnav_env.commands.languages import language_of
 from semnav_env.commands.references import DoorReference, PlaceReference
 
 MAX_CLAUSES = 8
-"""The most clauses a command can have."""
+"""The most clauses of a command; it fixes the shape of its tokens."""
 
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """Clauses to carry out in turn: "go down the hallway, turn left and go through the door".
+    """Clauses to carry out one after the other: "go down the hallway, turn left and stop".
 
-    `str(command)` is canonical English, `parse(str(command)) == command`, and so in every language.
+    `str(command)` is canonical English, and `parse(str(command)) == command`. The same holds for
+    `command.say(language)` in every language.
 
     Attributes:
-        clauses: what to do one after the other, 1 to `MAX_CLAUSES`.
+        clauses: 1 to `MAX_CLAUSES` of them, in order.
 
     Raises:
-        ValueError: too few or too many clauses, or something that is none.
+        ValueError: there are too few or too many clauses, or something else among them.
     """
 
     clauses: tuple[Clause, ...]
@@ -72,7 +74,7 @@ class Command:
 
 
 class Link(Enum):
-    """How a clause hangs on those before it; its value is the phrase that says so."""
+    """How a clause depends on those before it; the value is the phrase of a language for it."""
 
     NEXT = "next"
     THEN = "in_that_case"
@@ -81,10 +83,10 @@ class Link(Enum):
 
 
 def links_of(clauses: Sequence[Clause]) -> list[Link]:
-    """How each clause hangs on those before it.
+    """How each clause depends on those before it.
 
     Raises:
-        ValueError: a condition is not followed by the clauses that hang on it.
+        ValueError: a condition is not followed by the clauses that depend on it.
     """
     links: list[Link] = []
     expected: list[Link] = []
@@ -102,7 +104,7 @@ def links_of(clauses: Sequence[Clause]) -> list[Link]:
 
 
 def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
-    """The door or place that a clause speaks of."""
+    """The door or place to which a clause refers; None if there is none."""
     match clause:
         case Follow(DoorReference() | PlaceReference() as until):
             return until
@@ -117,10 +119,10 @@ def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
 
 
 def may_count_on(before: Clause, clause: Clause) -> bool:
-    """Whether a listener may go on counting: "past the first door, then through the second".
+    """Whether a listener may count on: "past the first door, then through the second".
 
-    That is where a clause follows the hallway to or past the nth of a kind, and the next one names
-    a later one of the same kind: from where the first counted, or anew from there?
+    That is so if a clause leads to or past the nth of a kind, and the next one names a later one of
+    the same kind. It can be counted from where the first clause began, or anew from there.
     """
     first, second = reference_of(before), reference_of(clause)
     if not isinstance(before, Follow) or first is None or type(first) is not type(second):

@@ -1,30 +1,31 @@
-"""What is wrong with the text of a command, where, and what would have been right."""
+"""Errors that say what is wrong with a text, where, and what would have been right."""
 
 from __future__ import annotations
 
 import unicodedata
 from typing import Any
 
-SHOWN_BEFORE, SHOWN_AFTER = 48, 24
-"""How much of a long text an error shows on either side of the fault, characters."""
+CONTEXT_BEFORE, CONTEXT_AFTER = 48, 24
+"""How much of a long text an error shows before and after the fault, characters; together with the
+fault it fits into a line of a terminal."""
 
-MOST_SHOWN = 12
-"""How many of the words that could have stood somewhere an error lists."""
+MAX_WORDS_LISTED = 12
+"""The most words that an error lists as possible at one place."""
 
 
 class CommandError(ValueError):
-    """A text is not a command.
+    """A text that is not a command.
 
-    `str(error)` is a line that says all, the text, and a caret under the fault.
+    `str(error)` is the summary in one line, then the text, then carets under the fault.
 
     Attributes:
         problem: what is wrong.
         text: the text as it was given, or its beginning.
-        position: index in `text` of the first character that is wrong; None for the whole.
-        length: number of characters that are wrong.
-        expected: what could have stood there.
-        suggestion: the known word that is nearest to the one that was not understood.
-        hint: advice.
+        position: index in `text` of the first wrong character; None if the whole text is wrong.
+        length: number of wrong characters.
+        expected: words that could stand there.
+        suggestion: the known word that was probably meant.
+        hint: advice on what to say instead.
     """
 
     def __init__(
@@ -48,14 +49,14 @@ class CommandError(ValueError):
 
     @property
     def summary(self) -> str:
-        """All of it in one line."""
+        """The problem, hint, expected words and suggestion in one line."""
         where = "" if self.position is None else f" (character {self.position + 1})"
         parts = [self.problem + where]
         if self.hint:
             parts.append(self.hint)
         if self.expected:
             one_of = "expected: " if len(self.expected) == 1 else "expected one of: "
-            parts.append(one_of + some_of(self.expected))
+            parts.append(one_of + listed(self.expected))
         if self.suggestion:
             parts.append(f'did you mean "{self.suggestion}"?')
         return "; ".join(parts)
@@ -63,15 +64,15 @@ class CommandError(ValueError):
     def __str__(self) -> str:
         if self.position is None:
             return self.summary
-        return f"{self.summary}\n{pointed(self.text, self.position, self.length)}"
+        return f"{self.summary}\n{with_caret(self.text, self.position, self.length)}"
 
 
 class AmbiguousCommandError(CommandError):
-    """A text can mean several commands.
+    """A text that can mean several commands.
 
     Attributes:
-        readings: the commands, the likelier first.
-        differences: what each reading says where they differ, in the words of the text's language.
+        readings: these commands, the likelier first.
+        differences: for each reading the clauses in which it differs, in the text's language.
     """
 
     def __init__(self, text: str, readings: tuple[Any, ...], differences: tuple[str, ...]) -> None:
@@ -82,24 +83,24 @@ class AmbiguousCommandError(CommandError):
         self.differences = differences
 
 
-def some_of(words: tuple[str, ...]) -> str:
-    """The first `MOST_SHOWN` words, and whether there are more."""
-    return ", ".join(words[:MOST_SHOWN]) + (", ..." if len(words) > MOST_SHOWN else "")
+def listed(words: tuple[str, ...]) -> str:
+    """At most `MAX_WORDS_LISTED` words, with "..." if there are more."""
+    return ", ".join(words[:MAX_WORDS_LISTED]) + (", ..." if len(words) > MAX_WORDS_LISTED else "")
 
 
-def pointed(text: str, position: int, length: int) -> str:
-    """Two lines: the text around a position, and carets under it."""
-    start = max(0, position - SHOWN_BEFORE)
-    stop = min(len(text), position + min(length, SHOWN_AFTER))
+def with_caret(text: str, position: int, length: int) -> str:
+    """Two lines: the text around a position, and carets under its wrong characters."""
+    start = max(0, position - CONTEXT_BEFORE)
+    stop = min(len(text), position + min(length, CONTEXT_AFTER))
     before = ("..." if start else "") + _printable(text[start:position])
     fault = _printable(text[position:stop])
-    after = _printable(text[stop : stop + SHOWN_AFTER])
-    after += "..." if stop + SHOWN_AFTER < len(text) else ""
+    after = _printable(text[stop : stop + CONTEXT_AFTER])
+    after += "..." if stop + CONTEXT_AFTER < len(text) else ""
     carets = "^" * max(1, _columns(fault))
     return f"  {before}{fault}{after}\n  {' ' * _columns(before)}{carets}"
 
 
-def named(character: str) -> str:
+def character_name(character: str) -> str:
     """A character by its code point and name, for example "U+0430 CYRILLIC SMALL LETTER A"."""
     return f"U+{ord(character):04X} {unicodedata.name(character, '')}".rstrip()
 
@@ -109,6 +110,6 @@ def _printable(text: str) -> str:
 
 
 def _columns(text: str) -> int:
-    """How many columns a terminal gives to a text."""
+    """How many columns of a terminal a text takes; wide letters take two, accents none."""
     wide = sum(unicodedata.east_asian_width(c) in "WF" for c in text)
     return len(text) + wide - sum(unicodedata.combining(c) > 0 for c in text)

@@ -1,4 +1,8 @@
-"""The parser of a language: Lark's LALR(1) table, fed with the longest phrases that fit."""
+"""The parser of a language: Lark's LALR(1) table, fed with the longest phrase that fits.
+
+Lark has no lexer that asks the parser which terminals may come next, so `Lexicon` does that here,
+and the parser is fed token by token.
+"""
 
 from __future__ import annotations
 
@@ -12,19 +16,19 @@ from lark.exceptions import UnexpectedToken, VisitError
 from lark.lexer import Lexer
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
+from semnav_env.commands.clause_readings import ClauseReadings
+from semnav_env.commands.clause_transformer import clauses_of_tree
 from semnav_env.commands.language import NAME, PUNCTUATION, QUESTION, Language
-from semnav_env.commands.meanings import meanings_of
-from semnav_env.commands.parts import Found
 from semnav_env.commands.rooms import spoken_names
 from semnav_env.commands.words import FILLER, Lexicon, pieces
 
 
 class MeaninglessError(ValueError):
-    """Words that fit the grammar and yet mean nothing: "turn 7 degrees".
+    """Words that fit the grammar but have no meaning: "turn 7 degrees".
 
     Attributes:
-        start: where they begin in the text.
-        stop: where they end.
+        start: index of their first character in the text.
+        stop: index behind their last character.
     """
 
     def __init__(self, problem: str, start: int, stop: int) -> None:
@@ -34,7 +38,7 @@ class MeaninglessError(ValueError):
 
 
 class _NoLexer(Lexer):
-    """Words are found by `Lexicon`, which knows what the parser can take next."""
+    """Stands in for Lark's lexer, which is never asked: `Lexicon` finds the words."""
 
     def __init__(self, _: Any) -> None:
         pass
@@ -43,22 +47,24 @@ class _NoLexer(Lexer):
         return ()
 
 
-def find_clauses(language: Language, text: str, rooms: tuple[str, ...] = ()) -> list[Found]:
-    """The clauses of a normalised text, in order.
+def find_clauses(
+    language: Language, text: str, rooms: tuple[str, ...] = ()
+) -> list[ClauseReadings]:
+    """The clauses of a normalised text, in order, each with its readings.
 
     Args:
-        language: whose grammar and words.
-        text: normalised.
-        rooms: names of rooms that may be spoken of without quotation marks.
+        language: gives the grammar and the words.
+        text: from `normalise`.
+        rooms: names of rooms that need no quotation marks.
 
     Raises:
-        lark.UnexpectedToken: the text is not a command.
-        MeaninglessError: it is, but with a number or an order that nothing has.
+        lark.UnexpectedToken: the text does not fit the grammar.
+        MeaninglessError: it fits, but has no meaning.
     """
     spoken = spoken_names(rooms)
     tree = _tree(language, text, tuple(spoken))
     try:
-        return _apart(meanings_of(tree, language, spoken), text)
+        return _apart(clauses_of_tree(tree, language, spoken), text)
     except VisitError as error:
         if not isinstance(error.orig_exc, ValueError):
             raise
@@ -67,15 +73,16 @@ def find_clauses(language: Language, text: str, rooms: tuple[str, ...] = ()) -> 
         raise MeaninglessError(str(error.orig_exc), start, stop) from None
 
 
-def _apart(found: list[Found], text: str) -> list[Found]:
-    """Let a bare side speak of a door only right after one without a side: "the door, left".
+def _apart(found: list[ClauseReadings], text: str) -> list[ClauseReadings]:
+    """Decide what a bare "left" means: the side of a door, or a turn.
 
-    After "and" or "then" it is a turn.
+    It is the side only directly behind a door without one ("the door, left"). After "and" or
+    "then" it is a turn.
     """
-    apart = found[:1] and [found[0].without_asides()]
+    apart = found[:1] and [found[0].without_sides()]
     for before, each in pairwise(found):
         joined = any(map(str.isalpha, text[before.stop : each.start]))
-        apart.append(each if before.wants_side and not joined else each.without_asides())
+        apart.append(each if before.wants_side and not joined else each.without_sides())
     return apart
 
 

@@ -1,7 +1,7 @@
-"""Ways to understand a text: by the grammar, by the nearest template, or by a user's own model.
+"""Interpreters of a text: the grammar, the nearest template, or a model of the user's own.
 
-Each gives the same typed program, so what it understood is grounded by the same rules and refused
-for the same reasons. Each says what it understood, for somebody to look at.
+Each gives commands of the same type. So what it understood is grounded by the same rules, is
+refused for the same reasons, and can be said in canonical words for a person to check.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from typing import Protocol
 
 from semnav_env.commands.command import Command
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
-from semnav_env.commands.language import Language, language_of
+from semnav_env.commands.language import Language
+from semnav_env.commands.languages import language_of
 from semnav_env.commands.normalise import normalise
 from semnav_env.commands.parser import check_rooms, differences, readings
 from semnav_env.commands.program import from_program
@@ -22,14 +23,14 @@ from semnav_env.commands.templates import Embedding, Templates, trigrams
 
 @dataclass(frozen=True)
 class Interpretation:
-    """What a text was taken for.
+    """The commands that an interpreter took a text for.
 
     Attributes:
         text: as it was given.
-        readings: all that it can mean, at least one.
+        readings: every command that it can mean, at least one.
         language: its language.
-        by: who understood it: "grammar", "template" or "model".
-        likeness: to what is understood for certain, 0 to 1; 1 for the grammar.
+        by: the interpreter: "grammar", "template" or "model".
+        likeness: similarity to a text that the grammar understands, 0 to 1; 1 for the grammar.
     """
 
     text: str
@@ -57,7 +58,7 @@ class Interpretation:
 
 
 class Interpreter(Protocol):
-    """Understands texts."""
+    """Anything that turns texts into commands."""
 
     def interpret(self, text: str) -> Interpretation:
         """What a text means.
@@ -70,36 +71,36 @@ class Interpreter(Protocol):
 
 @dataclass(frozen=True)
 class GrammarInterpreter:
-    """Understands what the grammar of a language allows, and nothing else.
+    """Understands exactly the texts that the grammar of a language allows.
 
     Attributes:
         language: code, or a loaded language.
-        rooms: names of rooms that there are.
+        rooms: names of the rooms of the floor plan; none if they are not known.
     """
 
     language: str | Language = "en"
     rooms: Sequence[str] = ()
 
     def interpret(self, text: str) -> Interpretation:
-        """What a text means, all readings; see `readings`."""
+        """Every reading of a text; see `semnav_env.commands.readings`."""
         found = readings(text, self.language, self.rooms)
         return Interpretation(text, found, language_of(self.language), "grammar")
 
 
 @dataclass(frozen=True)
 class TemplateInterpreter:
-    """Takes what the grammar refuses for the canonical clause that is worded most alike.
+    """Takes a text that the grammar refuses for the clause with the most similar wording.
 
-    The words that decide (numbers, sides, kinds of places and doors) must be the same ones; only
-    the others may differ. A text with a word of negation, choice or condition is refused. Where
-    several templates are nearly as near, all of them are readings.
+    The decisive words (numbers, sides, kinds of places and doors) must be the same; only the other
+    words may differ. A text with a word of negation, choice or condition is refused. If several
+    templates are about equally near, all of them are readings.
 
     Attributes:
         language: code, or a loaded language.
-        rooms: names of rooms that there are.
+        rooms: names of the rooms of the floor plan; none if they are not known.
         embed: from texts to vectors, shape (n, d); by default counts of letter trigrams.
-        enough: least cosine similarity of the words that do not decide.
-        margin: templates less than this behind the nearest are readings too.
+        enough: least cosine similarity of the words that are not decisive.
+        margin: templates whose similarity is less by no more than this are readings, too.
     """
 
     language: str | Language = "en"
@@ -109,10 +110,10 @@ class TemplateInterpreter:
     margin: float = 0.05
 
     def interpret(self, text: str) -> Interpretation:
-        """What a text means; by the grammar if that understands it.
+        """Every reading of a text; those of the grammar if it understands the text.
 
         Raises:
-            CommandError: nothing is near enough; what the grammar says of it.
+            CommandError: no template is near enough; it is the error of the grammar.
         """
         spoken = language_of(self.language)
         try:
@@ -130,14 +131,14 @@ class TemplateInterpreter:
 class ModelInterpreter:
     """Asks a language model of the user's own.
 
-    It may answer with a program only: a `Command`, plain lists and dictionaries as `to_program`
-    makes them, or those as JSON. Anything else is refused. Whether there is such a door and where
-    it leads is decided by `ground`, as for every other command.
+    The model answers with a `Command`, with plain lists and dictionaries as `to_program` makes
+    them, or with those as JSON. Anything else is refused. As for every other command, `ground`
+    decides whether there is such a door and which one it is.
 
     Attributes:
         ask: from a text to an answer.
         language: of the texts and of the echo.
-        rooms: names of rooms that there are.
+        rooms: names of the rooms of the floor plan; none if they are not known.
     """
 
     ask: Callable[[str], object]
@@ -145,10 +146,10 @@ class ModelInterpreter:
     rooms: Sequence[str] = ()
 
     def interpret(self, text: str) -> Interpretation:
-        """What the model makes of a text.
+        """The command that the model gives for a text.
 
         Raises:
-            CommandError: the text has characters that no command has, or the answer is no program.
+            CommandError: the text has characters that no command has, or the answer is no command.
         """
         spoken = language_of(self.language)
         normalise(text, spoken)

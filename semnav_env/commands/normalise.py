@@ -1,4 +1,4 @@
-"""One way to write each text: the same letters, case and spaces, and nothing unseen."""
+"""Brings a text into one form: lower case, single spaces, no invisible characters."""
 
 from __future__ import annotations
 
@@ -8,29 +8,33 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from semnav_env.commands.clauses import GoToDoor
-from semnav_env.commands.errors import CommandError, named
+from semnav_env.commands.errors import CommandError, character_name
 from semnav_env.commands.language import Language
 from semnav_env.commands.references import DoorReference, Side
 
 MAX_CHARACTERS = 20_000
+"""The longest text that is read, characters; it bounds the time that a parse can take."""
+
 MAX_WORDS = 2_000
+"""The most words that are read; far above what `MAX_CLAUSES` clauses need."""
 
 INVISIBLE = frozenset("\u00ad\u200b\u200c\u200d\u200e\u200f\u061c\u2060\ufeff")
-"""Soft hyphen, zero-width spaces and joiners, direction marks: they change no word and are
-dropped."""
+"""Soft hyphen, zero-width spaces and joiners, direction marks. They are dropped, because they
+change no word."""
 
 REORDERING = frozenset("\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
-"""They can show the words in another order than they are read in, and are refused."""
+"""Bidirectional controls. They are refused, because they can show words in another order than the
+one in which they are read."""
 
 SIGNS = frozenset("°")
-"""Signs beyond ASCII that commands use."""
+"""Signs outside ASCII that commands may have: degrees."""
 
 _CLUSTER = re.compile(r".[\u0300-\u036f]*", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
 class NormalisedText:
-    """A text and where its characters come from.
+    """A normalised text, and where each of its characters comes from.
 
     Attributes:
         original: the text as it was given.
@@ -43,7 +47,7 @@ class NormalisedText:
     origin: tuple[int, ...]
 
     def span(self, start: int, stop: int) -> tuple[int, int]:
-        """Where `text[start:stop]` begins in the original, and how long it is there."""
+        """Index in the original at which `text[start:stop]` begins, and its length there."""
         position = self.origin[start]
         last = self.origin[stop - 1] if stop > start else position
         return position, last + 1 - position
@@ -53,7 +57,7 @@ def normalise(original: str, language: Language) -> NormalisedText:
     """Bring a text into the one form that the grammar reads.
 
     Raises:
-        CommandError: not a text, empty, too long, or with characters no command has.
+        CommandError: it is not a text, is empty or too long, or has characters that no command has.
     """
     _check_size(original)
     characters: list[str] = []
@@ -82,10 +86,10 @@ def _check_size(original: str) -> None:
 
 
 def _folded(original: str, language: Language) -> Iterator[tuple[int, str]]:
-    """Each character of the normalised text, with the index it comes from.
+    """Each character of the normalised text, with the index in the original that it comes from.
 
-    A letter is folded together with the accents that follow it, so that both ways of writing an
-    accented letter are one.
+    A letter is folded together with the combining accents behind it, so that both Unicode forms of
+    an accented letter give the same character.
     """
     if original.isascii() and original.isprintable():
         yield from enumerate(original.lower())
@@ -98,7 +102,7 @@ def _folded(original: str, language: Language) -> Iterator[tuple[int, str]]:
         if first.isspace() and first not in "\x0b\x0c\x1c\x1d\x1e\x1f\x85":
             yield index, " "
             continue
-        _refuse_unseen(original, index)
+        _refuse_invisible(original, index)
         for character in _nfkc_casefold(cluster.group()):
             known = language.folded(character)
             _refuse_foreign(original, index, known, language)
@@ -111,20 +115,23 @@ def _nfkc_casefold(text: str) -> str:
     return "".join(" " if c.isspace() else c for c in folded if c not in INVISIBLE)
 
 
-def _refuse_unseen(original: str, index: int) -> None:
+def _refuse_invisible(original: str, index: int) -> None:
     character = original[index]
     if character in REORDERING:
-        problem = f"{named(character)} can change the order in which words are shown: leave it out"
+        name = character_name(character)
+        problem = f"{name} can change the order in which words are shown: leave it out"
         raise CommandError(problem, original, index)
     if unicodedata.category(character) in ("Cc", "Cs"):
         kind = "surrogate" if unicodedata.category(character) == "Cs" else "control character"
-        raise CommandError(f"{named(character)} is a {kind}: leave it out", original, index)
+        raise CommandError(
+            f"{character_name(character)} is a {kind}: leave it out", original, index
+        )
 
 
 def _refuse_foreign(original: str, index: int, character: str, language: Language) -> None:
     if not character.isascii() and character not in SIGNS:
         shown = character if original[index].isascii() else original[index]
-        problem = f"{named(shown)} is not used in {language.name.capitalize()} commands"
+        problem = f"{character_name(shown)} is not used in {language.name.capitalize()} commands"
         letters = "".join(letter for letter in language.same_as if letter.isalpha())
         hint = f"letters a to z{letters}, digits and {' '.join(language.punctuation)} are"
         raise CommandError(problem, original, index, hint=hint)

@@ -1,4 +1,4 @@
-"""The same command in other words, made from the wordings in the language's file."""
+"""Says the same command in other words, with the wordings in the language's file."""
 
 from __future__ import annotations
 
@@ -9,36 +9,37 @@ import numpy as np
 
 from semnav_env.commands.command import Command
 from semnav_env.commands.errors import CommandError
-from semnav_env.commands.language import Language, language_of
+from semnav_env.commands.language import Language
+from semnav_env.commands.languages import language_of
 from semnav_env.commands.parser import readings
 from semnav_env.commands.sampling import check_generator
 
-TRIES = 20
-"""Texts made for each one that is asked for, before a command is taken to have no more."""
+TEXTS_PER_PARAPHRASE = 20
+"""Texts that are drawn for each paraphrase wanted, before the command is taken to have no more."""
 
 
 @dataclass(frozen=True, eq=False)
-class _Varied(Language):
-    """A language that says each phrase in any of its wordings.
+class _VariedLanguage(Language):
+    """A language that says each phrase in a random wording.
 
     Attributes:
-        rng: chooses them.
+        rng: draws the wordings.
     """
 
     rng: np.random.Generator
 
     def say(self, phrase: str, form: str = "", **parts: Any) -> str:
-        """Fill the parts into a wording of the phrase, or of a form of it if it has that."""
+        """Fill the parts into a random wording of the phrase, in the given form if there is one."""
         formed = f"{phrase}:{form}"
         key = formed if formed in self.phrases or formed in self.wordings else phrase
         return self.fill(self._any_of(self.phrases.get(key) or self.phrases[phrase], key), parts)
 
     def ordinal(self, number: int) -> str:
-        """Any word of an ordinal that fits into the phrases."""
+        """A random word for an ordinal."""
         return self._any_of(super().ordinal(number), str(number))
 
     def command(self, command: Command) -> str:
-        """A command, politely or not."""
+        """The text of a command, with or without words of politeness."""
         return self._any_of("{command}", "command").format(command=command.say(self))
 
     def _any_of(self, usual: str, key: str) -> str:
@@ -49,16 +50,16 @@ class _Varied(Language):
 def paraphrases(
     command: Command, rng: np.random.Generator, n: int, language: str | Language = "en"
 ) -> tuple[str, ...]:
-    """Differently worded texts of a command: `parse(text, language) == command` for each.
+    """Texts in other words for a command; `parse(text, language) == command` for each of them.
 
     Args:
-        command: what to say.
-        rng: chooses the words.
-        n: how many texts, all different, and none of them `command.say(language)`.
+        command: what the texts mean.
+        rng: draws the wordings.
+        n: how many texts; all differ, and none is `command.say(language)`.
         language: "en", "de" or a loaded one.
 
     Returns:
-        The texts; fewer than `n` where the language has not so many wordings.
+        The texts; fewer than `n` if the language has too few wordings.
 
     Raises:
         ValueError: `n` is negative, or there is no such language.
@@ -71,9 +72,9 @@ def paraphrases(
         raise ValueError(f"n is {n}; it must be 0 or more")
     spoken = language_of(language)
     values = {field.name: getattr(spoken, field.name) for field in fields(spoken)}
-    varied, usual = _Varied(**values, rng=rng), command.say(spoken)
+    varied, usual = _VariedLanguage(**values, rng=rng), command.say(spoken)
     found: dict[str, None] = {}
-    for _ in range(TRIES * n):
+    for _ in range(TEXTS_PER_PARAPHRASE * n):
         if len(found) == n:
             break
         text = varied.command(command)

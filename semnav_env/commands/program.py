@@ -1,4 +1,4 @@
-"""Commands as plain lists and dictionaries, as JSON has them: for language models and for files."""
+"""Commands as plain lists and dictionaries, as in JSON, for language models and files."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from semnav_env.commands.references import (
     Unit,
 )
 
-CLAUSES: dict[str, Any] = {kind.__name__: kind for kind in get_args(Clause)}
-REFERENCES: dict[str, Any] = {kind.__name__: kind for kind in get_args(Reference)}
+CLAUSE_KINDS: dict[str, Any] = {kind.__name__: kind for kind in get_args(Clause)}
+REFERENCE_KINDS: dict[str, Any] = {kind.__name__: kind for kind in get_args(Reference)}
 
 
 def to_program(command: Command) -> list[dict[str, Any]]:
-    """The clauses as dictionaries of plain values; `from_program` undoes it.
+    """The clauses of a command as dictionaries of plain values; `from_program` is the inverse.
 
     For example [{"kind": "GoToDoor", "door": {"kind": "DoorReference", "ordinal": 2,
     "side": "right"}, "approach": "through"}].
@@ -32,23 +32,25 @@ def to_program(command: Command) -> list[dict[str, Any]]:
 
 
 def from_program(program: object) -> Command:
-    """The command of plain lists and dictionaries, wherever they come from.
+    """The command that plain lists and dictionaries describe.
 
-    Fields that have a default may be left out.
+    Fields with a default may be left out.
 
     Raises:
-        ValueError: it is no program; says which clause and what would be right.
+        ValueError: it describes no command; the message names the clause and what would be right.
     """
     if not isinstance(program, list | tuple):
         raise ValueError(f"a program is a list of clauses, not {type(program).__name__}")
-    return Command(tuple(_value(each, CLAUSES, f"clause {n}") for n, each in enumerate(program)))
+    return Command(
+        tuple(_value(each, CLAUSE_KINDS, f"clause {n}") for n, each in enumerate(program))
+    )
 
 
 def _plain(value: Any) -> dict[str, Any]:
     plain: dict[str, Any] = {"kind": type(value).__name__}
     for field in fields(value):
         part = getattr(value, field.name)
-        referring = isinstance(part, tuple(REFERENCES.values()))
+        referring = isinstance(part, tuple(REFERENCE_KINDS.values()))
         plain[field.name] = _plain(part) if referring else getattr(part, "value", part)
     return plain
 
@@ -76,33 +78,33 @@ def _read(name: str, part: object, where: str) -> Any:
     inside = f"{name} of {where}"
     if part is None and name in ("until", "at", "side", "degrees"):
         return None
-    if name in _REFERRED:
-        return _value(part, _REFERRED[name], inside)
-    if name in _ENUMS:
-        members = [member.value for member in _ENUMS[name]]
+    if name in _REFERENCE_FIELDS:
+        return _value(part, _REFERENCE_FIELDS[name], inside)
+    if name in _ENUM_FIELDS:
+        members = [member.value for member in _ENUM_FIELDS[name]]
         if part not in members:
             raise ValueError(f"{inside} is one of {', '.join(map(repr, members))}, not {part!r}")
-        return _ENUMS[name](part)
-    check = _PLAIN[name]
+        return _ENUM_FIELDS[name](part)
+    check = _FIELD_CHECKS[name]
     if not check(part):
         raise ValueError(f"{inside} cannot be {part!r}")
     return part
 
 
-_ENUMS: dict[str, type[Enum]] = {
+_ENUM_FIELDS: dict[str, type[Enum]] = {
     "turning": Turning,
     "approach": Approach,
     "side": Side,
     "place": Place,
     "unit": Unit,
 }
-_REFERRED: dict[str, dict[str, Any]] = {
-    "until": REFERENCES,
+_REFERENCE_FIELDS: dict[str, dict[str, Any]] = {
+    "until": REFERENCE_KINDS,
     "at": {"PlaceReference": PlaceReference},
     "door": {"DoorReference": DoorReference},
     "what": {"DoorReference": DoorReference, "PlaceReference": PlaceReference},
 }
-_PLAIN: dict[str, Callable[[object], bool]] = {
+_FIELD_CHECKS: dict[str, Callable[[object], bool]] = {
     "past": lambda part: isinstance(part, bool),
     "absent": lambda part: isinstance(part, bool),
     "otherwise": lambda part: isinstance(part, bool),

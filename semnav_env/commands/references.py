@@ -1,4 +1,4 @@
-"""What clauses refer to: doors, places, distances. Frozen values that say themselves."""
+"""What clauses refer to: doors, places and distances, as frozen values that can be put in words."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from enum import StrEnum
 from numbers import Integral
 from typing import TypeAlias
 
-from semnav_env.commands.language import Language, english
+from semnav_env.commands.language import Language
+from semnav_env.commands.languages import english
 
 
 class Side(StrEnum):
-    """On which side of the direction of travel.
+    """The side on which a door lies, seen in the direction of travel.
 
-    Opposite is across the hallway, for one who stands in a doorway.
+    OPPOSITE is across the hallway for a robot that stands in a doorway.
     """
 
     LEFT = "left"
@@ -25,10 +26,13 @@ class Side(StrEnum):
 
 
 class Place(StrEnum):
-    """Where a hallway offers a turn.
+    """A place of a hallway where a robot can turn.
 
-    An intersection, a bend (corner), the end of the hallway, a T that it ends in, or whatever
-    leads to the side that is spoken of (turning).
+    INTERSECTION: a junction at which the hallway goes on or leads to both sides.
+    CORNER: a bend, with one way on.
+    END: the end of the hallway.
+    T_JUNCTION: a T in which the hallway ends.
+    TURNING: anything that leads to the side that is named.
     """
 
     INTERSECTION = "intersection"
@@ -39,7 +43,7 @@ class Place(StrEnum):
 
 
 class Unit(StrEnum):
-    """What distances are told in."""
+    """The unit of a distance."""
 
     METRES = "metres"
     STEPS = "steps"
@@ -49,32 +53,32 @@ LAST = -1
 """The ordinal of "the last door"; -2 is the second to last."""
 
 OTHER = 0
-"""The ordinal of "the other door", the only one but that which the robot came by."""
+"""The ordinal of "the other door": the only one besides the door by which the robot came."""
 
 MAX_ORDINAL = 20
-"""The highest ordinal: doors and places are counted from 1 to here."""
+"""The highest ordinal of doors and places; the languages have words up to it."""
 
 MAX_FROM_END = 10
-"""Counting from the end goes from `LAST` to minus this."""
+"""The lowest ordinal is minus this: the tenth from the end."""
 
 MAX_AMOUNT = {Unit.METRES: 50.0, Unit.STEPS: 100.0}
-"""The longest distances."""
+"""The longest distance in each unit: 100 times `AMOUNT_STEP`, the most that a token holds."""
 
-QUANTUM = {Unit.METRES: 0.5, Unit.STEPS: 1.0}
-"""Distances are multiples of this."""
+AMOUNT_STEP = {Unit.METRES: 0.5, Unit.STEPS: 1.0}
+"""Distances are multiples of this, in their unit, so that they can be tokens."""
 
-STEP = 0.7
-"""Length of a step, metres."""
+STEP_LENGTH = 0.7
+"""Length of a person's step, metres."""
 
 
 @dataclass(frozen=True, slots=True)
 class DoorReference:
-    """A door by its number and side: "the second door on the right".
+    """A door by its ordinal and side: "the second door on the right".
 
     Attributes:
         ordinal: 1 for the first or next, n for the nth, `LAST` for the last, -n for the nth from
             the end, `OTHER` for the only other one.
-        side: on which side; None where the command leaves it open.
+        side: on which side; None if the command does not say.
     """
 
     ordinal: int = 1
@@ -88,14 +92,14 @@ class DoorReference:
         return self.say(english())
 
     def say(self, language: Language, form: str = "") -> str:
-        """In the words of a language, in a form (case) that its phrases name."""
+        """In the words of a language, in the grammatical form (case) that a phrase asks for."""
         phrase = "door" if self.side is None else f"door_{self.side}"
         return language.say(phrase, form, ordinal=language.ordinal(self.ordinal))
 
 
 @dataclass(frozen=True, slots=True)
 class PlaceReference:
-    """A place by its number: "the second intersection", "the corner", "the end of the hallway".
+    """A place by its ordinal: "the second intersection", "the corner", "the end of the hallway".
 
     Attributes:
         place: what kind of place.
@@ -115,7 +119,7 @@ class PlaceReference:
         return self.say(english())
 
     def say(self, language: Language, form: str = "") -> str:
-        """In the words of a language, in a form (case) that its phrases name."""
+        """In the words of a language, in the grammatical form (case) that a phrase asks for."""
         return language.say(self.place, form, ordinal=language.ordinal(self.ordinal))
 
 
@@ -125,14 +129,14 @@ class Distance:
 
     Attributes:
         amount: a multiple of half a metre up to 50 metres, or 1 to 100 whole steps.
-        unit: metres or steps of `STEP`.
+        unit: metres or steps of `STEP_LENGTH`.
     """
 
     amount: float
     unit: Unit = Unit.METRES
 
     def __post_init__(self) -> None:
-        quantum, most = QUANTUM[self.unit], MAX_AMOUNT[self.unit]
+        quantum, most = AMOUNT_STEP[self.unit], MAX_AMOUNT[self.unit]
         whole = math.isfinite(self.amount) and self.amount % quantum == 0
         if not whole or not quantum <= self.amount <= most:
             problem = f"a distance is {quantum:g} to {most:g} {self.unit}"
@@ -140,8 +144,8 @@ class Distance:
 
     @property
     def metres(self) -> float:
-        """How far that is, metres."""
-        return self.amount * (1.0 if self.unit is Unit.METRES else STEP)
+        """The distance in metres."""
+        return self.amount * (1.0 if self.unit is Unit.METRES else STEP_LENGTH)
 
     def __str__(self) -> str:
         return self.say(english())

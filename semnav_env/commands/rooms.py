@@ -1,4 +1,4 @@
-"""The names of rooms: how a plan writes them, a command holds them and people say them."""
+"""Names of rooms in their three forms: written in a plan, plain in a command, spoken by people."""
 
 from __future__ import annotations
 
@@ -10,27 +10,30 @@ from collections.abc import Sequence
 from semnav_env.commands.words import pieces
 
 MAX_NAME = 40
-"""The most characters of a name."""
+"""The longest plain name, characters."""
 
-_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
+_GERMAN_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
 _NUMBERED = re.compile(r"(?:room|[a-z]*)[ _-]?(\d+)[ ._-](\d+[a-z]?)")
 
 
 def plain_name(name: str) -> str:
-    """A name as a command holds it: "Küche 2" as "kueche 2"; "" if it has no letter or digit.
+    """The plain name of a room: "Küche 2" becomes "kueche 2". "" if it has no letter or digit.
 
-    Small letters a to z and digits, parted by single spaces, dots, hyphens or underscores.
+    It has small letters a to z and digits, parted by single spaces, dots, hyphens or underscores.
     """
-    folded = "".join(_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold())
+    folded = "".join(
+        _GERMAN_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold()
+    )
     kept = re.sub(r"[^a-z0-9._-]+", " ", folded)
     single = re.sub(r"([ ._-])[ ._-]*", r"\1", kept)
     return single[:MAX_NAME].strip(" ._-")
 
 
 def spoken_names(names: Sequence[str]) -> dict[str, str]:
-    """The plain name of a room by each way to say it, words parted by single spaces.
+    """The plain name of each room by the words that people say for it, parted by single spaces.
 
-    "room_west_1" is said "west 1"; "l3_508" also "3.508" and, where it is the only one, "508".
+    "room_west_1" is spoken as "west 1". "l3_508" is also spoken as "3.508" and, if only one room
+    ends so, as "508".
     """
     plain = [name for name in map(plain_name, names) if name]
     short = [(said, name) for name in plain for said in _in_short(name)]

@@ -1,4 +1,4 @@
-"""Random well-formed commands, whatever the building; for tests and for learning the language."""
+"""Random well-formed commands without regard to a building, for tests and language learning."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ from semnav_env.commands.clauses import (
 )
 from semnav_env.commands.command import MAX_CLAUSES, Command
 from semnav_env.commands.references import (
+    AMOUNT_STEP,
     LAST,
     MAX_AMOUNT,
     MAX_FROM_END,
     MAX_ORDINAL,
     OTHER,
-    QUANTUM,
     Distance,
     DoorReference,
     Place,
@@ -40,15 +40,16 @@ from semnav_env.commands.references import (
 
 T = TypeVar("T")
 
-CONDITIONAL = 0.1
-"""How often a sampled clause is a condition, where there is room for what hangs on it."""
+CONDITION_SHARE = 0.1
+"""Share of conditions among sampled clauses, where there is room for the clauses that depend on
+them."""
 
 
 def check_generator(rng: object) -> None:
-    """Refuse what is no source of randomness, such as a bare seed.
+    """Refuse anything that is not a NumPy generator, such as a bare seed.
 
     Raises:
-        TypeError: says how to make one.
+        TypeError: it is not; says how to make one.
     """
     if not isinstance(rng, np.random.Generator):
         raise TypeError(f"rng is {rng!r}; give a generator: np.random.default_rng(0)")
@@ -71,7 +72,7 @@ def sample_command(
     number = int(rng.integers(1, max_clauses + 1))
     clauses: list[Clause] = []
     while len(clauses) < number:
-        if number - len(clauses) > 1 and rng.random() < CONDITIONAL:
+        if number - len(clauses) > 1 and rng.random() < CONDITION_SHARE:
             clauses += _conditional(rng, max_ordinal, number - len(clauses) > 2)
         else:
             clauses.append(sample_clause(rng, max_ordinal))
@@ -79,9 +80,10 @@ def sample_command(
 
 
 def sample_clause(rng: np.random.Generator, max_ordinal: int = MAX_ORDINAL) -> Clause:
-    """A random clause: each kind is equally likely, and each of its readings has a chance.
+    """A random clause; each kind of clause is equally likely.
 
-    Rooms are left out, for their names belong to a building; conditions, for others hang on them.
+    There are no rooms, whose names belong to a building, and no conditions, which need clauses that
+    depend on them.
     """
     kind = _choose(rng, (Follow, Turn, GoToDoor, Leave, GoBack, Stop))
     if kind is Follow:
@@ -96,7 +98,7 @@ def sample_clause(rng: np.random.Generator, max_ordinal: int = MAX_ORDINAL) -> C
 
 
 def _conditional(rng: np.random.Generator, max_ordinal: int, otherwise: bool) -> list[Clause]:
-    """A condition with what hangs on it."""
+    """A condition with the clauses that depend on it."""
     whats = (_door(rng, max_ordinal), _place(rng, max_ordinal))
     what = whats[int(rng.integers(2))]
     condition = IfThere(what, _choose(rng, (False, True)), otherwise and rng.random() < 0.5)
@@ -122,8 +124,8 @@ def _turn(rng: np.random.Generator, max_ordinal: int) -> Turn:
 
 def _distance(rng: np.random.Generator) -> Distance:
     unit = _choose(rng, tuple(Unit))
-    most = round(MAX_AMOUNT[unit] / QUANTUM[unit])
-    return Distance(QUANTUM[unit] * int(rng.integers(1, most + 1)), unit)
+    most = round(MAX_AMOUNT[unit] / AMOUNT_STEP[unit])
+    return Distance(AMOUNT_STEP[unit] * int(rng.integers(1, most + 1)), unit)
 
 
 def _door(rng: np.random.Generator, max_ordinal: int) -> DoorReference:

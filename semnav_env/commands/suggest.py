@@ -1,4 +1,4 @@
-"""The known word that was probably meant."""
+"""Suggests the known word that was probably meant."""
 
 from __future__ import annotations
 
@@ -6,29 +6,30 @@ from collections.abc import Iterable
 
 from rapidfuzz import fuzz
 
-ENOUGH_ALIKE = 85.0
-"""Smallest likeness (Indel ratio, 0 to 100) at which a word is suggested."""
+MIN_LIKENESS = 85.0
+"""Least likeness at which a word is suggested: Indel ratio, 0 to 100. Lower values suggest words
+that nobody meant."""
 
-LONGEST = 80
-"""No known word is longer, characters."""
+MAX_WORD_LENGTH = 80
+"""Only so many characters of a word are compared; no known word is longer."""
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
-    """The known word most like `word`, or None where none is like it or it is itself known.
+    """The known word that is most like `word`; None if none is like it, or if it is known itself.
 
-    "left" and "right" are far less alike than `ENOUGH_ALIKE`, so neither is ever suggested for
-    a slip in the other.
+    "left" and "right" are far less alike than `MIN_LIKENESS`, so neither is ever suggested for
+    a misspelling of the other.
     """
     likeness = {candidate: _likeness(word, candidate) for candidate in known}
     if not likeness or word in likeness:
         return None
     best = max(likeness, key=likeness.__getitem__)
-    return best if likeness[best] >= ENOUGH_ALIKE else None
+    return best if likeness[best] >= MIN_LIKENESS else None
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """The end of an error that lists the known words: "; did you mean 'left'?", or nothing."""
-    found = nearest(word[:LONGEST], known)
+    """What an error adds to its list of known words: "; did you mean 'left'?", or ""."""
+    found = nearest(word[:MAX_WORD_LENGTH], known)
     return f"; did you mean {found!r}?" if found else ""
 
 

@@ -1,4 +1,4 @@
-"""The canonical wordings of all clauses, and which of them a text is most like."""
+"""Finds the canonical wording of a clause that is most like a text."""
 
 from __future__ import annotations
 
@@ -41,32 +41,36 @@ from semnav_env.features.frames import FloatArray
 Embedding: TypeAlias = Callable[[Sequence[str]], FloatArray]
 Decisive: TypeAlias = tuple[str, ...]
 
-DECISIVE = (
+DECISIVE_TERMINALS = (
     *("NTH", "FROM_END", "OTHER", "NUMBER", "LEFT", "RIGHT", "AROUND", "AHEAD", "BEHIND"),
     *("OPPOSITE", "INTERSECTION", "CORNER", "T_JUNCTION", "TURNING", "END", "_DOOR", "_ROOM"),
 )
-"""The terminals whose words decide what is meant; "_ROOM" counts as "_DOOR"."""
+"""Terminals whose words decide what is meant, so that they must be the same in text and template.
 
-DIMENSIONS = 512
+"_ROOM" counts as "_DOOR", because people say "the second room" for its door."""
+
+EMBEDDING_DIMENSIONS = 512
+"""Columns of the hashed trigram counts; so few of the trigrams of a clause share a column."""
 
 
 def trigrams(texts: Sequence[str]) -> FloatArray:
-    """Counts of letter trigrams, hashed into `DIMENSIONS` columns, shape (n, `DIMENSIONS`)."""
-    vectors = np.zeros((len(texts), DIMENSIONS))
+    """Counts of letter trigrams, hashed by CRC-32: shape (n, `EMBEDDING_DIMENSIONS`)."""
+    vectors = np.zeros((len(texts), EMBEDDING_DIMENSIONS))
     for vector, text in zip(vectors, texts, strict=True):
         padded = f"  {text} "
         for start in range(len(padded) - 2):
-            vector[zlib.crc32(padded[start : start + 3].encode()) % DIMENSIONS] += 1.0
+            vector[zlib.crc32(padded[start : start + 3].encode()) % EMBEDDING_DIMENSIONS] += 1.0
     return vectors
 
 
 @dataclass(frozen=True, eq=False)
 class Templates:
-    """The clauses of a language by the words that decide between them.
+    """The canonical wordings of a language, by their decisive words.
 
     Attributes:
-        language: whose words.
-        clauses: for each set of decisive words, the clauses and how their other words are.
+        language: of the wordings.
+        lexicon: finds the decisive words.
+        clauses: for each set of decisive words, the clauses that have it with their other words.
     """
 
     language: Language
@@ -76,10 +80,10 @@ class Templates:
     @staticmethod
     @lru_cache(maxsize=8)
     def of(language: Language) -> Templates:
-        """The templates of a language, made once."""
+        """The templates of a language, made at the first call."""
         phrases = [
             (terminal, language.folded(phrase.casefold()))
-            for terminal in DECISIVE
+            for terminal in DECISIVE_TERMINALS
             for phrase in language.terminals.get(terminal, ())
         ]
         templates = Templates(language, Lexicon(phrases), {})
@@ -90,12 +94,12 @@ class Templates:
         return templates
 
     def split(self, text: str) -> tuple[Decisive, str]:
-        """The decisive words of a normalised text, sorted, and the rest of it."""
+        """The decisive words of a normalised text, sorted, and its other words."""
         words = pieces(text)
         decisive, rest, first = [], [], 0
         while first < len(words):
-            word = self.lexicon.find(words, first, DECISIVE)
-            if word.terminal in DECISIVE:
+            word = self.lexicon.find(words, first, DECISIVE_TERMINALS)
+            if word.terminal in DECISIVE_TERMINALS:
                 decisive.append(self._meaning(word.terminal, word.text))
             else:
                 rest.append(word.text)
@@ -105,18 +109,18 @@ class Templates:
     def nearest(
         self, text: str, embed: Embedding, enough: float, margin: float
     ) -> tuple[tuple[Command, ...], float] | None:
-        """The commands of one clause that are worded most like a normalised text.
+        """The commands of one clause whose wordings are most like a normalised text.
 
-        A text of several clauses is like none, for one of them could be lost.
+        A text of several clauses has none, because a template would lose all but one of them.
 
         Args:
-            text: normalised.
-            embed: from texts to vectors.
+            text: from `normalise`.
+            embed: from texts to vectors, shape (n, d).
             enough: least cosine similarity.
-            margin: how far behind the nearest others may be.
+            margin: other clauses whose similarity is less by no more than this are taken, too.
 
         Returns:
-            The nearest first, and the similarity of it; None if there is none.
+            The commands, nearest first, and the similarity of the nearest; None if there is none.
         """
         decisive, rest = self.split(text)
         known = self.clauses.get(decisive)
@@ -133,15 +137,17 @@ class Templates:
         return tuple(Command((known[i][0],)) for i in order), best
 
     def _refuses(self, text: str) -> bool:
-        """Whether something of a text would be lost if it were taken for one of these clauses.
+        """Whether a template would lose something that the text says.
 
-        That is so if a word joins clauses, is one that the language says is not understood, or may
-        be a slip in a word that decides: then the template would lack that.
+        It would if a word joins clauses, if the language has a hint that the word is not
+        understood, or if the word may be a misspelt decisive word.
         """
         joints = {*self.language.punctuation, '"', *self._words("_AND"), *self._words("_THEN")}
         said = {word for phrase in self.language.phrases.values() for word in self._read(phrase)}
         known = {word for terminal in self.language.terminals for word in self._words(terminal)}
-        phrases = [phrase for t in DECISIVE for phrase in self.language.terminals.get(t, ())]
+        phrases = [
+            phrase for t in DECISIVE_TERMINALS for phrase in self.language.terminals.get(t, ())
+        ]
         decisive = {max(self._read(phrase), key=len) for phrase in phrases}
         for piece in pieces(self.split(text)[1]):
             word = piece.text
@@ -155,7 +161,7 @@ class Templates:
         return [word for each in self.language.terminals[terminal] for word in self._read(each)]
 
     def _read(self, phrase: str) -> list[str]:
-        """The single words of a phrase, as the grammar reads them."""
+        """The single words of a phrase, spelt as the grammar reads them."""
         return [piece.text for piece in pieces(self.language.folded(phrase.casefold()))]
 
     def _meaning(self, terminal: str, words: str) -> str:
@@ -167,7 +173,7 @@ class Templates:
 
 
 def _may_be_one_of(word: str, known: Iterable[str], slips: int) -> bool:
-    """Whether a word holds a known one, or is at most so many slips away from it."""
+    """Whether a word contains a known word, or is at most `slips` edits away from one."""
     return any(
         (len(each) > 3 and each in word) or OSA.distance(word, each) <= slips for each in known
     )

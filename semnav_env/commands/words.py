@@ -1,4 +1,4 @@
-"""From a normalised text to words, and from words to the terminals of a grammar."""
+"""Cuts a normalised text into words, and finds the terminals of a grammar that they form."""
 
 from __future__ import annotations
 
@@ -7,26 +7,38 @@ from collections.abc import Collection, Iterable, Sequence
 from typing import NamedTuple
 
 FILLER = "_FILLER"
-"""The terminal of words that say nothing; they may stand anywhere."""
+"""The terminal of words without meaning, such as "please"; they may stand anywhere."""
 
 UNKNOWN = "UNKNOWN"
-"""The terminal of what no grammar knows."""
+"""The terminal of words that no terminal of the grammar has."""
 
 _PIECE = re.compile(r"\"[^\"]*\"|[^\W\d_]+(?:'[^\W\d_]+)*|\d+(?:[.,]\d+)*|\S")
 _HYPHEN = re.compile(r"(?<=[^\W\d_])-(?=[^\W\d_])")
 _DIGITS = re.compile(r"\d+(?:[.,]\d+)?")
 
 
-class Piece(NamedTuple):
-    """A word, a number, a name in quotation marks or a sign, and where it stands."""
+class TextPiece(NamedTuple):
+    """A word, a number, a name in quotation marks or a sign.
+
+    Attributes:
+        text: its characters.
+        start: index of the first one in the text.
+        stop: index behind the last one.
+    """
 
     text: str
     start: int
     stop: int
 
 
-class Word(NamedTuple):
-    """A phrase of a terminal: words `first` to `stop` (exclusive) of a text."""
+class TerminalMatch(NamedTuple):
+    """A terminal and the words that form it.
+
+    Attributes:
+        terminal: its name in the grammar.
+        text: the words, parted by spaces.
+        stop: number of the first word behind them.
+    """
 
     terminal: str
     text: str
@@ -34,22 +46,22 @@ class Word(NamedTuple):
 
 
 def fold(text: str, same_as: dict[str, str]) -> str:
-    """Replace each character by what it is read as."""
+    """The text with each character replaced by the one that it is read as."""
     return "".join(same_as.get(character, character) for character in text)
 
 
-def pieces(text: str) -> list[Piece]:
-    """The words of a text. A hyphen between letters parts them; "3m" is a number and a word."""
+def pieces(text: str) -> list[TextPiece]:
+    """The words of a text; "T-junction" is two words, and "3m" is a number and a word."""
     found = _PIECE.finditer(text)
     hyphens = {match.start() for match in _HYPHEN.finditer(text)}
-    return [Piece(m.group(), m.start(), m.end()) for m in found if m.start() not in hyphens]
+    return [TextPiece(m.group(), m.start(), m.end()) for m in found if m.start() not in hyphens]
 
 
 class Lexicon:
-    """Finds the longest phrase that may stand at a place.
+    """Finds the longest phrase at some word of a text.
 
     Args:
-        phrases: the phrases of each terminal, with the spelling of the normalised text.
+        phrases: pairs of a terminal and one of its phrases, spelt as in a normalised text.
     """
 
     def __init__(self, phrases: Iterable[tuple[str, str]]) -> None:
@@ -60,10 +72,18 @@ class Lexicon:
         for entries in self._by_first.values():
             entries.sort(key=lambda entry: len(entry[0]), reverse=True)
 
-    def find(self, words: Sequence[Piece], first: int, accepted: Collection[str]) -> Word:
-        """The longest phrase at `first` whose terminal is accepted there, or a filler.
+    def find(
+        self, words: Sequence[TextPiece], first: int, accepted: Collection[str]
+    ) -> TerminalMatch:
+        """The longest phrase that begins at word `first` and may stand there.
 
-        Where none is, a phrase that is known but out of place, or else `UNKNOWN`.
+        Args:
+            words: of the text.
+            first: number of the word at which the phrase begins.
+            accepted: the terminals that the parser can take next; fillers may always stand.
+
+        Returns:
+            If no phrase may stand there: the terminal of one that is known, or else `UNKNOWN`.
         """
         here = words[first].text
         known = UNKNOWN
@@ -71,21 +91,23 @@ class Lexicon:
             stop = first + len(phrase)
             if tuple(word.text for word in words[first:stop]) == phrase:
                 if terminal in accepted or terminal == FILLER:
-                    return Word(terminal, " ".join(phrase), stop)
+                    return TerminalMatch(terminal, " ".join(phrase), stop)
                 known = terminal
-        return self._open(words, first, accepted) or Word(known, here, first + 1)
+        return self._open(words, first, accepted) or TerminalMatch(known, here, first + 1)
 
-    def _open(self, words: Sequence[Piece], first: int, accepted: Collection[str]) -> Word | None:
-        """A number in digits or the name of a room, which no list holds."""
+    def _open(
+        self, words: Sequence[TextPiece], first: int, accepted: Collection[str]
+    ) -> TerminalMatch | None:
+        """A number in digits or the name of a room, if one is accepted; no list can hold these."""
         here = words[first].text
         if "NUMBER" in accepted and _DIGITS.fullmatch(here):
-            return Word("NUMBER", here, first + 1)
+            return TerminalMatch("NUMBER", here, first + 1)
         if "NAME" in accepted and here[0] == '"' and len(here) > 2:
-            return Word("NAME", here[1:-1].strip(), first + 1)
+            return TerminalMatch("NAME", here[1:-1].strip(), first + 1)
         if "NAME" in accepted and here[0].isdigit():
             letter = words[first + 1] if first + 1 < len(words) else None
             if letter is not None and letter.start == words[first].stop and len(letter.text) == 1:
                 joined = here + letter.text
-                return Word("NAME", joined, first + 2) if letter.text.isalpha() else None
-            return Word("NAME", here, first + 1)
+                return TerminalMatch("NAME", joined, first + 2) if letter.text.isalpha() else None
+            return TerminalMatch("NAME", here, first + 1)
         return None

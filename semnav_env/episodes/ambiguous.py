@@ -22,7 +22,7 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.commands.language import language_of
+from semnav_env.commands.languages import language_of
 
 Readings: TypeAlias = tuple[tuple[Clause, ...], ...]
 Recipe: TypeAlias = Callable[[np.random.Generator, str], tuple[str, Readings]]

@@ -11,7 +11,7 @@ from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import Any
 
-from semnav_env.commands.language import languages
+from semnav_env.commands.languages import languages
 from semnav_env.episodes.episode import Episode, Expected
 
 SUFFIXES = (".jsonl", ".jsonl.gz")

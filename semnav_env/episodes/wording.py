@@ -21,7 +21,7 @@ from semnav_env.commands import (
     readings,
 )
 from semnav_env.commands.errors import CommandError
-from semnav_env.commands.language import language_of
+from semnav_env.commands.languages import language_of
 
 OTHER_WORDS, CORRECTED = 0.6, 0.18
 """Shares of commands in other than canonical words, and of those with a slip that is corrected."""

@@ -175,6 +175,6 @@ def scan_space(lidar: LidarSpec) -> Box[np.float32]:
 
 
 def command_space() -> Box[np.int64]:
-    """The space of the entry "command": the tokens of `commands.tokens.encode`, flat."""
+    """The space of the entry "command": the tokens of `commands.encode`, flat."""
     tokens = token_space()
     return Box(tokens.low.ravel(), tokens.high.ravel(), dtype=np.int64)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from semnav_env.commands import Command, parse
-from semnav_env.commands.language import language_of
+from semnav_env.commands.languages import language_of
 from semnav_env.episodes.episode import Episode
 from semnav_env.features.frames import Pose
 from semnav_env.features.lidar_spec import LidarSpec

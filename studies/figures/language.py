@@ -9,7 +9,7 @@ from pathlib import Path
 
 from semnav_env.commands import CommandError, parse, readings
 from semnav_env.commands.grammar import find_clauses
-from semnav_env.commands.language import languages
+from semnav_env.commands.languages import languages
 from semnav_env.commands.normalise import MAX_WORDS, normalise
 
 CORPUS = Path(__file__).resolve().parents[2] / "tests" / "corpus"

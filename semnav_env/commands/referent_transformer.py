@@ -1,11 +1,14 @@
-"""What the rules of a grammar for doors, places, distances and numbers mean, in every language."""
+"""The meaning of the grammar rules for doors, places, distances and numbers.
+
+All languages share it; see `clause_transformer`, which adds the rules for clauses.
+"""
 
 from __future__ import annotations
 
 from lark import Token, Transformer, v_args
 
+from semnav_env.commands.clause_readings import ClauseReadings
 from semnav_env.commands.language import Language
-from semnav_env.commands.parts import Found, Parts, members, one, ordinal_in, side_in, whole
 from semnav_env.commands.references import (
     LAST,
     OTHER,
@@ -16,10 +19,21 @@ from semnav_env.commands.references import (
     Side,
     Unit,
 )
+from semnav_env.commands.rule_parts import (
+    Parts,
+    first_of,
+    members,
+    ordinal_in,
+    side_in,
+    whole_number,
+)
 
 
-class ReferenceMeanings(Transformer[Token, list[Found]]):
-    """Builds the values of what a step refers to; "the next one" is of the door named last."""
+class ReferentTransformer(Transformer[Token, list[ClauseReadings]]):
+    """A Lark transformer: what a clause refers to.
+
+    "The next one" is the next one of the kind that was named last, so the last door is kept.
+    """
 
     def __init__(self, language: Language) -> None:
         super().__init__()
@@ -34,7 +48,7 @@ class ReferenceMeanings(Transformer[Token, list[Found]]):
         return PlaceReference(Place.END)
 
     def counted_junctions(self, parts: Parts) -> PlaceReference:
-        return PlaceReference(Place.INTERSECTION, whole(one(parts, float)))
+        return PlaceReference(Place.INTERSECTION, whole_number(first_of(parts, float)))
 
     def door(self, parts: Parts) -> DoorReference:
         self._last_door = DoorReference(ordinal_in(parts), side_in(parts))
@@ -57,7 +71,7 @@ class ReferenceMeanings(Transformer[Token, list[Found]]):
         return DoorReference(LAST, side_in(parts))
 
     def counted_doors(self, parts: Parts) -> DoorReference:
-        return DoorReference(whole(one(parts, float)), side_in(parts))
+        return DoorReference(whole_number(first_of(parts, float)), side_in(parts))
 
     def ahead(self, _: Parts) -> Side:
         return Side.AHEAD

@@ -1,0 +1,88 @@
+"""Every command that a text can mean, from the readings of its clauses."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise, product
+from typing import Any
+
+from semnav_env.commands.clause_readings import ClauseReadings
+from semnav_env.commands.clauses import Clause, Follow, GoToDoor
+from semnav_env.commands.command import Command, Link, links_of, may_count_on, reference_of
+from semnav_env.commands.one_reading import OutOfPlaceError, Reading, one_reading
+
+MAX_READINGS = 16
+"""The most readings of a command; nobody would choose among more, so the text is refused."""
+
+
+class TooAmbiguousError(ValueError):
+    """A text has more readings than `MAX_READINGS`."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(f"the command can be taken in {number} ways; say it in other words")
+
+
+def commands_of(found: Sequence[ClauseReadings]) -> tuple[Command, ...]:
+    """Every command that the stretches of a text can mean together, each once.
+
+    Raises:
+        OutOfPlaceError: "go in" without a door before it, and the like.
+        TooAmbiguousError: too many readings.
+    """
+    _check_number(math.prod(len(each.readings) for each in found))
+    readings = [one_reading(found, choice) for choice in product(*(f.readings for f in found))]
+    _check_conditions(readings, last=len(found) - 1)
+    commands = [clauses for reading in readings if reading for clauses in _countings(reading)]
+    _check_number(len(commands))
+    return tuple(dict.fromkeys(Command(clauses) for clauses in commands))
+
+
+def _check_number(readings: int) -> None:
+    if readings > MAX_READINGS:
+        raise TooAmbiguousError(readings)
+
+
+def _check_conditions(readings: Sequence[Reading], last: int) -> None:
+    """Refuse readings in which it is not clear which clauses depend on a condition.
+
+    Args:
+        readings: of the whole text.
+        last: index of the last stretch, which is where the error points.
+    """
+    for reading in readings:
+        links = links_of([each.clause for each in reading])
+        for each, link in zip(reading, links, strict=True):
+            after_condition = link is Link.IN_ANY_CASE
+            if each.in_any_case is not after_condition:
+                unclear = 'does this hang on the condition? say "in any case" if not'
+                needless = "in any case? there is no condition"
+                raise OutOfPlaceError(unclear if after_condition else needless, last)
+
+
+def _countings(reading: Reading) -> list[tuple[Clause, ...]]:
+    """The clauses of a reading, counted anew and counted on where it does not say which.
+
+    "Past the first door, then through the second" can mean the second door from here, or from
+    the first one.
+    """
+    countings: list[tuple[Clause, ...]] = [(reading[0].clause,)]
+    links = links_of([each.clause for each in reading])
+    for (before, each), link in zip(pairwise(reading), links[1:], strict=True):
+        choices, first = [each.clause], before.clause
+        if link is Link.NEXT and may_count_on(first, each.clause) and not each.anew:
+            choices.append(_counted_on(first, each.clause))
+        countings = [(*clauses, choice) for clauses in countings for choice in choices]
+    return countings
+
+
+def _counted_on(before: Clause, clause: Clause) -> Clause:
+    """The clause with its ordinal counted from where the clause before began."""
+    first, second = reference_of(before), reference_of(clause)
+    assert first is not None
+    assert second is not None
+    reference: Any = replace(second, ordinal=second.ordinal - first.ordinal)
+    name = {GoToDoor: "door", Follow: "until"}.get(type(clause), "at")
+    changed: Any = replace(clause, **{name: reference})
+    return changed  # type: ignore[no-any-return]
