@@ -8,7 +8,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from semnav_env.features.explain import Trace, rejections
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.layout import (
@@ -88,6 +87,8 @@ def extract(
     )
     scene = to_scene(features)
     if explain:
+        from semnav_env.features.explain import Trace, rejections  # seldom asked for
+
         trace = Trace.of(scan, directions, settings, scratch, features)
         scene = replace(scene, rejections=rejections(trace))
     return scene

@@ -10,7 +10,8 @@ from typing import Any
 
 from tyro.conf import Positional
 
-from semnav_env.belief import Belief, follow_log
+from semnav_env.belief import Belief
+from semnav_env.belief.log_following import follow_log
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Pose

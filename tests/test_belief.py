@@ -13,7 +13,8 @@ import pytest
 
 from semnav_env.agents.base import steps
 from semnav_env.agents.registry import make_agent
-from semnav_env.belief import BeliefTracker, follow_log
+from semnav_env.belief import BeliefTracker
+from semnav_env.belief.log_following import follow_log
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
 from semnav_env.features.readers import LogRecord

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from semnav_env.rendering import Frame, Viewer
 from semnav_env.rendering.camera import Viewport, looking_at
+from semnav_env.rendering.frame import Frame
+from semnav_env.rendering.viewer import Viewer
 from semnav_env.robots import SPOT
 from tests.small_office import office
 

@@ -1,8 +1,11 @@
 """What the folders may know of each other."""
 
 import ast
+import statistics
+import subprocess
 import sys
 import tomllib
+from collections import defaultdict
 from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -74,6 +77,40 @@ def importers(package):
     return {
         m.place for m in MODULES.values() if package in {n.split(".")[0] for n, _ in imported(m)}
     }
+
+
+MAX_IMPORTED_LINES = 19_000
+"""Lines of our own code that making an environment may import."""
+
+COUNT_IMPORTED_LINES = """
+import sys, gymnasium
+from pathlib import Path
+gymnasium.make("semnav_env:SemNav-v0")
+ours = [m.__file__ for name, m in sys.modules.items() if name.startswith("semnav_env")]
+print(sum(len(Path(file).read_text().splitlines()) for file in ours))
+"""
+
+
+def test_making_an_environment_imports_what_it_needs():
+    command = [sys.executable, "-c", COUNT_IMPORTED_LINES]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert int(done.stdout) < MAX_IMPORTED_LINES
+
+
+def test_files_are_short():
+    lines = {m.place: len(m.path.read_text().splitlines()) for m in MODULES.values()}
+    assert {place: n for place, n in lines.items() if n > 300} == {}
+    assert statistics.median(lines.values()) < 110
+
+
+def test_no_two_classes_have_one_name():
+    """But for `Arguments`, by which each command finds its own."""
+    places = defaultdict(list)
+    for module in MODULES.values():
+        for node in ast.walk(module.tree):
+            if isinstance(node, ast.ClassDef) and node.name != "Arguments":
+                places[node.name].append(module.place)
+    assert {name: where for name, where in places.items() if len(where) > 1} == {}
 
 
 def test_there_is_something_to_look_at():

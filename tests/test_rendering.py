@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from semnav_env.features.scene import Corner, CornerKind, CorridorProbe, Scene, Wall
 from semnav_env.grounding.goal import PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.maps.floor_plan import Material, Surface
-from semnav_env.rendering import Frame, Viewer
+from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.legend import LEGEND_HEIGHT, ROW, legend_entries
+from semnav_env.rendering.viewer import Viewer
 from semnav_env.robots import SPOT, WHEELCHAIR
 from tests.small_office import DOOR, PLAIN, PLAN, office
 

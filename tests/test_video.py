@@ -11,7 +11,8 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from semnav_env.rendering import Viewer, save_gif, save_mp4, save_png, save_video
+from semnav_env.rendering.video import save_gif, save_mp4, save_png, save_video
+from semnav_env.rendering.viewer import Viewer
 from tests.small_office import PLAIN, PLAN
 
 pytest.importorskip("pygame", reason="pictures need the extra `render`")

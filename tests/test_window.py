@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from semnav_env.rendering import Viewer
+from semnav_env.rendering.viewer import Viewer
 from tests.small_office import PLAIN, PLAN
 
 pytest.importorskip("pygame", reason="pictures need the extra `render`")
@@ -21,7 +21,7 @@ def viewer() -> Viewer:
 
 
 IMPORTS = """
-from semnav_env.rendering import Viewer
+from semnav_env.rendering.viewer import Viewer
 from small_office import PLAIN, PLAN
 import pygame
 """

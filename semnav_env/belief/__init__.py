@@ -5,7 +5,6 @@ It needs features, commands and grounding, and no simulator.
 
 from semnav_env.belief.belief import Belief
 from semnav_env.belief.bump_map import BumpMap
-from semnav_env.belief.log_following import follow_log
 from semnav_env.belief.tracker import BeliefTracker
 
-__all__ = ["Belief", "BeliefTracker", "BumpMap", "follow_log"]
+__all__ = ["Belief", "BeliefTracker", "BumpMap"]

@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.dynamics.furniture import furnished
-from semnav_env.dynamics.leaves import with_leaves
 from semnav_env.dynamics.settings import Dynamics
 from semnav_env.features.frames import Point
 from semnav_env.features.validation import check_kind
@@ -56,11 +54,15 @@ class PlanSource:
             plan = self._hung_with_leaves(plan)
         if rng is None or not self.dynamics.furnishes:
             return plan
+        from semnav_env.dynamics.furniture import furnished  # most plans do not change
+
         return furnished(plan, self.dynamics, self._robot, rng, _point(pose))
 
     def _hung_with_leaves(self, plan: FloorPlan) -> FloorPlan:
         """The same object for the same plan."""
         if self._hung is None or plan is not self._hung[0]:
+            from semnav_env.dynamics.leaves import with_leaves  # most plans do not change
+
             self._hung = plan, with_leaves(plan)
         return self._hung[1]
 

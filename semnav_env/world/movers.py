@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pymunk
 
-from semnav_env.dynamics import Moving
+if TYPE_CHECKING:
+    from semnav_env.dynamics.moving import Moving
 
 
 class Movers:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from array import array
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pymunk
 
-from semnav_env.dynamics import OFF, Dynamics, Moving
+from semnav_env.dynamics import OFF, Dynamics
 from semnav_env.features.frames import Contact, FloatArray, Pose, wrap_angle
 from semnav_env.lidar.moving import NOTHING
 from semnav_env.maps.floor_plan import FloorPlan
@@ -18,6 +18,9 @@ from semnav_env.world.bodies import driving_joints, robot_body, solid_space
 from semnav_env.world.contacts import ContactLog, Contacts
 from semnav_env.world.movers import Movers
 from semnav_env.world.standing import clearance, standing_error
+
+if TYPE_CHECKING:
+    from semnav_env.dynamics.moving import Moving
 
 FINE = 20
 """Substeps where something else moves: a robot's corner then gets less than a centimetre into
@@ -61,7 +64,7 @@ class World:
             )
         self.floor_plan, self.robot = floor_plan, robot
         self._period = 1.0 / control_hz
-        self.moving = Moving(floor_plan, robot, dynamics, self._period) if dynamics.moves else None
+        self.moving = self._moving(dynamics) if dynamics.moves else None
         self.still = floor_plan if self.moving is None else self.moving.still
         substeps = substeps if self.moving is None else max(substeps, FINE)
         self.control_hz, self.substeps = control_hz, substeps
@@ -69,6 +72,11 @@ class World:
         self._start: Pose | None = None
         self._journal = array("d")
         self._seed = 0
+
+    def _moving(self, dynamics: Dynamics) -> Moving:
+        from semnav_env.dynamics.moving import Moving  # most worlds stand still
+
+        return Moving(self.floor_plan, self.robot, dynamics, self._period)
 
     def reset(self, pose: Pose, rng: np.random.Generator | None = None) -> None:
         """Put the robot at rest with its centre at `pose`, world frame, in an untouched world.

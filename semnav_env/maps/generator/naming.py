@@ -13,7 +13,6 @@ from rapidfuzz import process
 
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.generator.distributions import DISTRIBUTIONS
-from semnav_env.maps.generator.office import draw_office
 from semnav_env.maps.generator.settings import OfficeSettings
 
 PREFIX = "office"
@@ -41,6 +40,8 @@ def generate_office(seed: int, settings: str | OfficeSettings = "medium") -> Flo
     """
     if isinstance(seed, bool) or not isinstance(seed, Integral) or not 0 <= seed <= MOST_SEED:
         raise ValueError(f"the seed is {seed!r}; give a whole number from 0 to {MOST_SEED}")
+    from semnav_env.maps.generator.office import draw_office  # most environments need no office
+
     ranges = distribution(settings) if isinstance(settings, str) else settings
     names = [name for name, fixed in DISTRIBUTIONS.items() if fixed == ranges]
     return draw_office(int(seed), ranges, office_name(names[0] if names else CUSTOM, seed))

@@ -1,0 +1,111 @@
+"""What the picture of an environment shows at one moment."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from semnav_env.belief import Belief, BeliefTracker
+from semnav_env.commands.command import reference_of
+from semnav_env.commands.references import DoorReference
+from semnav_env.features.extract import to_scene
+from semnav_env.features.frames import Point, Pose, compose, points_to_parent, relative
+from semnav_env.features.scene import Door, Scene
+from semnav_env.grounding.counted_doors import doors_along
+from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal
+from semnav_env.rendering.frame import Frame
+from semnav_env.robots import RobotSpec
+from semnav_env.tasks.judge import EpisodeJudge
+from semnav_env.verifier import Verdict
+from semnav_env.world import World
+
+
+class RenderedEnvironment(Protocol):
+    """What of an environment is shown."""
+
+    tracker: BeliefTracker
+    belief: Belief
+    judge: EpisodeJudge
+    metadata: dict[str, Any]
+
+    @property
+    def robot(self) -> RobotSpec:
+        """The body."""
+
+    @property
+    def world(self) -> World:
+        """The physics."""
+
+    @property
+    def seconds(self) -> float:
+        """Simulated time since the start of the episode."""
+
+
+def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
+    """This moment of the episode, world frame."""
+    tracker, verifier, pose = env.tracker, env.judge.verifier, env.world.pose
+    odometry_frame = compose(pose, relative(env.belief.pose, (0.0, 0.0, 0.0)))
+    lidar = compose(pose, tracker.mount)
+    remembered = tracker.scene()
+    people, leaves = env.world.moving_shapes
+    return Frame(
+        floor_plan=env.world.still,
+        robot=env.robot,
+        pose=pose,
+        lidar=lidar[:2],
+        hits=points_to_parent(lidar, tracker.hits()),
+        scene=to_scene(tracker.features).placed(lidar),
+        remembered=remembered.placed(odometry_frame),
+        door_numbers=door_numbers(remembered, tracker.follower),
+        goal=_moved(tracker.follower.goal, odometry_frame),
+        trail=np.array(trail),
+        route=verifier.mission.route,
+        command=tuple(str(clause) for clause in verifier.mission.command.clauses),
+        active_clause=verifier.follower.active,
+        skipped=verifier.follower.skipped,
+        status=_status(env.seconds, env.judge),
+        people=people.copy(),
+        leaves=leaves.copy(),
+        in_contact=env.world.in_contact,
+        failed=verifier.failure is not None,
+    )
+
+
+def door_numbers(scene: Scene, follower: Follower) -> dict[int, int]:
+    """The numbers of a scene's doors as the active clause counts them, by index."""
+    corridor = follower.goal.corridor
+    if corridor is None:
+        return {}
+    clauses = follower.command.clauses
+    clause = clauses[min(follower.active, len(clauses) - 1)]
+    reference = reference_of(clause)
+    side = reference.side if isinstance(reference, DoorReference) else None
+    counted = doors_along(scene, corridor, side, follower.rules.grounding)
+    order = {id(item.door): number for number, item in enumerate(counted, start=1)}
+    return {i: order[id(d)] for i, d in enumerate(scene.doors) if id(d) in order}
+
+
+def _moved(goal: Goal, frame: Pose) -> Goal:
+    """The goal as the picture shows it, in the parent of its frame."""
+    pose = compose(frame, goal.pose)
+    match goal:
+        case PassGoal(door=door) | ReachGoal(door=Door() as door):
+            return replace(goal, pose=pose, door=Scene(doors=(door,)).placed(frame).doors[0])
+        case _:
+            return replace(goal, pose=pose)
+
+
+_SETTLED = (Verdict.DONE, Verdict.SKIPPED, Verdict.PENDING)
+
+
+def _status(seconds: float, judge: EpisodeJudge) -> tuple[str, ...]:
+    current = [v for v in judge.verifier.verdicts if v not in _SETTLED]
+    verdict = str(current[0]) if current else "done"
+    return (
+        f"t = {seconds:.1f} s   {verdict}",
+        f"collisions: {judge.journey.collisions}",
+    )
