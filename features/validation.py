@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from numbers import Real
+
 
 def check_kind(name: str, value: object, kind: type) -> None:
     """Refuse a setting that is of another kind.
@@ -17,3 +20,15 @@ def check_kind(name: str, value: object, kind: type) -> None:
     if not isinstance(value, kind):
         right = f"{kind.__module__}.{kind.__qualname__}"
         raise ValueError(f"{name} is {value!r:.80}; it must be a {right}")
+
+
+def checked_seconds(max_seconds: object) -> float:
+    """A time limit, seconds.
+
+    Raises:
+        ValueError: no number, or none that is positive and finite.
+    """
+    check_kind("max_seconds", max_seconds, Real)
+    if not 0 < (seconds := float(max_seconds)) < math.inf:  # type: ignore[arg-type]
+        raise ValueError(f"max_seconds is {max_seconds!r}; it must be positive and finite")
+    return seconds

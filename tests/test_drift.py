@@ -117,7 +117,7 @@ def test_corrected_odometry_is_nearer_to_the_truth() -> None:
         for _ in steps(env, agent, *begun):
             pass
         true = relative(start, env.world.pose)
-        off.append([_apart(env.simulator.odometry.pose, true), _apart(env.believed_pose, true)])
+        off.append([_apart(env.simulator.odometry.pose, true), _apart(env.belief.pose, true)])
     raw, corrected = np.mean(off, axis=0)
     assert (corrected < 0.3 * raw).all()
 
@@ -131,7 +131,7 @@ def test_uncorrected_odometry_is_left_as_it_is() -> None:
     env.reset(seed=0)
     for _ in range(40):
         observation, *_ = env.step(env.action_space.high)
-        assert env.believed_pose == env.simulator.odometry.pose
+        assert env.belief.pose == env.simulator.odometry.pose
         assert observation["odometry"][:2] == pytest.approx(
             env.simulator.odometry.pose[:2], abs=1e-5
         )
@@ -142,4 +142,4 @@ def test_on_the_truth_the_robot_is_where_it_believes_to_be() -> None:
     env.reset(seed=0)
     for _ in range(40):
         env.step(env.action_space.high)
-        assert env.believed_pose == env.world.pose
+        assert env.belief.pose == env.world.pose

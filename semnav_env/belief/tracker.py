@@ -57,6 +57,11 @@ class BeliefTracker:
 
     follower: Follower
 
+    @property
+    def command(self) -> Command:
+        """The command that is followed."""
+        return self.follower.command
+
     def __init__(
         self,
         lidar: str | LidarSpec = "tim561",

@@ -1,10 +1,18 @@
 """What episodes are about: what is asked for, what is to be done, and what it is worth."""
 
-from semnav_env.tasks.frozen import Episodes, FrozenEpisodes, spelled_out
+from semnav_env.tasks.episode_source import EpisodeSource
+from semnav_env.tasks.frozen import Episodes, FrozenEpisodes
 from semnav_env.tasks.judge import EpisodeJudge, Judgement
 from semnav_env.tasks.mission_maker import MissionMaker
 from semnav_env.tasks.request import EpisodeRequest
-from semnav_env.tasks.rewards import AddedTerms, Rewards, RewardTerm, RewardWeights, Tick
+from semnav_env.tasks.rewards import (
+    AddedTerms,
+    Rewards,
+    RewardTerm,
+    RewardWeights,
+    Tick,
+    as_rewards,
+)
 from semnav_env.tasks.task import AdaptiveTask, CommandTask, SampledTask, Task, as_task
 from semnav_env.tasks.wrapping import Curriculum, RandomisedRobot
 
@@ -15,6 +23,7 @@ __all__ = [
     "Curriculum",
     "EpisodeJudge",
     "EpisodeRequest",
+    "EpisodeSource",
     "Episodes",
     "FrozenEpisodes",
     "Judgement",
@@ -26,6 +35,6 @@ __all__ = [
     "SampledTask",
     "Task",
     "Tick",
+    "as_rewards",
     "as_task",
-    "spelled_out",
 ]

@@ -34,11 +34,13 @@ class EpisodeJudge:
         self.journey = Journey(mission.start)
         self._way = RemainingWay(self.verifier, mission.geodesic)
         self._remaining = self._way.length(mission.start)
+        self._motion: Motion | None = None
 
     def update(self, motion: Motion) -> Judgement:
         """Judge one control period."""
         verifier = self.verifier
         was_over = verifier.over
+        self._motion = motion
         self.journey.add(motion)
         completed = verifier.update(motion)
         remaining = self._way.length(motion.pose)
@@ -51,11 +53,14 @@ class EpisodeJudge:
 
     @property
     def info(self) -> dict[str, Any]:
-        """What is known after each step."""
+        """What is known after each step, for `info`."""
+        assert self._motion is not None, "call update(motion) first"
         return {
             "verdicts": self.verifier.verdicts,
             "collisions": self.journey.collisions,
             "path_length": self.journey.path_length,
+            "in_contact": self._motion.in_contact,
+            "pose": self._motion.pose,
         }
 
     @property

@@ -70,6 +70,11 @@ class EpisodeRequest:
         asked = {name: value for name, value in given.items() if value is not None}
         return cls(**asked) if given else None
 
+    @property
+    def info(self) -> dict[str, Any]:
+        """What `reset` says of the request, for `info`."""
+        return {"episode_id": self.episode_id} if self.episode_id else {}
+
     def checked_command(self, rooms: tuple[str, ...]) -> Command | None:
         """The command, if one is asked for.
 

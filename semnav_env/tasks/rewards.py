@@ -79,6 +79,19 @@ class RewardWeights:
         }
 
 
+def as_rewards(value: object) -> Rewards:
+    """What `rewards=` takes, as it is.
+
+    Raises:
+        ValueError: an object without `terms(tick)`.
+    """
+    if isinstance(value, Rewards) and not isinstance(value, type):
+        return value
+    raise ValueError(
+        f"rewards is {value!r:.80}; it must be a semnav_env.tasks.RewardWeights or have terms(tick)"
+    )
+
+
 @dataclass(frozen=True)
 class AddedTerms:
     """Rewards with terms of one's own beside them.

@@ -68,6 +68,16 @@ class Mission:
         points = tuple((x, y) for x, y in self.route.tolist())
         return {"route": points, "route_length": self.route_length}
 
+    @property
+    def begin_info(self) -> dict[str, Any]:
+        """What `reset` says of the mission, for `info`."""
+        begin = {"command": str(self.command), "floor_plan": self.floor_plan, "pose": self.start}
+        return begin | self.info
+
+    def ways_seen_from(self, frame: Pose) -> dict[int, Way]:
+        """The ways to named rooms in the frame of a robot, by the number of the clause."""
+        return {clause: way.seen_from(frame) for clause, way in self.ways.items()}
+
 
 def plan_mission(
     floor_plan: FloorPlan,

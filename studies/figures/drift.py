@@ -35,7 +35,7 @@ def draw(ax: Axes, corrected: bool) -> None:
     )
     begun = env.reset(seed=1, options={"command": COMMAND, "pose": START})
     ways = [
-        (env.world.pose[:2], compose(START, env.believed_pose)[:2])
+        (env.world.pose[:2], compose(START, env.belief.pose)[:2])
         for _ in steps(env, make_agent("scripted"), *begun)
     ]
     draw_floor_plan(env.floor_plan, ax, names=False)
@@ -57,7 +57,7 @@ def strayed(env: SemNavEnv, episode: Episode) -> tuple[float, ...]:
     for _ in steps(env, make_agent("scripted"), *begun):
         pass
     true, off = relative(start, env.world.pose), []
-    for pose in (env.simulator.odometry.pose, env.believed_pose):
+    for pose in (env.simulator.odometry.pose, env.belief.pose):
         turned = abs(math.remainder(pose[2] - true[2], math.tau))
         off += [math.dist(pose[:2], true[:2]), math.degrees(turned)]
     return tuple(off)

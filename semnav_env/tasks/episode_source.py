@@ -1,0 +1,49 @@
+"""Says what each episode is asked to be: by `reset`, or else by a task."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from semnav_env.tasks.frozen import Episodes, FrozenEpisodes, spelled_out
+from semnav_env.tasks.request import EpisodeRequest
+from semnav_env.tasks.task import AdaptiveTask, Task, as_task
+
+
+class EpisodeSource:
+    """Where the requests of an environment come from.
+
+    Args:
+        task: what `task=` takes, see `as_task`.
+        episodes: to draw from instead.
+
+    Raises:
+        ValueError: both are given, or one of them is something else.
+    """
+
+    def __init__(self, task: object = None, episodes: Episodes | None = None) -> None:
+        if task is not None and episodes is not None:
+            raise ValueError("give task= or episodes=, not both")
+        self.episodes = None if episodes is None else FrozenEpisodes(episodes)
+        self.task: Task = self.episodes or as_task(task)
+        self._asked_task = False
+
+    def next(self, options: dict[str, Any] | None, rng: np.random.Generator) -> EpisodeRequest:
+        """What the next episode is asked to be.
+
+        Args:
+            options: of `reset`; the task is asked where there are none.
+            rng: of the environment.
+
+        Raises:
+            ValueError: bad options, or an episode that is unknown or cannot be carried out.
+        """
+        asked = EpisodeRequest.from_options(options)
+        self._asked_task = asked is None
+        return spelled_out(self.task.request(rng) if asked is None else asked, self.episodes)
+
+    def note(self, success: bool) -> None:
+        """Tell a task that learns how an episode ended that it asked for."""
+        if self._asked_task and isinstance(self.task, AdaptiveTask):
+            self.task.note(success)
