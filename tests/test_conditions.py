@@ -152,18 +152,18 @@ def _rooms(command: Command) -> list[str]:
 @pytest.mark.parametrize(
     ("text", "error"),
     [
-        ("if there is a door on the left, enter it and stop", "does this hang on the condition"),
+        ("if there is a door on the left, enter it and stop", "does this depend on the condition"),
         ("otherwise stop", "otherwise than what"),
         ("if there is a corner, stop, otherwise wait, otherwise stop", "otherwise than what"),
         ("in any case stop", "there is no condition"),
         ("if the second door is closed, take the next one", "closed doors look like walls"),
         ("no, the second one on the left", "name the door"),
         ("no, left", "nothing before it"),
-        ("stop, no, left", "the corrected side is of nothing"),
-        ("stop, no, the second", "the corrected number counts nothing"),
+        ("stop, no, left", "no door or turn before it has a side"),
+        ("stop, no, the second", "nothing before it has a number"),
     ],
 )
-def test_what_hangs_on_nothing_is_refused(text: str, error: str) -> None:
+def test_clauses_without_what_they_refer_to_are_refused(text: str, error: str) -> None:
     with pytest.raises(CommandError, match=error):
         parse(text)
 

@@ -44,7 +44,7 @@ EPISODE = Episode(
     route=((1.3, 9.1), (10.0, 7.5)),
 )
 FIRST = 3
-"""So many episodes of a split are made anew."""
+"""How many episodes of a split are made anew."""
 
 
 @pytest.mark.parametrize("name", ["mine.jsonl", "mine.jsonl.gz"])

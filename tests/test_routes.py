@@ -32,7 +32,7 @@ GEODESICS = {name: comfortable(plan) for name, plan in PLANS.items()}
 OFFICE = PLANS["office_cross"]
 WEST: Pose = (1.3, 9.1, 0.0)
 DESCRIBED = 0.95
-"""So much of the routes from random poses is described, at least."""
+"""Least share of the routes from random poses that are described."""
 
 
 def to(goal: str | tuple[float, float], start: Pose = WEST, through: bool = True) -> Route:

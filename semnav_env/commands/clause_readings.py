@@ -123,7 +123,7 @@ def on_condition(condition: IfThere, readings: Readings) -> Readings:
         ValueError: more than one clause would depend on it.
     """
     if any(len(steps) != 1 for steps in readings):
-        raise ValueError('one thing hangs on a condition; begin the next with "in any case"')
+        raise ValueError('one clause depends on a condition; begin the next with "in any case"')
     return tuple((condition, *steps) for steps in readings)
 
 

@@ -96,7 +96,7 @@ def links_of(clauses: Sequence[Clause]) -> list[Link]:
         if not isinstance(clause, IfThere):
             continue
         if link in (Link.THEN, Link.OTHERWISE):
-            raise ValueError("a condition cannot hang on another one")
+            raise ValueError("a condition cannot depend on another one")
         expected = [Link.THEN, *[Link.OTHERWISE] * clause.otherwise, Link.IN_ANY_CASE]
     if expected and expected != [Link.IN_ANY_CASE]:
         raise ValueError("a condition is followed by what to do then, and otherwise if it says so")

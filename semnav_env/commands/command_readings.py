@@ -56,7 +56,7 @@ def _check_conditions(readings: Sequence[Reading], last: int) -> None:
         for each, link in zip(reading, links, strict=True):
             after_condition = link is Link.IN_ANY_CASE
             if each.in_any_case is not after_condition:
-                unclear = 'does this hang on the condition? say "in any case" if not'
+                unclear = 'does this depend on the condition? if not, say "in any case"'
                 needless = "in any case? there is no condition"
                 raise OutOfPlaceError(unclear if after_condition else needless, last)
 

@@ -23,13 +23,13 @@ def corrected(before: Clause, correction: Correction) -> Clause:
     turns_aside = isinstance(before, Turn) and before.turning is not Turning.AROUND
     corrects_turn = turns_aside and correction.side in (Side.LEFT, Side.RIGHT)
     if correction.ordinal is not None and reference is None:
-        raise ValueError("the corrected number counts nothing; say again what to do")
+        raise ValueError("nothing before it has a number to correct; say again what to do")
     if (
         correction.side is not None
         and not corrects_turn
         and not isinstance(reference, DoorReference)
     ):
-        raise ValueError("the corrected side is of nothing; say again what to do")
+        raise ValueError("no door or turn before it has a side to correct; say again what to do")
     changed: Any = before
     if reference is not None:
         changed = _with_referent(before, _corrected_referent(reference, correction))

@@ -102,8 +102,8 @@ def _conditional(rng: np.random.Generator, max_ordinal: int, otherwise: bool) ->
     whats = (_door(rng, max_ordinal), _place(rng, max_ordinal))
     what = whats[int(rng.integers(2))]
     condition = IfThere(what, _choose(rng, (False, True)), otherwise and rng.random() < 0.5)
-    hanging = 2 if condition.otherwise else 1
-    return [condition, *(sample_clause(rng, max_ordinal) for _ in range(hanging))]
+    dependent = 2 if condition.otherwise else 1
+    return [condition, *(sample_clause(rng, max_ordinal) for _ in range(dependent))]
 
 
 def _follow(rng: np.random.Generator, max_ordinal: int) -> Follow:

@@ -38,17 +38,18 @@ SPACE = 0.3
 
 
 START_TRIES = 200
-"""Start poses drawn before any free one will do."""
+"""Start poses that are drawn before any free pose is taken."""
 
 LEAST_AHEAD, WIDEST_HALF = 3.0, 1.5
-"""A random start has so much of a corridor ahead, no wider than twice that, metres; if there is any
-such place."""
+"""A random start has at least this length of corridor ahead, and the corridor is at most this half
+width wide, metres, if there is any such place."""
 
 OUTSIDE = 0.6
-"""And no junction within so much before or behind its centre, metres: about half a body."""
+"""Least distance along the corridor between a random start and a junction, metres: about half a body."""
 
 ABEAM, ASIDE = 0.9, 2.0
-"""And the middle of no door within so much of its centre along its heading and across, metres."""
+"""No door's midpoint is within these distances of a random start, along its heading and across it,
+metres."""
 
 
 def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator) -> Pose:
