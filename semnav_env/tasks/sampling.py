@@ -45,7 +45,7 @@ LEAST_AHEAD, WIDEST_HALF = 3.0, 1.5
 width wide, metres, if there is any such place."""
 
 OUTSIDE = 0.6
-"""Least distance along the corridor between a random start and a junction, metres: about half a body."""
+"""Least distance between a random start and a junction along the corridor, metres: half a body."""
 
 ABEAM, ASIDE = 0.9, 2.0
 """No door's midpoint is within these distances of a random start, along its heading and across it,
