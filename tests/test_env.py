@@ -240,7 +240,7 @@ def test_a_failed_reset_leaves_nothing_to_step() -> None:
         env.step(np.zeros(2))
 
 
-def test_after_a_first_reset_that_was_refused_one_can_reset_and_step() -> None:
+def test_a_refused_first_reset_can_be_followed_by_another() -> None:
     env = gym.make("semnav_env:SemNav-v0")
     with pytest.raises(CommandError):
         env.reset(options={"command": "turn lef"})

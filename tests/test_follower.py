@@ -57,7 +57,8 @@ def test_nothing_else_is_that_door(before: Pose, after: Pose) -> None:
     assert not goal.crossed_between(before, after)
 
 
-def test_an_inexact_door_is_crossed_beside_its_jambs_but_only_well_behind() -> None:
+def test_an_inexact_door_is_crossed_only_well_behind_its_line() -> None:
+    """A little beside the jambs counts, too."""
     follower = following("go through the first door on the left", margin=0.3)
     beside = 3.0 - 0.45 - 0.2
     assert drive(follower, (beside, 0.9, QUARTER), (beside, 1.2, QUARTER)) == [False, False]
@@ -102,7 +103,7 @@ def test_what_a_careful_robot_calls_reached_is_reached(
 
 
 @pytest.mark.parametrize("care", [0.5, 1.0])
-def test_where_the_next_clause_counts_from_does_not_depend_on_the_driving(care: float) -> None:
+def test_the_start_of_a_clause_does_not_depend_on_the_driving(care: float) -> None:
     follower = following("turn left at the intersection, then go to the door ahead", X_JUNCTION)
     mouth = follower.goal.onward
     assert mouth is not None
@@ -127,7 +128,8 @@ def test_skipping_goes_the_planned_way() -> None:
     assert skipped.active == driven.active == 1
 
 
-def test_go_down_the_hallway_is_a_clause_of_its_own_only_where_nothing_says_how_far() -> None:
+def test_a_bare_follow_is_carried_out_only_if_nothing_limits_it() -> None:
+    """The next clause can say how far to go."""
     assert following("go down the hallway").active == 0
     assert following("go down the hallway and stop").active == 0
     assert following("go down the hallway and take the first door on the left").active == 1
@@ -136,7 +138,7 @@ def test_go_down_the_hallway_is_a_clause_of_its_own_only_where_nothing_says_how_
     assert turning.goal.pose[0] == pytest.approx(9.0, abs=0.06)
 
 
-def test_a_clause_that_cannot_be_carried_out_is_named_and_never_done() -> None:
+def test_an_impossible_clause_is_named_and_never_done() -> None:
     follower = following("go through the second door on the right")
     assert follower.impossible == "no second door on the right: the hallway ended after 1"
     assert isinstance(follower.goal, StopGoal)

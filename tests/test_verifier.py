@@ -65,14 +65,14 @@ def test_verdicts_are_printed_as_plain_words() -> None:
     assert str((Verdict.DONE, Verdict.WRONG_DOOR)) == "('done', 'wrong door')"
 
 
-def test_the_door_next_to_the_named_one_is_a_failure_however_near() -> None:
+def test_the_door_next_to_the_named_one_is_a_failure() -> None:
     judge = walk(verifier("go through the second door on the right"), (3.4, 9.0), (3.4, 7.0))
     assert judge.over
     assert not judge.success
     assert judge.crossed == ["west_south_1"]
 
 
-def test_crossing_an_opening_that_is_too_wide_for_a_door_is_no_wrong_door() -> None:
+def test_an_opening_too_wide_for_a_door_is_no_wrong_door() -> None:
     gate = PlanDoor("gate", (14.0, 8.0), (14.0, 10.2))
     plan = replace(PLAN, doors=(*PLAN.doors, gate))
     command = parse("follow the hallway until the intersection")
@@ -87,7 +87,7 @@ def test_a_closed_door_is_not_counted() -> None:
     assert judge.mission.goals[0].door.name == "east_south_1"
 
 
-def test_what_is_not_there_is_named_with_what_is() -> None:
+def test_a_missing_referent_is_answered_with_what_there_is() -> None:
     with pytest.raises(GroundingError, match="after 5"):
         verifier("go through the ninth door on the right")
 
@@ -116,7 +116,7 @@ def test_standing_still_for_ten_seconds_is_stopping_short() -> None:
     assert judge.failure is Verdict.STOPPED_SHORT
 
 
-def test_the_route_leads_through_every_goal_and_is_never_longer_than_a_walk() -> None:
+def test_the_route_leads_through_every_goal_and_is_shortest() -> None:
     judge = verifier("turn right at the intersection and go through the first door on the left")
     assert judge.mission.route[0] == pytest.approx(WEST[:2])
     assert judge.mission.route[-1] == pytest.approx((16.0, 2.7))
@@ -124,7 +124,7 @@ def test_the_route_leads_through_every_goal_and_is_never_longer_than_a_walk() ->
     assert judge.mission.route_length <= 1.09 * (13.7 + 6.4 + 1.3)
 
 
-def test_the_way_that_remains_shrinks_on_the_way_and_is_zero_at_the_end() -> None:
+def test_the_remaining_way_shrinks_to_zero() -> None:
     judge = verifier("go through the first door on the right")
     way = RemainingWay(judge, GEODESIC)
     lengths = [way.length(WEST)]
@@ -137,7 +137,7 @@ def test_the_way_that_remains_shrinks_on_the_way_and_is_zero_at_the_end() -> Non
     assert way.length((3.4, 7.9, 0.0)) == 0.0
 
 
-def test_a_failure_shows_even_if_the_last_clause_was_done_in_that_step() -> None:
+def test_a_failure_shows_even_with_the_last_clause_done() -> None:
     assert verdicts(2, 2, Verdict.WRONG_DOOR) == (Verdict.DONE, Verdict.WRONG_DOOR)
     assert verdicts(2, 2, None) == (Verdict.DONE, Verdict.DONE)
     assert verdicts(2, 1, Verdict.WRONG_TURN) == (Verdict.DONE, Verdict.WRONG_TURN)
@@ -179,13 +179,13 @@ def test_the_clause_of_the_other_branch_is_skipped(
     assert judge.success
 
 
-def test_the_verdict_on_the_whole_is_that_of_the_clause_that_decides() -> None:
+def test_the_verdict_is_that_of_the_deciding_clause() -> None:
     judge = verifier("go through the second door on the right")
     assert judge.verdict is Verdict.ACTIVE
     assert walk(judge, (3.4, 9.0), (3.4, 7.0)).verdict is Verdict.WRONG_DOOR
 
 
-def test_what_no_one_can_find_on_the_plan_is_refused() -> None:
+def test_a_referent_missing_from_the_plan_is_refused() -> None:
     """From beside the door of a room there is no end of a corridor to be seen on the plan."""
     plan = load_floor_plan("villa_hall")
     start: Pose = (1.0426539, 0.685958, -2.890914)
@@ -194,9 +194,8 @@ def test_what_no_one_can_find_on_the_plan_is_refused() -> None:
         Verifier(plan_mission(plan, Geodesic(plan), parse(command), start))
 
 
-def test_after_a_stop_the_next_clause_begins_where_the_stop_did_not_where_the_robot_stands() -> (
-    None
-):
+def test_after_a_stop_the_next_clause_begins_where_the_stop_did() -> None:
+    """It does not matter where the robot stands."""
     judge = verifier("follow the hallway for 3 metres, stop and turn left")
     walk(judge, (3.6, 9.6))
     judge.update(Motion((3.6, 9.6, 0.0), 0.0, 0.0, in_contact=False, seconds=1 / 15))
@@ -204,7 +203,7 @@ def test_after_a_stop_the_next_clause_begins_where_the_stop_did_not_where_the_ro
     assert judge.follower.goal.pose == pytest.approx(judge.mission.goals[-1].pose)
 
 
-def test_a_door_that_was_closed_when_it_was_counted_is_a_wrong_one_all_the_same() -> None:
+def test_a_door_that_opens_later_is_still_a_wrong_door() -> None:
     """It may have been opened since; a way through it was not asked for."""
     judge = verifier("go through the first door on the left", (28.6, 9.1, math.pi))
     assert not PLAN.door("east_south_2").open
