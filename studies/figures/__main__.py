@@ -3,6 +3,7 @@
 import tyro
 
 from studies.figures import (
+    architecture,
     arcs,
     buildings,
     drift,
@@ -11,6 +12,7 @@ from studies.figures import (
     lines,
     logs,
     mapping,
+    observation_table,
     offices,
     real_floor,
     routes,
@@ -20,8 +22,8 @@ from studies.figures import (
 )
 
 FIGURES = (
-    *(arcs, buildings, drift, features_tables, language, lines, logs, mapping, offices),
-    *(real_floor, routes, rules, rules_table, situations),
+    *(architecture, arcs, buildings, drift, features_tables, language, lines, logs, mapping),
+    *(observation_table, offices, real_floor, routes, rules, rules_table, situations),
 )
 
 if __name__ == "__main__":

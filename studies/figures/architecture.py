@@ -1,0 +1,149 @@
+"""Writes docs/architecture.md: the folders, their lines and imports, and three walks."""
+
+from __future__ import annotations
+
+import ast
+from collections import defaultdict
+from pathlib import Path
+from statistics import median
+
+from studies.figures import IMAGES
+
+PAGE = IMAGES.parent / "architecture.md"
+ROOT = IMAGES.parents[1]
+LAYERS = ("features", "semnav_env", "agents", "scripts")
+
+ABOUT = {
+    "features": "from a scan to a scene, memory, drift; NumPy and Numba only",
+    "features/explain": "why the extractor turned something down",
+    "features/kernels": "the compiled parts, over plain arrays",
+    "features/mapping": "line maps and scan matching",
+    "features/readers": "logs of real robots",
+    "semnav_env": "the environment, the rules, and what does not fit below",
+    "semnav_env/belief": "the robot's side: ranges, odometry and bumps to pose, scene and goal",
+    "semnav_env/commands": "text to clauses and back",
+    "semnav_env/dynamics": "people, swinging doors, moved furniture",
+    "semnav_env/episodes": "frozen episodes and the splits",
+    "semnav_env/grounding": "what a clause refers to in a scene, and where it leads",
+    "semnav_env/lidar": "the simulated lidar",
+    "semnav_env/maps": "floor plans: read, check, find ways",
+    "semnav_env/maps/generator": "offices drawn from a seed",
+    "semnav_env/maps/importers": "floor plans from other formats",
+    "semnav_env/metrics": "measures of a recorded episode",
+    "semnav_env/observations": "the declared layout of an observation, and its writer and reader",
+    "semnav_env/rendering": "pictures, films, the window",
+    "semnav_env/robots": "bodies, and what an action asks of them",
+    "semnav_env/routes": "routes in words, and the ways to named rooms",
+    "semnav_env/simulator": "world, lidar and odometry behind `step(twist) -> Sensed`",
+    "semnav_env/tasks": "what episodes are about, and what a step is worth",
+    "semnav_env/truth": "what an exact extractor would find in a floor plan",
+    "semnav_env/verifier": "the judge",
+    "semnav_env/world": "the physics; the only folder that imports Pymunk",
+    "agents": "scripted, oracle and learned agents behind one protocol",
+    "agents/evaluation": "suites of episodes, driven and judged",
+    "agents/learning": "training and its files",
+    "agents/planning": "the planner of the scripted agent and the oracle",
+    "scripts": "the `semnav` command",
+}
+
+TEMPLATE = """# Architecture
+
+The code is cut at the sensor. What crosses the cut is what a real robot has.
+
+                 SIMULATOR                     |                ROBOT'S SIDE
+                                               |
+    floor plan --> world (Pymunk) --> lidar ---+--> ranges, odometry, bumps --> BeliefTracker
+        |             ^                        |                                     |
+        |             +---- twist <------------+-- agent <-- observation <-- Belief <+
+        |                                      |                    (pose, scene, clause, goal)
+        +--> true scene --> JUDGE --> reward, end, info
+
+`tests/test_layers.py` holds what this page says of imports: `features` <- `semnav_env` <-
+`agents` <- `scripts`, no cycles, and no import of the simulator on the robot's side.
+
+## Three walks
+
+**A scan.** `Simulator.step` (`simulator/simulator.py`) drives the world and sweeps the lidar
+(`simulator/sweep.py`). Its `Sensed` goes to `BeliefTracker.update` (`belief/tracker.py`). One
+compiled call, `understand` (`belief/understand.py`), extracts the features
+(`features/kernels/chain.py`), corrects the drift (`features/kernels/drift.py`) and remembers
+walls and doors (`features/kernels/memory.py`). `EntryObservation.observe`
+(`observations/observer.py`) writes the row that an agent gets.
+
+**A command.** `parse` (`commands/parser.py`) turns text into a `Command`, a tuple of clauses.
+`MissionMaker` (`tasks/mission_maker.py`) checks on the floor plan that it can be carried out.
+The robot's `Follower` (`grounding/follower.py`) holds the clause under way and asks
+`grounding/ground.py` where it leads, on what is remembered; the answer is a goal: seek, reach,
+pass or stop. The judge's `Verifier` (`verifier/verifier.py`) runs the same follower on the true
+scene.
+
+**An action.** `Actions.twist` (`robots/actions.py`) turns shares of the largest speeds into a
+twist. `World.step` (`world/world.py`) bounds its acceleration and lets Pymunk move the body.
+The true `Motion` goes to the `EpisodeJudge` (`tasks/judge.py`): crossed doors, reached places,
+progress. `RewardWeights.terms` (`tasks/rewards.py`) says what the step was worth.
+
+## Folders
+
+{total} lines of Python in {files} files; the median file has {median:g}, the longest {longest}.
+A line counts with its comments and docstrings.
+
+| folder | lines | what it holds | imports from |
+|---|---|---|---|
+{rows}
+"""
+
+
+def page() -> str:
+    """The page, made of the code as it is."""
+    sources = {path: path.read_text(encoding="utf-8") for path in _files()}
+    lines = {path: len(source.splitlines()) for path, source in sources.items()}
+    folders: dict[str, list[Path]] = defaultdict(list)
+    for path in sources:
+        folders[_folder(path)].append(path)
+    rows = []
+    for name in sorted(folders, key=lambda name: (LAYERS.index(name.split("/")[0]), name)):
+        needs = sorted({n for p in folders[name] for n in _needs(sources[p])} - {name})
+        count = sum(lines[path] for path in folders[name])
+        imports = ", ".join(need.removeprefix("semnav_env/") for need in needs)
+        rows.append(f"| `{name}` | {count} | {ABOUT[name]} | {imports} |")
+    return TEMPLATE.format(
+        total=sum(lines.values()),
+        files=len(lines),
+        median=median(lines.values()),
+        longest=max(lines.values()),
+        rows="\n".join(rows),
+    )
+
+
+def _files() -> list[Path]:
+    links = {path for layer in LAYERS for path in (ROOT / layer).iterdir() if path.is_symlink()}
+    files = (path for layer in LAYERS for path in sorted((ROOT / layer).rglob("*.py")))
+    return [path for path in files if not links & set(path.parents)]
+
+
+def _folder(path: Path) -> str:
+    return path.parent.relative_to(ROOT).as_posix()
+
+
+def _needs(source: str) -> set[str]:
+    """The folders that a module imports from."""
+    names = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("semnav_env"):
+            names |= {_home(f"{node.module}.{alias.name}") for alias in node.names}
+    return names
+
+
+def _home(dotted: str) -> str:
+    """The folder of a module or of a name in it."""
+    parts = dotted.split(".")
+    if len(parts) > 1 and parts[1] in LAYERS:
+        parts = parts[1:]
+    while not (ROOT.joinpath(*parts).is_dir() and len(parts) < len(dotted.split("."))):
+        parts = parts[:-1]
+    return "/".join(parts)
+
+
+def main() -> None:
+    """Write the page."""
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1,0 +1,38 @@
+"""Pages of the documentation that a script writes say what the code says."""
+
+from __future__ import annotations
+
+import re
+
+from semnav_env.env import SemNavEnv
+from semnav_env.observations import MODES
+from studies.figures import architecture, observation_table
+
+
+def test_the_page_of_entries_is_what_the_layout_declares() -> None:
+    """If this fails: `python -m studies.figures observation_table`."""
+    assert observation_table.PAGE.read_text(encoding="utf-8") == observation_table.page()
+
+
+def test_the_page_of_folders_shows_their_imports() -> None:
+    """But for the counts of lines. If this fails: `python -m studies.figures architecture`."""
+    shown = architecture.PAGE.read_text(encoding="utf-8")
+    assert _without_numbers(shown) == _without_numbers(architecture.page())
+
+
+def test_the_files_of_the_three_walks_exist() -> None:
+    named = set(re.findall(r"\((\w+(?:/\w+)+\.py)\)", architecture.TEMPLATE.replace("`", "")))
+    assert len(named) > 10
+    for name in named:
+        places = [architecture.ROOT / name, architecture.ROOT / "semnav_env" / name]
+        assert any(place.exists() for place in places), name
+
+
+def test_the_contract_names_every_entry() -> None:
+    text = SemNavEnv.__doc__ or ""
+    for name in MODES["all"]:
+        assert name.removesuffix("_mask") in text, name
+
+
+def _without_numbers(text: str) -> str:
+    return re.sub(r"[\d.]+", "#", text)
