@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from semnav_env.counter_rng import bits, normal, stream, uniform
 from semnav_env.features.frames import FloatArray
+from semnav_env.lidar.counter_rng import bits, normal, stream, uniform
 
 _WHOLE_EPISODE = -1
 """In place of the step, in the key of what stays the same throughout an episode."""

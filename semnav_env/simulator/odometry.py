@@ -8,8 +8,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numba import njit
 
-from semnav_env.counter_rng import bits, normal, stream
 from semnav_env.features.frames import Pose
+from semnav_env.lidar.counter_rng import bits, normal, stream
 
 _TURN = 2.0 * math.pi
 
