@@ -59,8 +59,8 @@ class Drive:
 
     def rechecked(self) -> str:
         """The verdict of the second opinion where it is not the verifier's; else empty."""
-        verifier = self.verifier
-        found = recheck(self.recording, verifier.mission.floor_plan, verifier.goals)
+        verifier, mission = self.verifier, self.verifier.mission
+        found = recheck(self.recording, mission.floor_plan, verifier.goals, mission.rules)
         return "" if found.verdict == verifier.verdict else found.verdict
 
     def events(self) -> tuple[Event, ...]:

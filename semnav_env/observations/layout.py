@@ -16,6 +16,7 @@ from gymnasium.spaces import Box
 from semnav_env.belief.bump_map import MOST_PIECES
 from semnav_env.commands import MAX_CLAUSES, token_space
 from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.grounding.goal import GoalKind
 
 UNBOUNDED = 1000.0
 """Bound of places and distances that have no natural one, metres."""
@@ -30,7 +31,7 @@ REMEMBERED_ROWS, BUMP_ROWS = 16, MOST_PIECES
 """Rows of remembered doors and of walls that were bumped into."""
 
 ENDS = ("start_x", "start_y", "end_x", "end_y")
-GOAL_KINDS = ("seek", "reach", "pass", "stop")
+GOAL_KINDS = tuple(kind.name.lower() for kind in GoalKind)
 
 
 @dataclass(frozen=True)

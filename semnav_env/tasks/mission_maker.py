@@ -68,7 +68,7 @@ class MissionMaker:
             return pose, command
         objections: Counter[str] = Counter()
         for _ in range(MOST_DRAWS):
-            start = pose or sample_start(self.floor_plan, self.robot, rng)
+            start = pose or sample_start(self.floor_plan, self.robot, rng, self.rules)
             drawn = command or sample_feasible(self.floor_plan, start, rng, rules=self.rules)
             if drawn is None:
                 continue

@@ -23,6 +23,7 @@ from semnav_env.commands import (
 )
 from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose, to_local, wrap_angle
+from semnav_env.features.rules import DoorRules
 from semnav_env.grounding import Goal, GroundingError, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import is_clear, placement_error, sample_pose
@@ -52,7 +53,9 @@ ABEAM, ASIDE = 0.9, 2.0
 metres."""
 
 
-def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator) -> Pose:
+def sample_start(
+    floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator, rules: Rules = Rules()
+) -> Pose:
     """A free pose in a corridor, looking along it; not across it, in a junction or by a door."""
     corridors = floor_plan.corridors
     region = corridors[rng.integers(len(corridors))] if corridors else None
@@ -60,9 +63,12 @@ def sample_start(floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generat
         pose = sample_pose(floor_plan, robot, rng, region)
         axis = corridor_at(floor_plan.scene, pose).frame[2]
         start = (*pose[:2], wrap_angle(axis + rng.uniform(-0.2, 0.2)))
-        along = looks_along(floor_plan, pose)
-        sees = along and not in_junction(floor_plan, start) and not beside_door(floor_plan, start)
-        if (sees or attempt >= START_TRIES) and placement_error(floor_plan, robot, start) is None:
+        fits = (
+            looks_along(floor_plan, pose)
+            and not in_junction(floor_plan, start)
+            and not beside_door(floor_plan, start, rules.door)
+        )
+        if (fits or attempt >= START_TRIES) and placement_error(floor_plan, robot, start) is None:
             return start
     raise AssertionError("count() never ends")
 
@@ -85,13 +91,13 @@ def in_junction(floor_plan: FloorPlan, pose: Pose) -> bool:
     return any(mouth.near < OUTSIDE and mouth.far > -OUTSIDE for mouth in mouths)
 
 
-def beside_door(floor_plan: FloorPlan, pose: Pose) -> bool:
+def beside_door(floor_plan: FloorPlan, pose: Pose, rules: DoorRules) -> bool:
     """Whether a door lies right beside a robot at a pose.
 
     One jamb can then be out of the lidar's sight, so that a robot does not make out what who knows
     the plan counts, or just does not count.
     """
-    places = (to_local(pose, door.midpoint) for door in floor_plan.scene.doors)
+    places = (to_local(pose, door.midpoint) for door in floor_plan.scene_by(rules).doors)
     return any(abs(along) < ABEAM and abs(beside) < ASIDE for along, beside in places)
 
 
