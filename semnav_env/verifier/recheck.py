@@ -123,14 +123,13 @@ class _Path:
 
     def crosses_any(self, doors: Sequence[Jambs]) -> Mask:
         """At which steps the path crosses one of some doors."""
-        none = np.zeros(len(self._points), dtype=bool)
-        return np.asarray(np.logical_or.reduce([none, *map(self.crosses, doors)]))
+        return np.asarray(np.logical_or.reduce([self._never(), *map(self.crosses, doors)]))
 
     def meets(self, goal: Goal, since: int) -> Mask:
         """At which steps a goal is met that holds since some row, whatever was before."""
         match goal:
             case SeekGoal():
-                return np.zeros(len(self._points), dtype=bool)
+                return self._never()
             case StopGoal():
                 return self._stands(goal, since)
             case PassGoal(door=door):
@@ -141,8 +140,11 @@ class _Path:
             case ReachGoal():
                 return self._arrives(goal)
 
+    def _never(self) -> Mask:
+        return np.zeros(len(self._recording.path), dtype=bool)
+
     def _stands(self, goal: StopGoal, since: int) -> Mask:
-        slow = self._recording.speeds < self._rules.standstill_speed
+        slow: Mask = np.asarray(self._recording.speeds < self._rules.standstill_speed)
         slow[: since + 1] = False
         return np.asarray(slow & (_lasting(slow) * self.period >= goal.wait - 1e-6))
 
@@ -150,7 +152,7 @@ class _Path:
         if goal.offset_tolerance is not None:
             reach, side = goal.distance_tolerance + ROUNDING, goal.offset_tolerance
             there = _placed(goal.pose, shapely.box(-reach, -side, reach, side))
-            return _later(shapely.covers(there, self._points)[1:])
+            return _later(np.asarray(shapely.covers(there, self._points))[1:])
         away = shapely.distance(self._points, Point(goal.pose[:2]))
         near = away <= goal.distance_tolerance + ROUNDING
         turned = np.angle(np.exp(1j * (self._recording.poses[:, 2] - goal.pose[2])))
@@ -161,9 +163,10 @@ class _Path:
     def enters(self, places: Sequence[Polygon]) -> Mask:
         """At which steps the robot's centre is inside one of some places."""
         if not places:
-            return np.zeros(len(self._points), dtype=bool)
+            return self._never()
         inside = shapely.contains_properly(np.array(places)[:, None], self._points)
-        return _later(inside.any(axis=0)[1:])
+        anywhere: Mask = np.asarray(np.any(inside, axis=0))
+        return _later(anywhere[1:])
 
 
 def _left_of(path: FloatArray, door: Jambs) -> Mask:
