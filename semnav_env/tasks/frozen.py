@@ -56,9 +56,11 @@ def spelled_out(request: EpisodeRequest, episodes: FrozenEpisodes | None) -> Epi
         episodes: in which an id is looked up.
 
     Raises:
-        ValueError: an unknown episode, or one that nobody can carry out.
+        ValueError: no request, an unknown episode, or one that nobody can carry out.
         StaleEpisodeError: the floor plan has changed since the episode was made.
     """
+    if not isinstance(request, EpisodeRequest):
+        raise ValueError(f"a task asks for an EpisodeRequest, not for {request!r:.80}")
     wanted = request.episode
     if wanted is None:
         return request

@@ -88,7 +88,9 @@ def as_task(value: object) -> Task:
     if isinstance(value, list | tuple) and value:
         if all(isinstance(each, str | Command) for each in value):
             return CommandTask(tuple(value))
-    elif isinstance(value, Task) and not isinstance(value, type):
+    elif isinstance(value, type):
+        pass  # a class is callable, but makes no request
+    elif isinstance(value, Task):
         return value
     elif callable(value):
         return SampledTask(value)

@@ -1,0 +1,84 @@
+"""Every example runs by itself and prints what its first lines promise."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "examples"
+
+SAYS = {
+    "first_episode": "success: True",
+    "own_floor_plan": "crossed: ('office_door',)  success: True",
+    "own_robot": "walker: 0.7 m long, 2 numbers an action; success True",
+    "own_lidar": "a step lasts 25 ms",
+    "own_reward": "smoothness -0.",
+    "own_observation": "nearest_hit: shape (2,)",
+    "own_task": "now at stage 1",
+    "own_agent": '"go through the first door on the right"',
+    "doors_from_log": "m wide, confidence",
+    "command_on_log": "clause 1, StopGoal",
+    "describe_route": "auf Deutsch:",
+    "ppo": "decisions: reward",
+}
+"""Words that each example prints, by its name."""
+
+FEW = {"ppo": ["--steps", "1024"]}
+"""Arguments that make an example short."""
+
+LONGEST = 60
+"""Most lines of an example."""
+
+
+def run(name: str, *arguments: str) -> str:
+    """What an example prints."""
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    file = str(FOLDER / f"{name}.py")
+    command = [sys.executable, file, *FEW.get(name, []), *arguments]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_every_example_is_tested() -> None:
+    assert {path.stem for path in FOLDER.glob("*.py")} == set(SAYS)
+
+
+@pytest.mark.parametrize("name", SAYS)
+def test_an_example_prints_what_it_promises(name: str) -> None:
+    if name == "ppo" and importlib.util.find_spec("torch") is None:
+        pytest.skip("torch is not installed")
+    assert SAYS[name] in run(name)
+
+
+def test_an_example_without_torch_says_what_it_needs(tmp_path: Path) -> None:
+    (tmp_path / "torch.py").write_text("raise ModuleNotFoundError('No module named torch')")
+    environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
+    command = [sys.executable, str(FOLDER / "ppo.py")]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "needs torch" in done.stderr
+
+
+@pytest.mark.parametrize("name", SAYS)
+def test_an_example_is_short_and_uses_public_names(name: str) -> None:
+    text = (FOLDER / f"{name}.py").read_text()
+    tree = ast.parse(text)
+    assert ast.get_docstring(tree)
+    code = [line for line in text.splitlines() if line.strip()]
+    assert len(code) <= (2 * LONGEST if name == "ppo" else LONGEST), len(code)
+    names = [node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)]
+    names += [
+        alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    ]
+    assert not [each for each in names if each.startswith("_") and not each.endswith("__")]
