@@ -15,7 +15,7 @@ def test_the_page_of_entries_is_what_the_layout_declares() -> None:
 
 
 def test_the_page_of_folders_shows_their_imports() -> None:
-    """But for the counts of lines. If this fails: `python -m studies.figures architecture`."""
+    """The counts of lines may differ. If this fails: `python -m studies.figures architecture`."""
     shown = architecture.PAGE.read_text(encoding="utf-8")
     assert _without_numbers(shown) == _without_numbers(architecture.page())
 

@@ -104,7 +104,7 @@ def test_files_are_short():
 
 
 def test_no_two_classes_have_one_name():
-    """But for `Arguments`, by which each command finds its own."""
+    """`Arguments` is excepted, because each command finds its own by this name."""
     places = defaultdict(list)
     for module in MODULES.values():
         for node in ast.walk(module.tree):
