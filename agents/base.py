@@ -9,6 +9,8 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.observations import ObservationType
+
 Observation = dict[str, NDArray[Any]]
 
 
@@ -19,7 +21,9 @@ class Agent(Protocol):
         observation: the `observation=` of the environment that the agent needs.
     """
 
-    observation: str
+    @property
+    def observation(self) -> str | ObservationType:
+        """A mode, such as "all", or an observation type of the user's own."""
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode.

@@ -1,4 +1,4 @@
-"""Demonstrations: what an agent saw and did in frozen episodes, as a Minari dataset."""
+"""Demonstrations: the observations and actions of an agent, as a Minari dataset."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode
 
 DATASET_NAME = re.compile(r"(?:[-_\w]+/)*[-_\w]+-v\d+")
-"""A name that Minari knows a dataset by, as "semnav/train-scripted-v0"."""
+"""The form of a dataset's name in Minari, such as "semnav/train-scripted-v0"."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,8 +26,8 @@ class Demonstration:
     """One driven episode of n steps.
 
     Attributes:
-        episode: what was asked for.
-        observations: each entry of the observation, shape (n + 1, size).
+        episode: the frozen episode that was driven.
+        observations: the entries of the observation by name, each of shape (n + 1, size).
         actions: shape (n, action size).
         rewards: shape (n,).
         terminations: shape (n,).
@@ -45,7 +45,7 @@ class Demonstration:
 
 
 def demonstrate(env: SemNavEnv, agent: Agent, episode: Episode) -> Demonstration:
-    """Let an agent drive a frozen episode, with its number as the seed, and note everything."""
+    """Let an agent drive a frozen episode, with its number as the seed, and record everything."""
     with episode.named_in_errors():
         first, info = env.reset(seed=episode.number, options={"episode": episode})
     driven = list(steps(env, agent, first, info))
@@ -62,16 +62,16 @@ def demonstrate(env: SemNavEnv, agent: Agent, episode: Episode) -> Demonstration
 
 
 class DemonstrationFile:
-    """A new Minari dataset to which demonstrations are added, each on disk at once.
+    """A new Minari dataset; each demonstration is written at once.
 
     Args:
-        out: a name such as "semnav/train-scripted-v0", which Minari finds again, or a folder.
-        env: whose spaces the observations and actions have.
-        agent: the name of the agent, for the dataset's description.
+        out: a name such as "semnav/train-scripted-v0", by which Minari finds it, or a folder.
+        env: the environment, which gives the spaces of observations and actions.
+        agent: name of the agent, for the description of the dataset.
 
     Raises:
-        ImportError: Minari is not installed; names the extra.
-        FileExistsError: there is a dataset of that name or in that folder.
+        ImportError: Minari is not installed; the error names the extra.
+        FileExistsError: there is already a dataset of that name, or something in that folder.
     """
 
     def __init__(self, out: str, env: SemNavEnv, agent: str) -> None:
@@ -103,7 +103,7 @@ class DemonstrationFile:
         )
 
     def add(self, demonstration: Demonstration) -> None:
-        """Write a demonstration; an interruption waits until it is whole."""
+        """Write a demonstration; an interruption waits until it is complete."""
         from minari.data_collector.episode_buffer import EpisodeBuffer
 
         episode = demonstration.episode
@@ -126,7 +126,7 @@ class DemonstrationFile:
 
     @property
     def count(self) -> int:
-        """How many demonstrations are on disk, counted there."""
+        """Number of demonstrations in the file, counted there."""
         import h5py
 
         with h5py.File(self.folder / "data" / "main_data.hdf5", "r") as file:
@@ -134,17 +134,17 @@ class DemonstrationFile:
 
 
 def agent_word(agent: str) -> str:
-    """The name of an agent, without what a dataset's name cannot have."""
+    """The name of an agent, without characters that the name of a dataset cannot have."""
     return re.sub(r"[^-_\w]+", "_", Path(agent).name) or "agent"
 
 
 @contextmanager
 def _uninterrupted() -> Iterator[None]:
-    """Hold an interruption from the keyboard back until the end."""
+    """Delay an interruption from the keyboard until the end of the block."""
     held: list[int] = []
     try:
         before = signal.signal(signal.SIGINT, lambda number, _: held.append(number))
-    except ValueError:  # not in the main thread, which interruptions go to
+    except ValueError:  # not the main thread, which alone gets interruptions
         yield
         return
     try:

@@ -6,9 +6,12 @@ import io
 import re
 from collections.abc import Sequence
 from contextlib import redirect_stderr
-from typing import Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import tyro
+
+if TYPE_CHECKING:  # `semnav doctor` must start without the compiled kernels
+    from semnav_env.features.frames import Pose
 
 
 class Runnable(Protocol):
@@ -49,3 +52,16 @@ def _unboxed(box: str) -> str:
     rows = [re.sub("[│─╭╮╰╯]+", " ", row).strip() for row in box.splitlines()[1:]]
     text = " ".join(row for row in rows if row)
     return re.split(r" ?(?:Argument helptext:|For full helptext|Full helptext)", text)[0].strip()
+
+
+def parse_pose(text: str) -> Pose:
+    """Read a pose written as "x,y,heading", metres and radians.
+
+    Raises:
+        ValueError: the text is something else.
+    """
+    try:
+        x, y, heading = (float(part) for part in text.split(","))
+    except ValueError:
+        raise ValueError(f"pose {text!r} is not x,y,heading, such as -2.5,-0.3,0.24") from None
+    return x, y, heading

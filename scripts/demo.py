@@ -17,7 +17,7 @@ from semnav_env.commands import parse
 from semnav_env.dynamics import OFF, Dynamics
 from semnav_env.dynamics.social import for_json
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Pose
+from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
 
@@ -146,16 +146,3 @@ class Arguments:
             print(f"the robot took it for impossible: {outcome['impossible']}")
         for path in outcome["files"]:
             print(f"wrote {path}")
-
-
-def parse_pose(text: str) -> Pose:
-    """Three numbers from "x,y,heading".
-
-    Raises:
-        ValueError: something else.
-    """
-    try:
-        x, y, heading = (float(part) for part in text.split(","))
-    except ValueError:
-        raise ValueError(f"pose {text!r} is not x,y,heading, such as -2.5,-0.3,0.24") from None
-    return x, y, heading

@@ -21,7 +21,7 @@ from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
 from semnav_env.routes.describe import describe
 from semnav_env.routes.route_to import route_to
-from semnav_env.scripts.demo import parse_pose
+from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.outputs import check_file
 from semnav_env.verifier import plan_goals
 

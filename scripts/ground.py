@@ -20,7 +20,7 @@ from semnav_env.grounding.goal import door_of
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
-from semnav_env.scripts.demo import parse_pose
+from semnav_env.scripts.arguments import parse_pose
 from semnav_env.verifier import plan_goals
 
 TABLE_HEADINGS = f"{'goal':<6}{'x, m':>9}{'y, m':>9}{'heading, rad':>14}  clause"

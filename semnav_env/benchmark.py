@@ -42,8 +42,8 @@ class Timing:
         return 1e6 / self.microseconds
 
 
-TO_AND_FRO = ((0.3, 0.0, 0.2), (-0.3, 0.0, -0.2))
-"""Velocities that touch nothing."""
+ALTERNATING_TWISTS = ((0.3, 0.0, 0.2), (-0.3, 0.0, -0.2))
+"""Twists that are driven in turn, so that the robot stays near its start and touches nothing."""
 
 
 def benchmark(floor_plan: str, robot: str, observation: str, runs: int, steps: int) -> list[Timing]:
@@ -130,6 +130,6 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], fl
             "features, memory, goal",
             repeat(lambda i: tracker.update(out, pose, velocity)),
         ),
-        ("world step", repeat(lambda i: env.world.step(TO_AND_FRO[i // 15 % 2]))),
+        ("world step", repeat(lambda i: env.world.step(ALTERNATING_TWISTS[i // 15 % 2]))),
         ("hallway (a few times a second)", repeat(lambda i: corridor_at(scene, pose))),
     ]

@@ -1,4 +1,4 @@
-"""Measuring agents: suites of episodes, a runner and a table."""
+"""Measures agents: suites of trials, a runner, results and summaries."""
 
 from semnav_env.agents.evaluation.asking import asked, by_grammar
 from semnav_env.agents.evaluation.drive import Drive, drive

@@ -1,4 +1,4 @@
-"""What an interpreter makes of ambiguous commands."""
+"""Tests whether an interpreter finds all readings of an ambiguous command."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def by_grammar(episode: Episode) -> Interpreter:
 
 
 def asked(episode: Episode, interpreter: Callable[[Episode], Interpreter] = by_grammar) -> str:
-    """What an interpreter gets wrong of an episode; empty if it gives the right set of readings."""
+    """What is wrong with the readings that an interpreter finds; empty if they are right."""
     try:
         found = interpreter(episode).interpret(episode.command)
     except CommandError as error:

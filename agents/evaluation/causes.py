@@ -11,9 +11,9 @@ def cause_of(verifier: Verifier, metrics: Metrics, impossible: str | None) -> st
     """Why an episode failed; empty if it did not.
 
     Args:
-        verifier: that judged it.
+        verifier: the judge of the episode.
         metrics: of the episode.
-        impossible: why the robot took the command for impossible, if it did.
+        impossible: why the robot believed that the command is impossible; None if it did not.
     """
     if verifier.success:
         return ""

@@ -1,4 +1,4 @@
-"""One episode driven by an agent, recorded and judged."""
+"""Lets an agent drive one episode, and records and judges it."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ class Drive:
 
     Attributes:
         recording: poses, velocities and contacts of every step.
-        verifier: that judged it; knows the plan, the command, the true route and the goals.
+        verifier: the judge; it knows the plan, the command, the true route and the goals.
         metrics: all measures.
         cause: why it failed, in words; empty after success.
-        robot: that drove.
+        robot: the body that drove.
         social: how near people came, see `World.social`.
-        impossible: why the robot took the command for impossible when the episode ended; empty if
-            it did not.
+        impossible: why the robot believed at the end that the command is impossible; empty if it
+            did not believe so.
     """
 
     recording: Recording
@@ -42,15 +42,16 @@ class Drive:
 
     @property
     def kind(self) -> str:
-        """The kind of the clause that failed, as "Turn"; empty after success."""
+        """The kind of the clause that failed, such as "Turn"; empty after success."""
         clauses = self.verifier.mission.command.clauses
         active = min(self.verifier.follower.active, len(clauses) - 1)
         return "" if self.metrics.success else type(clauses[active]).__name__
 
     def as_infeasible(self) -> Drive:
-        """The same, where saying that the command is impossible is what was right.
+        """The same drive, judged as that of a command that is impossible.
 
-        That is so if the robot stood still and said so, and went wrong nowhere before.
+        It is a success if the robot stood still, said that the command is impossible, and had made
+        no mistake before.
         """
         right = bool(self.impossible) and self.verifier.verdict is Verdict.STOPPED_SHORT
         said = self.impossible or "did not say that it is impossible"
@@ -58,17 +59,17 @@ class Drive:
         return replace(self, metrics=replace(self.metrics, success=right), cause=cause)
 
     def rechecked(self) -> str:
-        """The verdict of the second opinion where it is not the verifier's; else empty."""
+        """The verdict of the second opinion if it differs from the verifier's; otherwise empty."""
         verifier, mission = self.verifier, self.verifier.mission
         found = recheck(self.recording, mission.floor_plan, verifier.goals, mission.rules)
         return "" if found.verdict == verifier.verdict else found.verdict
 
     def events(self) -> tuple[Event, ...]:
-        """What happened, in the order of time."""
+        """The events of the drive, in the order of time."""
         return events_of(self.recording, self.verifier.mission.floor_plan)
 
     def save_picture(self, path: str | Path, title: str = "") -> None:
-        """Write a picture: the plan, the true route, the way driven, contacts and goals."""
+        """Write a picture of the plan, the true route, the path driven, contacts and goals."""
         from semnav_env.metrics.picture import save_episode  # matplotlib only when it is wanted
 
         mission = self.verifier.mission
@@ -80,9 +81,9 @@ def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> D
     """Let an agent drive one episode to its end.
 
     Args:
-        env: whose `observation=` is the agent's.
+        env: an environment with the `observation=` of the agent.
         agent: the driver.
-        seed: of the environment.
+        seed: of the episode.
         options: for `env.reset`: "command", "pose", "floor_plan"; or "episode".
     """
     started = env.reset(seed=seed, options=options)

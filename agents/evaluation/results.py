@@ -1,4 +1,4 @@
-"""What came of an episode, and of many."""
+"""The results of episodes, and their summaries."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from semnav_env.verifier import FAILURES
 
 @dataclass(frozen=True)
 class Result:
-    """One episode.
+    """The result of one episode.
 
     Attributes:
         command: what the robot was told.
         seed: of the episode.
-        verdicts: one per clause.
+        verdicts: one for each clause.
         metrics: all measures.
         cause: why it failed, in words; empty after success.
-        rechecked: verdict of the second opinion where it is not the verifier's; else empty.
+        rechecked: verdict of the second opinion if it differs from the verifier's; else empty.
         social: how near people came, see `SocialRecord.outcome`; empty without people.
-        episode: its id, if it is one that was written down.
-        group: under which it is counted.
-        kind: of the clause that failed, as "Turn".
+        episode: id of a frozen episode; otherwise empty.
+        group: name under which it is counted.
+        kind: kind of the clause that failed, such as "Turn".
         floor_plan: name of the plan.
     """
 
@@ -47,7 +47,7 @@ class Result:
         return self.metrics.success
 
     def row(self) -> dict[str, object]:
-        """One flat object, as it is written to a file."""
+        """The result as one flat object, for a line of a file."""
         first = {"floor_plan": self.floor_plan, "command": self.command, "seed": self.seed}
         told = {"verdicts": self.verdicts} | ({"episode": self.episode} if self.episode else {})
         last = {"cause": self.cause, "rechecked": self.rechecked}
@@ -56,16 +56,16 @@ class Result:
 
 @dataclass(frozen=True)
 class Summary:
-    """Many episodes of one command, or of all.
+    """The measures of the episodes of a group, or of all.
 
     Attributes:
-        name: the group, or "all".
-        episodes: how many.
+        name: of the group, or "all".
+        episodes: number of episodes.
         means: mean of each measure, by its name.
         worst: mean of each measure over its worst episodes, one dictionary for each of
             `metrics.SHARES`.
         failures: the failed episodes.
-        disagreements: episodes that the second opinion judges otherwise.
+        disagreements: number of episodes that the second opinion judges otherwise.
     """
 
     name: str
@@ -76,7 +76,7 @@ class Summary:
     disagreements: int
 
     def row(self) -> dict[str, object]:
-        """One object for JSON: the means by name, then the means of the worst by share."""
+        """The summary as one object: means by name, then means of the worst episodes by share."""
         return {
             "name": self.name,
             "episodes": self.episodes,
@@ -88,7 +88,7 @@ class Summary:
 
 
 def summarise(name: str, results: Sequence[Result]) -> Summary:
-    """The means and the worst of some episodes; there must be at least one."""
+    """The summary of some results, of which there must be at least one."""
     measured = [result.metrics for result in results]
     return Summary(
         name,
@@ -107,7 +107,7 @@ def failure_line(result: Result) -> str:
 
 
 def common_causes(results: Sequence[Result]) -> list[tuple[str, int]]:
-    """What failed how often, the most common first: the verdict and the kind of clause."""
+    """Verdict and kind of clause of the failures, with their counts, the most common first."""
     failed = (result for result in results if not result.success)
     return Counter(_short_cause(result) for result in failed).most_common()
 

@@ -1,4 +1,4 @@
-"""Runs episodes, in several processes if asked."""
+"""Runs the episodes of a suite, if wanted in several processes."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ from semnav_env.robots import RobotSpec
 
 @dataclass(frozen=True)
 class Extras:
-    """What else to do with an episode.
+    """What else to do with a driven episode.
 
     Attributes:
-        recheck: ask for a second opinion.
+        recheck: judge it a second time, by other code.
         pictures: folder for a picture of each failure.
     """
 
@@ -40,6 +40,7 @@ class Extras:
 
 
 NO_EXTRAS = Extras()
+"""Only drive and measure."""
 
 TRIAL_SECONDS, EPISODE_SECONDS = 120.0, 300.0
 """Time limits of a trial and of a frozen episode, whose ways are longer; simulated seconds."""
@@ -130,7 +131,7 @@ class SuiteRunner:
 def run_trial(
     env: SemNavEnv, agent: Agent, trial: Trial, seed: int, extras: Extras = NO_EXTRAS
 ) -> Result:
-    """One episode from a start pose that the seed scatters."""
+    """Drive a trial once; the seed scatters its start pose."""
     drawn = env.plan_source.plan(trial.floor_plan)  # furniture keeps off the pose
     pose = scattered(trial, drawn, env.robot, np.random.default_rng(seed))
     options = {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
@@ -141,7 +142,7 @@ def run_trial(
 def run_frozen(
     env: SemNavEnv, agent: Agent, episode: Episode, extras: Extras = NO_EXTRAS
 ) -> Result:
-    """One frozen episode, with its number as the seed."""
+    """Drive a frozen episode; its number is the seed."""
     with episode.named_in_errors():
         driven = drive(env, agent, episode.number, {"episode": episode})
     if episode.expected is Expected.INFEASIBLE:
@@ -159,15 +160,15 @@ def conclude(
     episode: str = "",
     group: str = "",
 ) -> Result:
-    """What came of a driven episode; asks for a second opinion and draws a failure if wanted.
+    """The result of a driven episode, with a second opinion and a picture of a failure if wanted.
 
     Args:
         driven: the episode.
-        command: as the results name it.
+        command: name of the command in the results.
         seed: of the episode.
         extras: what else to do.
-        episode: the id of one that was written down.
-        group: under which it is counted; the command if empty.
+        episode: id of a frozen episode; otherwise empty.
+        group: name under which it is counted; the command if empty.
     """
     result = Result(
         command=command,
@@ -190,7 +191,7 @@ def conclude(
 
 
 def picture_name(driven: Drive, command: str, seed: int) -> str:
-    """The file name of the picture of an episode; long commands are cut and told by a checksum."""
+    """The file name of the picture of an episode; a long command is cut and gets a checksum."""
     words = re.sub("[^a-z0-9]+", "_", command.lower()).strip("_")
     if len(words) > MAX_NAME_LENGTH:
         words = f"{words[:MAX_NAME_LENGTH]}_{zlib.crc32(command.encode()):08x}"
@@ -200,7 +201,7 @@ def picture_name(driven: Drive, command: str, seed: int) -> str:
 def scattered(
     trial: Trial, floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator
 ) -> Pose:
-    """A free pose around the trial's, each part within its scatter."""
+    """A random free pose around that of the trial, each part within its scatter."""
     while True:
         x, y, heading = (
             p + rng.uniform(-s, s) for p, s in zip(trial.pose, trial.scatter, strict=True)

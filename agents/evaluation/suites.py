@@ -1,4 +1,4 @@
-"""Suites of episodes to measure agents on."""
+"""Suites of trials, on which agents are measured."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from semnav_env.features.frames import Pose
 
 @dataclass(frozen=True)
 class Trial:
-    """A command and where it is given.
+    """A command and about where it is given.
 
     Attributes:
         floor_plan: bundled name or path.
         command: what the robot is told.
-        pose: about where it starts, world frame.
-        scatter: how far the start may lie off in x, y (metres) and heading (radians).
+        pose: around which the robot starts, world frame.
+        scatter: largest deviation of the start in x, y (metres) and heading (radians).
     """
 
     floor_plan: str
@@ -28,7 +28,7 @@ class Trial:
 
     @property
     def group(self) -> str:
-        """Under which it is counted: the plan and the command."""
+        """Name under which it is counted: the plan and the command."""
         return f"{self.floor_plan}: {self.command}"
 
 
@@ -92,13 +92,14 @@ SUITES = {
     "heidelberg": _HEIDELBERG,
     "office_cross": _FROM_WEST + _FROM_EAST + _FROM_SOUTH + _FROM_BEND,
 }
+"""The suites by name; each is in the floor plan whose name it has, or begins with."""
 
 
 def suite(name: str) -> tuple[Trial, ...]:
-    """The trials of a suite; "all" is every suite.
+    """The trials of a suite, or of all suites for "all".
 
     Raises:
-        ValueError: no such suite; lists those there are.
+        ValueError: there is no such suite; the error lists the suites.
     """
     if name == "all":
         return tuple(trial for trials in SUITES.values() for trial in trials)

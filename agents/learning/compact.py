@@ -6,17 +6,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
-from semnav_env.observations.layout import GOAL, GOAL_KINDS
+from semnav_env.observations.layout import GOAL, ODOMETRY
 
 Array = NDArray[np.float32]
 
 SECTORS = 54
 """Sectors of the scan, each of which gives its nearest hit: 5 degrees of a lidar of 270 degrees."""
 
-COMPACT_SIZE = GOAL.size + 3 + SECTORS
-"""Length of the vector that `compact` returns: the goal, the velocity, the scan."""
+_GOAL_PARTS = [GOAL.columns.index(name) for name in ("x", "cosine", "door_start_x", "has_door")]
+"""Where in the goal its place, its heading, its door and the flag of the door begin."""
 
-_KINDS = len(GOAL_KINDS)
+_VELOCITY = ODOMETRY.columns.index("forward")
+"""Where in the odometry the velocity begins."""
+
+COMPACT_SIZE = GOAL.size + ODOMETRY.size - _VELOCITY + SECTORS
+"""Length of the vector that `compact` returns: the goal, the velocity, the scan."""
 
 
 def compact(observation: Observation) -> Array:
@@ -35,7 +39,7 @@ def compact(observation: Observation) -> Array:
         turning; and the nearest hit in each sector, from the clockwise end of the scan.
     """
     goal, scan = observation["goal"], observation["scan"]
-    kind, place, heading, jambs, has_door = np.split(goal, (_KINDS, _KINDS + 2, _KINDS + 4, -1))
+    kind, place, heading, jambs, has_door = np.split(goal, _GOAL_PARTS)
     starts = np.arange(SECTORS) * len(scan) // SECTORS
     values: Array = np.concatenate(
         (
@@ -45,7 +49,7 @@ def compact(observation: Observation) -> Array:
             _squash_place(jambs[:2]),
             _squash_place(jambs[2:]),
             has_door,
-            _squash(observation["odometry"][4:]),
+            _squash(observation["odometry"][_VELOCITY:]),
             _squash(np.minimum.reduceat(scan, starts)),
         ),
         dtype=np.float32,
@@ -54,8 +58,10 @@ def compact(observation: Observation) -> Array:
 
 
 def _squash_place(place: Array) -> Array:
+    """A place (x, y) with its distance squashed and its direction kept."""
     return np.asarray(place / (1.0 + np.hypot(place[0], place[1])))
 
 
 def _squash(values: Array) -> Array:
+    """Each value on its own."""
     return np.asarray(values / (1.0 + np.abs(values)))
