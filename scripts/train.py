@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -17,13 +16,11 @@ from tyro.conf import Positional
 
 from semnav_env.agents.learning.files import AGENT_FILE
 from semnav_env.agents.learning.presets import Preset, preset
+from semnav_env.agents.learning.session import TrainingLimits, train
 from semnav_env.scripts.dispatch import INTERRUPTED
 
 if TYPE_CHECKING:
     from semnav_env.agents.learning.training import Trainer, TrainingReport
-
-SAVE_INTERVAL = 30.0
-"""Time between checkpoints, seconds: as much as a crash may cost."""
 
 
 @dataclass(frozen=True)
@@ -86,42 +83,16 @@ class Arguments:
         return Trainer.resume(wanted, folder) if self.resume else Trainer(wanted, folder, self.seed)
 
 
-@dataclass(frozen=True)
-class TrainingLimits:
-    """When a training ends.
-
-    Attributes:
-        steps: number of decisions in all.
-        minutes: time limit of this run; None for none.
-    """
-
-    steps: int
-    minutes: float | None
-
-    def fraction(self, first: int, steps: int, seconds: float) -> float:
-        """Share of the training that is done; 1 or more when it is time to end."""
-        by_steps = 1.0 if steps >= self.steps else (steps - first) / (self.steps - first)
-        return max(by_steps, seconds / (60 * self.minutes) if self.minutes else 0.0)
-
-
 def _train(
     trainer: Trainer, limits: TrainingLimits, stop: list[int], bar: Progress
 ) -> TrainingReport | None:
-    """Learn until a limit or a signal, with checkpoints on the way and at the end."""
+    """Learn, show how far it is, and return the last report."""
     task = bar.add_task("learning", total=1.0)
-    first, start = trainer.steps, time.monotonic()
-    saved, report = start, None
-    trainer.save()
-    while not stop and limits.fraction(first, trainer.steps, time.monotonic() - start) < 1.0:
-        report = trainer.advance()
-        done = limits.fraction(first, trainer.steps, time.monotonic() - start)
-        bar.update(task, completed=min(done, 1.0), description=_line(report))
-        if time.monotonic() - saved > SAVE_INTERVAL:
-            trainer.save()
-            saved = time.monotonic()
-            if not bar.console.is_terminal:
-                bar.console.print(_line(report), highlight=False)
-    trainer.save()
+    report: TrainingReport | None = None
+    for fraction, report, saved in train(trainer, limits, lambda: bool(stop)):
+        bar.update(task, completed=fraction, description=_line(report))
+        if saved and not bar.console.is_terminal:
+            bar.console.print(_line(report), highlight=False)
     return report
 
 

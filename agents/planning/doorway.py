@@ -1,4 +1,4 @@
-"""Poses before and after a door (point planning: Mes 2021, sections 2.1 and 5)."""
+"""Targets behind doors, and barriers across other doors (point planning: Mes 2021, 2.1 and 5)."""
 
 from __future__ import annotations
 
@@ -8,44 +8,16 @@ import numpy as np
 
 from semnav_env.agents.planning.obstacles import points_of_segments
 from semnav_env.agents.planning.planner import DriveTarget
-from semnav_env.features.frames import FloatArray, Point, Pose
+from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.scene import Door
 from semnav_env.robots import RobotSpec
 
 DOORWAY_DISTANCE = 0.1
 """Distance from the footprint to a doorway's line below which the robot stands in it, metres."""
 
-DOOR_DISTANCE = 1.0
-"""From the door to the robot's centre before and after it, metres (Mes 2021, section 2.1)."""
-
-THROUGH_DISTANCE = 1.3
-"""From the door to the middle of the region where a robot is through it, metres: at a tolerance of
-0.5 m a robot 1.1 m long has left the doorway."""
-
-
-def poses_through(
-    door: Door, approach: Point, before: float = DOOR_DISTANCE, after: float = DOOR_DISTANCE
-) -> tuple[Pose, Pose]:
-    """Poses on the door's axis: before it, facing it, and behind it, heading away from it.
-
-    Args:
-        door: its two jambs.
-        approach: a place on the side one comes from, metres.
-        before: metres from the door to the centre.
-        after: the same, behind it.
-
-    Raises:
-        ValueError: the jambs are the same point.
-    """
-    if door.width < 1e-6:
-        raise ValueError(f"the door at {door.start} has no width; its jambs must be two points")
-    heading = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0]) + math.pi / 2
-    x, y = door.midpoint
-    c, s = math.cos(heading), math.sin(heading)
-    if (approach[0] - x) * c + (approach[1] - y) * s > 0:
-        heading, c, s = math.remainder(heading + math.pi, 2 * math.pi), -c, -s
-    heading = math.remainder(heading, 2 * math.pi)
-    return (x - before * c, y - before * s, heading), (x + after * c, y + after * s, heading)
+THROUGH_DISTANCE, THROUGH_TOLERANCE = 1.3, 0.5
+"""Distance from the door and radius of the region in which a robot is through it, metres:
+everywhere in it a robot 1.1 m long has left the doorway."""
 
 
 def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
@@ -65,6 +37,22 @@ def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
 
 
 def target_behind(door: Door, approach: Point) -> DriveTarget:
-    """A target wholly through the door, in any heading: a leaf may bar the way along its axis."""
-    behind = poses_through(door, approach, after=THROUGH_DISTANCE)[1]
-    return DriveTarget(behind, 0.5, None, gate=(door.start, door.end))
+    """A target wholly through the door, in any heading: a leaf may bar the way along its axis.
+
+    Args:
+        door: its two jambs.
+        approach: a place on the side from which the robot comes, metres.
+
+    Raises:
+        ValueError: the jambs are the same point.
+    """
+    if door.width < 1e-6:
+        raise ValueError(f"the door at {door.start} has no width; its jambs must be two points")
+    heading = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0]) + math.pi / 2
+    x, y = door.midpoint
+    c, s = math.cos(heading), math.sin(heading)
+    if (approach[0] - x) * c + (approach[1] - y) * s > 0:  # that axis heads back to the robot
+        heading, c, s = math.remainder(heading + math.pi, 2 * math.pi), -c, -s
+    heading = math.remainder(heading, 2 * math.pi)
+    behind = x + THROUGH_DISTANCE * c, y + THROUGH_DISTANCE * s, heading
+    return DriveTarget(behind, THROUGH_TOLERANCE, None, gate=(door.start, door.end))

@@ -1,0 +1,69 @@
+"""A session of training: learning until a limit or a stop, with checkpoints."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:  # stable-baselines3 is optional
+    from semnav_env.agents.learning.training import Trainer, TrainingReport
+
+CHECKPOINT_INTERVAL = 30.0
+"""Time between checkpoints, seconds: as much as a crash may cost."""
+
+
+@dataclass(frozen=True)
+class TrainingLimits:
+    """When a session ends.
+
+    Attributes:
+        steps: number of decisions in all, those of earlier sessions included.
+        minutes: time limit of the session; None for none.
+    """
+
+    steps: int
+    minutes: float | None
+
+    def fraction(self, first: int, steps: int, seconds: float) -> float:
+        """Share of the session that is done; 1 or more when it is time to end.
+
+        Args:
+            first: number of decisions at the start of the session.
+            steps: number of decisions now.
+            seconds: since the start of the session.
+        """
+        by_steps = 1.0 if steps >= self.steps else (steps - first) / (self.steps - first)
+        return max(by_steps, seconds / (60 * self.minutes) if self.minutes else 0.0)
+
+
+class SessionProgress(NamedTuple):
+    """The state of a session after an update: the share that is done, at most 1, the report of
+    the training, and whether a checkpoint was just written.
+    """
+
+    fraction: float
+    report: TrainingReport
+    saved: bool
+
+
+def train(
+    trainer: Trainer, limits: TrainingLimits, stopped: Callable[[], bool]
+) -> Iterator[SessionProgress]:
+    """Learn until a limit is reached or `stopped` says so; the agent is saved at the end, too."""
+    first, start = trainer.steps, time.monotonic()
+    saved_at = start
+
+    def fraction() -> float:
+        return limits.fraction(first, trainer.steps, time.monotonic() - start)
+
+    trainer.save()
+    while not stopped() and fraction() < 1.0:
+        report = trainer.advance()
+        is_due = time.monotonic() - saved_at > CHECKPOINT_INTERVAL
+        if is_due:
+            trainer.save()
+            saved_at = time.monotonic()
+        yield SessionProgress(min(fraction(), 1.0), report, is_due)
+    trainer.save()
