@@ -56,7 +56,7 @@ def _module(name: str) -> ModuleType:
 
 
 def checked_agent(agent: Any) -> Agent:
-    """The same, if it is an agent.
+    """The object itself, if it is an agent.
 
     Raises:
         ValueError: it lacks a part of the `Agent` protocol; says which.

@@ -19,9 +19,9 @@ from semnav_env.agents.evaluation import (
     Result,
     Summary,
     Trial,
-    asked,
     common_causes,
     failure_line,
+    misreading,
     run_suite,
     suite,
     summarise,
@@ -129,7 +129,7 @@ class Arguments:
 
     def _ask(self, episodes: Sequence[Episode]) -> int:
         """Count the ambiguous commands whose readings the grammar finds."""
-        wrong = {episode: cause for episode in episodes if (cause := asked(episode))}
+        wrong = {episode: cause for episode in episodes if (cause := misreading(episode))}
         right = len(episodes) - len(wrong)
         failures = [
             f'{episode.id} "{episode.command}": {cause}' for episode, cause in wrong.items()

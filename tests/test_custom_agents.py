@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -44,6 +45,7 @@ def slowly():
 WEIGHTS = 3
 '''
 
+DOCUMENTATION = Path(__file__).resolve().parents[1] / "docs" / "agents.md"
 COMMAND = "go through the first door on the right"
 
 
@@ -69,7 +71,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     (folder / "broken.py").write_text("1 / 0")
     (folder / "needy.py").write_text("import no_such_library")
     yield tmp_path
-    for name in [name for name in sys.modules if name.startswith("my_robots")]:
+    for name in [name for name in sys.modules if name.startswith("my_")]:
         del sys.modules[name]
 
 
@@ -97,6 +99,17 @@ def test_an_agent_from_outside_is_shown_and_demonstrates(
     words = ["demonstrate", "test_real", "--episodes", "1", "--failures", "--out", "set", "--json"]
     assert main([*words, *agent]) == 0
     assert json.loads(capsys.readouterr().out)["kept"] == 1
+
+
+def test_the_agent_of_the_documentation_drives(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    blocks = re.findall("```python\n(.*?)```", DOCUMENTATION.read_text(), re.DOTALL)
+    [code] = [block for block in blocks if "class MyAgent" in block]
+    (package / "my_package").mkdir()
+    (package / "my_package" / "my_module.py").write_text(code)
+    main(["demo", COMMAND, "--json", "--agent", "my_package.my_module:MyAgent"])
+    assert json.loads(capsys.readouterr().out)["path_length"] > 0.5
 
 
 def test_a_suite_takes_a_class_also_with_two_workers() -> None:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from semnav_env.agents.evaluation import SUITES, Result, asked, runner, suite, summarise
+from semnav_env.agents.evaluation import SUITES, Result, misreading, runner, suite, summarise
 from semnav_env.agents.evaluation.suites import Trial
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
@@ -218,9 +218,9 @@ def test_an_ambiguous_command_needs_all_its_readings(
     assert main(["evaluate", "test_ambiguous", "--episodes", "20"]) == 0
     assert "20 of 20 understood" in capsys.readouterr().out
     episode = load_episodes("test_ambiguous")[0]
-    assert asked(episode) == ""
-    assert "taken for" in asked(replace(episode, readings=episode.readings[:1] * 2))
-    assert "not understood" in asked(replace(episode, command="fly to the moon"))
+    assert misreading(episode) == ""
+    assert "taken for" in misreading(replace(episode, readings=episode.readings[:1] * 2))
+    assert "not understood" in misreading(replace(episode, command="fly to the moon"))
 
 
 def test_the_same_command_on_two_plans_is_counted_apart() -> None:

@@ -1,6 +1,6 @@
 """Measures agents: suites of trials, a runner, results and summaries."""
 
-from semnav_env.agents.evaluation.asking import asked, by_grammar
+from semnav_env.agents.evaluation.ambiguity import grammar_of, misreading
 from semnav_env.agents.evaluation.drive import Drive, drive
 from semnav_env.agents.evaluation.results import (
     Result,
@@ -19,12 +19,12 @@ __all__ = [
     "Result",
     "Summary",
     "Trial",
-    "asked",
-    "by_grammar",
     "common_causes",
     "conclude",
     "drive",
     "failure_line",
+    "grammar_of",
+    "misreading",
     "run_suite",
     "suite",
     "summarise",

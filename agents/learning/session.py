@@ -39,8 +39,12 @@ class TrainingLimits:
 
 
 class SessionProgress(NamedTuple):
-    """The state of a session after an update: the share that is done, at most 1, the report of
-    the training, and whether a checkpoint was just written.
+    """The state of a session after an update.
+
+    Attributes:
+        fraction: share of the session that is done, at most 1.
+        report: of the training.
+        saved: whether a checkpoint was just written.
     """
 
     fraction: float

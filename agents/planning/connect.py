@@ -126,7 +126,7 @@ def cost_of_moves(
 
 @njit(cache=True)
 def is_move(move: Move) -> bool:
-    """Whether the move is more than a row of zeros."""
+    """Whether any part of the move is not zero."""
     return move.forward != 0.0 or move.left != 0.0 or move.turn != 0.0
 
 

@@ -26,7 +26,7 @@ class PathProgress:
 
 @dataclass(frozen=True, slots=True)
 class Steering:
-    """What to do now.
+    """The velocity for one step, and how far the path has been driven.
 
     Attributes:
         forward: m/s.

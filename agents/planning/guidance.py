@@ -58,7 +58,7 @@ def guidance_to(
     margin: float,
     costs: MotionCosts,
 ) -> Guidance:
-    """The coarse way from the start to the target, or else towards it.
+    """The coarse way from the start to the target, or as far towards it as possible.
 
     A target outside the window is replaced by the place on the window's edge from which it is
     nearest by way of free space; one that is cut off, by the reachable place nearest to it.

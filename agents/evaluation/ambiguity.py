@@ -8,12 +8,12 @@ from semnav_env.commands import CommandError, GrammarInterpreter, Interpreter
 from semnav_env.episodes import Episode
 
 
-def by_grammar(episode: Episode) -> Interpreter:
+def grammar_of(episode: Episode) -> Interpreter:
     """The grammar of the episode's language, in its building."""
     return GrammarInterpreter(episode.language, episode.plan().room_names)
 
 
-def asked(episode: Episode, interpreter: Callable[[Episode], Interpreter] = by_grammar) -> str:
+def misreading(episode: Episode, interpreter: Callable[[Episode], Interpreter] = grammar_of) -> str:
     """What is wrong with the readings that an interpreter finds; empty if they are right."""
     try:
         found = interpreter(episode).interpret(episode.command)
