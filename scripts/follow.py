@@ -17,7 +17,7 @@ from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Pose
 from semnav_env.features.plot import check_suffix
 from semnav_env.features.readers import Geometry, LogRecord, open_log
-from semnav_env.scripts.demo import parse_pose
+from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.ground import understood
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
