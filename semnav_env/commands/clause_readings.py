@@ -139,7 +139,7 @@ def correction_of(readings: Readings) -> Correction:
     (step, *more), *others = readings
     if isinstance(step, GoToDoor) and others:
         return Correction(ordinal=step.door.ordinal, side=step.door.side)
-    if more or others or not isinstance(step, get_args(Clause)):
+    if more or others or not isinstance(step, Clause):
         raise ValueError("one clause is corrected at a time")
     return Correction(step)
 

@@ -83,6 +83,6 @@ def _counted_on(before: Clause, clause: Clause) -> Clause:
     assert first is not None
     assert second is not None
     reference: Any = replace(second, ordinal=second.ordinal - first.ordinal)
-    name = {GoToDoor: "door", Follow: "until"}.get(type(clause), "at")
-    changed: Any = replace(clause, **{name: reference})
+    names: dict[type, str] = {GoToDoor: "door", Follow: "until"}
+    changed: Any = replace(clause, **{names.get(type(clause), "at"): reference})
     return changed  # type: ignore[no-any-return]

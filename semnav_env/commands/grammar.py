@@ -6,7 +6,7 @@ and the parser is fed token by token.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterator
 from functools import lru_cache
 from itertools import pairwise
 from typing import Any
@@ -43,8 +43,8 @@ class _NoLexer(Lexer):
     def __init__(self, _: Any) -> None:
         pass
 
-    def lex(self, *_: Any) -> Iterable[Token]:  # type: ignore[override]
-        return ()
+    def lex(self, lexer_state: Any, parser_state: Any) -> Iterator[Token]:
+        return iter(())
 
 
 def find_clauses(

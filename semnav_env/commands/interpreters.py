@@ -46,10 +46,11 @@ class Interpretation:
         Raises:
             AmbiguousCommandError: there are several.
         """
-        if len(self.readings) > 1:
+        command, *others = self.readings
+        if others:
             apart = differences(self.readings, self.language)
             raise AmbiguousCommandError(self.text, self.readings, apart)
-        return self.readings[0]
+        return command
 
     @property
     def echo(self) -> str:

@@ -109,5 +109,7 @@ class _SpokenPart:
         self._language = language
 
     def __format__(self, form: str) -> str:
-        said = self._value if isinstance(self._value, str) else None
-        return self._value.say(self._language, form) if said is None else said
+        if isinstance(self._value, str):
+            return self._value
+        said: str = self._value.say(self._language, form)
+        return said

@@ -39,9 +39,10 @@ def parse(text: str, language: str | Language = "en", rooms: Sequence[str] = ())
     """
     spoken = language_of(language)
     found = readings(text, spoken, rooms)
-    if len(found) > 1:
+    command, *others = found
+    if others:
         raise AmbiguousCommandError(_beginning(text), found, differences(found, spoken))
-    return found[0]
+    return command
 
 
 def correct(command: Command, text: str, language: str | Language = "en") -> Command:
@@ -90,6 +91,7 @@ def _readings(text: str, language: Language, rooms: Sequence[str]) -> tuple[Comm
     from semnav_env.commands.one_reading import OutOfPlaceError
 
     normalised = normalise(text, language)
+    found: list[ClauseReadings] = []
     try:
         found = find_clauses(language, normalised.text, tuple(rooms))
         _check_length(found, normalised)

@@ -57,7 +57,7 @@ def door_and_turn(parts: Parts) -> tuple[DoorReference, Turn]:
         ValueError: the door is neither to the left nor to the right.
     """
     door = first_of(parts, DoorReference)
-    if door.side not in (Side.LEFT, Side.RIGHT):
+    if door.side is None or door.side not in (Side.LEFT, Side.RIGHT):
         raise ValueError("to the left or to the right? say which")
     return replace(door, side=None), Turn(Turning(door.side.value))
 
