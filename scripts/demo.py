@@ -14,7 +14,7 @@ from tyro.conf import Positional, arg
 from semnav_env.agents.base import steps
 from semnav_env.agents.registry import make_agent
 from semnav_env.commands import parse
-from semnav_env.dynamics import OFF, Dynamics
+from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.dynamics.social import for_json
 from semnav_env.env import SemNavEnv
 from semnav_env.scripts.arguments import parse_pose
@@ -55,7 +55,7 @@ class Arguments:
     agent: str = "scripted"
     pose: str | None = None
     seed: int = 0
-    dynamics: Annotated[Dynamics, arg(name="")] = OFF
+    dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
     save: Path | None = None
     picture: Path | None = None
     show: bool = False

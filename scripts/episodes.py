@@ -15,7 +15,7 @@ from semnav_env.commands.suggest import did_you_mean
 from semnav_env.episodes import SPLITS, Episode, Split, load_episodes, write_episodes
 from semnav_env.episodes.check import faults
 from semnav_env.episodes.generate import generate_split
-from semnav_env.episodes.splits import SEED, SUFFIX
+from semnav_env.episodes.splits import FROZEN_SUFFIX, SEED
 from semnav_env.scripts.episodes_import import EpisodesImport
 from semnav_env.scripts.progress import tracked
 
@@ -66,7 +66,7 @@ class EpisodesGenerate:
             raise ValueError("--seed must be at least 0 and --workers at least 1")
         for split in _chosen(self.splits):
             made = self._made(split)
-            path = self.out / f"{split.name}{SUFFIX}"
+            path = self.out / f"{split.name}{FROZEN_SUFFIX}"
             write_episodes(made, path)
             print(f"wrote {path}: {len(made)} episodes, {path.stat().st_size / 1e3:.0f} kB")
         return 0

@@ -9,9 +9,9 @@ from pathlib import Path
 from tyro.conf import Positional
 
 from semnav_env.episodes import SPLITS, Episode, write_episodes
-from semnav_env.episodes.files import PLAN
+from semnav_env.episodes.files import PLAN_SUFFIX
 from semnav_env.episodes.generate import Site, generate_episode
-from semnav_env.episodes.splits import SEED, SUFFIX
+from semnav_env.episodes.splits import FROZEN_SUFFIX, SEED
 from semnav_env.maps import load_floor_plan, save_floor_plan
 from semnav_env.maps.importers.opening import import_map
 from semnav_env.scripts.progress import tracked
@@ -45,7 +45,7 @@ class EpisodesImport:
         label = f"{{}} of {total} episodes".format
         for episode in tracked(self._made(), label, lambda: len(made) / total):
             made.append(episode)
-        path = self.out / f"{SPLIT_NAME}{SUFFIX}"
+        path = self.out / f"{SPLIT_NAME}{FROZEN_SUFFIX}"
         write_episodes(made, path)
         print(f"wrote {path}: {len(made)} episodes in {len(self.maps)} floors")
         return 0
@@ -54,7 +54,7 @@ class EpisodesImport:
         split = replace(SPLITS["test_real"], name=SPLIT_NAME)
         for index, source in enumerate(self.maps):
             plan = import_map(source).plan
-            path = self.out / f"{plan.name}-{index}{PLAN}"
+            path = self.out / f"{plan.name}-{index}{PLAN_SUFFIX}"
             save_floor_plan(plan, path)
             site = Site(load_floor_plan(path), path.name)
             for k in range(self.episodes):

@@ -26,9 +26,9 @@ from semnav_env.agents.evaluation import (
     suite,
     summarise,
 )
-from semnav_env.dynamics import OFF, Dynamics
+from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.episodes import Episode, Expected, evenly, is_episodes, load_episodes
-from semnav_env.metrics import SHARES
+from semnav_env.metrics import WORST_SHARES
 from semnav_env.scripts.jsonl import JsonLines
 from semnav_env.scripts.outputs import check_file, check_folder, counted
 from semnav_env.scripts.progress import tracked
@@ -75,7 +75,7 @@ class Arguments:
     workers: int = 1
     recheck: bool = False
     pictures: Path | None = None
-    dynamics: Annotated[Dynamics, arg(name="")] = OFF
+    dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
     out: Path | None = None
     json: bool = False
 
@@ -196,7 +196,7 @@ def _measures_table(everything: Summary) -> Table:
     table = Table(
         "all episodes",
         "mean",
-        *(f"worst {share:.0%}" for share in SHARES),
+        *(f"worst {share:.0%}" for share in WORST_SHARES),
         box=None,
         padding=(0, 2, 0, 0),
     )

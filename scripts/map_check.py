@@ -35,21 +35,21 @@ class MapCheck:
         if self.plot:
             check_suffix(self.plot)
         plan, robot = load_floor_plan(self.plan), robot_spec(self.robot)
-        findings = check(plan, robot)
+        faults = check(plan, robot)
         if self.plot:
             from semnav_env.maps.draw import save_picture
 
             self.plot.parent.mkdir(parents=True, exist_ok=True)
-            save_picture(plan, self.plot, findings=findings)
+            save_picture(plan, self.plot, faults=faults)
         if self.json:
-            faults = [asdict(finding) for finding in findings]
-            print(json.dumps({"plan": plan.name, "robot": robot.name, "faults": faults}))
+            rows = [asdict(fault) for fault in faults]
+            print(json.dumps({"plan": plan.name, "robot": robot.name, "faults": rows}))
         else:
-            self._report(plan.name, [str(finding) for finding in findings])
-        return 1 if findings else 0
+            self._report(plan.name, [str(fault) for fault in faults])
+        return 1 if faults else 0
 
-    def _report(self, name: str, findings: list[str]) -> None:
+    def _report(self, name: str, faults: list[str]) -> None:
         rooms = f"a {self.robot} gets through every open door and into every room that has one"
-        print("\n".join(findings) if findings else f"{name}: nothing is wrong; {rooms}")
+        print("\n".join(faults) if faults else f"{name}: nothing is wrong; {rooms}")
         if self.plot:
             print(f"wrote {self.plot}")

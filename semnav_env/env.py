@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from semnav_env import tasks
 from semnav_env.belief import Belief, BeliefTracker
 from semnav_env.commands import encode
-from semnav_env.dynamics import OFF, Dynamics, PlanSource
+from semnav_env.dynamics import NO_DYNAMICS, Dynamics, PlanSource
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.validation import check_kind, checked_seconds
@@ -105,7 +105,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         extractor: ExtractorSettings = ExtractorSettings(),
         corrects_drift: bool = True,
         rewards: tasks.Rewards = tasks.RewardWeights(),
-        dynamics: Dynamics = OFF,
+        dynamics: Dynamics = NO_DYNAMICS,
         task: object = None,
         episodes: tasks.Episodes | None = None,
         rules: Rules = Rules(),

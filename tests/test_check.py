@@ -172,7 +172,7 @@ def test_turning_the_plan_changes_nothing(turned: float) -> None:
 def test_a_picture_marks_the_faults(tmp_path: Path) -> None:
     plan = room_at_a_corridor(0.62)
     save_picture(plan, tmp_path / "clean.png")
-    save_picture(plan, tmp_path / "marked.png", findings=check(plan))
+    save_picture(plan, tmp_path / "marked.png", faults=check(plan))
     clean, marked = ((tmp_path / f"{name}.png").read_bytes() for name in ("clean", "marked"))
     assert marked.startswith(b"\x89PNG")
     assert marked != clean
@@ -190,7 +190,7 @@ def test_the_faults_stand_below_the_axis_whose_label_stays_black(
     drawn: list[Figure], tmp_path: Path
 ) -> None:
     plan = room_at_a_corridor(0.62)
-    save_picture(plan, tmp_path / "marked.png", findings=check(plan))
+    save_picture(plan, tmp_path / "marked.png", faults=check(plan))
     (label,) = [axes.xaxis.label for axes in drawn[0].axes]
     assert (label.get_text(), label.get_color()) == ("x, m", "black")
     (listed,) = drawn[0].subfigs[1].texts

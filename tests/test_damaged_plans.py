@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.maps import FloorPlan, FloorPlanError
-from semnav_env.maps.library import BUNDLED
+from semnav_env.maps.library import BUNDLED_FOLDER
 from semnav_env.maps.reader import parse_plan
 from semnav_env.maps.writer import to_geojson
 from tests.plan_documents import hall
@@ -63,7 +63,7 @@ def _replace(target: Any, path: tuple[str | int, ...], value: object) -> None:
 @settings(max_examples=100, deadline=None)
 @given(st.data())
 def test_damaged_bytes_load_or_are_refused(data: st.DataObject) -> None:
-    text = (BUNDLED / "villa_hall.geojson").read_text("utf-8")
+    text = (BUNDLED_FOLDER / "villa_hall.geojson").read_text("utf-8")
     start = data.draw(st.integers(0, len(text)))
     cut = data.draw(st.integers(0, 40))
     patch = data.draw(st.text(max_size=5))

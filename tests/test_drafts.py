@@ -26,7 +26,13 @@ from semnav_env.commands import (
 from semnav_env.episodes import SPLITS, Episode, load_episodes
 from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.episodes.drafts import Drafter
-from semnav_env.episodes.generate import BODY, SPACE, Site, exits, generate_episode
+from semnav_env.episodes.generate import (
+    LARGEST_BODY,
+    START_CLEARANCE,
+    Site,
+    exits,
+    generate_episode,
+)
 from semnav_env.episodes.random_clauses import CommandTopic
 from semnav_env.episodes.wording import worded
 from semnav_env.features.corridor import corridor_at
@@ -47,7 +53,7 @@ WEST: Pose = (1.3, 9.1, 0.0)
 
 def drafter(seed: int, site: Site = SITE) -> Drafter:
     rng = np.random.default_rng(seed)
-    return Drafter(site.plan, site.geodesic, sample_start(site.plan, BODY, rng), rng)
+    return Drafter(site.plan, site.geodesic, sample_start(site.plan, LARGEST_BODY, rng), rng)
 
 
 def goals_of(episode: Episode, site: Site) -> tuple[Goal, ...]:
@@ -60,7 +66,7 @@ def goals_of(episode: Episode, site: Site) -> tuple[Goal, ...]:
 def test_no_start_is_beside_the_mouth_of_an_arm(name: str) -> None:
     plan, rng = load_floor_plan(name), np.random.default_rng(0)
     for _ in range(15):
-        x, y, heading = sample_start(plan, BODY, rng)
+        x, y, heading = sample_start(plan, LARGEST_BODY, rng)
         for turn in (0.0, np.pi):
             for junction in corridor_at(plan.scene, (x, y, heading + turn)).junctions:
                 assert all(o.near >= 0.6 or o.far <= -0.6 for o in junction.openings)
@@ -70,7 +76,7 @@ def test_no_start_is_beside_the_mouth_of_an_arm(name: str) -> None:
 def test_no_start_is_right_beside_a_door(name: str) -> None:
     plan, rng = load_floor_plan(name), np.random.default_rng(1)
     for _ in range(15):
-        start = sample_start(plan, BODY, rng)
+        start = sample_start(plan, LARGEST_BODY, rng)
         for door in plan.scene.doors:
             along, beside = to_local(start, door.midpoint)
             assert abs(along) >= 0.9 or abs(beside) >= 2.0
@@ -83,7 +89,7 @@ def test_every_body_can_face_the_door_that_it_is_told_to_go_to() -> None:
     for number in range(0, 40, 2):
         for goal in goals_of(generate_episode(site, SPLITS["test_real"], number), site):
             if isinstance(goal, ReachGoal) and goal.distance_tolerance < 1.0:
-                assert placement_error(plan, BODY, goal.pose) is None
+                assert placement_error(plan, LARGEST_BODY, goal.pose) is None
 
 
 def test_both_bodies_fit_where_turns_and_corridors_end() -> None:
@@ -92,7 +98,7 @@ def test_both_bodies_fit_where_turns_and_corridors_end() -> None:
         site = Site(episode.plan(), episode.floor_plan)
         for goal in goals_of(episode, site):
             if isinstance(goal, ReachGoal) and goal.corridor is not None:
-                assert placement_error(site.plan, BODY, goal.pose) is None, episode.id
+                assert placement_error(site.plan, LARGEST_BODY, goal.pose) is None, episode.id
 
 
 def test_in_the_middle_of_a_crossing_one_is_in_a_junction() -> None:
@@ -115,7 +121,7 @@ def test_rooms_to_leave_have_one_exit_and_space_to_turn() -> None:
         place = shapely.Point(episode.start[:2])
         (room,) = (room for room in SITE.plan.rooms if room.polygon.contains(place))
         assert exits(SITE.plan, room.polygon) == 1
-        assert is_clear(SITE.plan, episode.start[:2], SPACE - 0.01)
+        assert is_clear(SITE.plan, episode.start[:2], START_CLEARANCE - 0.01)
         for clause in clauses[1:2]:
             goal = plan_goals(SITE.plan, Command((Leave(),)), episode.start)[0]
             ahead = corridor_at(SITE.plan.scene, goal.onward)
@@ -156,11 +162,11 @@ def test_both_judges_agree_on_drafted_conditions(clauses: int) -> None:
 
 def test_a_condition_is_in_doubt_where_a_closed_door_decides_it() -> None:
     plan = load_floor_plan("office_cross")
-    doubts = AmbiguityFilter(plan)
+    ambiguity_filter = AmbiguityFilter(plan)
     conditions = [
         IfThere(DoorReference(n, side)) for side in (Side.LEFT, Side.RIGHT) for n in range(1, 12)
     ]
-    answers = {condition: doubts.met(condition, WEST) for condition in conditions}
+    answers = {condition: ambiguity_filter.met(condition, WEST) for condition in conditions}
     opened = AmbiguityFilter(replace(plan, doors=tuple(door for door in plan.doors if door.open)))
     sure = {condition: opened.met(condition, WEST) for condition in conditions}
     doubtful = [condition for condition in conditions if answers[condition] is None]
@@ -183,7 +189,7 @@ def test_impossible_commands_stay_so_under_any_count() -> None:
             begin = goal.onward or goal.pose
         last = command.clauses[-1]
         seen.add(type(last))
-        assert draft.doubts.impossible(last, begin)
+        assert draft.ambiguity_filter.impossible(last, begin)
         assert not any(
             j.is_corner and j.far > 0.5 for j in corridor_at(SITE.plan.scene, begin).junctions
         )
@@ -193,11 +199,11 @@ def test_impossible_commands_stay_so_under_any_count() -> None:
 
 def test_what_some_count_allows_is_not_called_impossible() -> None:
     """A command that some way of counting allows is not impossible."""
-    doubts = AmbiguityFilter(load_floor_plan("office_cross"))
+    ambiguity_filter = AmbiguityFilter(load_floor_plan("office_cross"))
     feasible = GoToDoor(DoorReference(1, Side.RIGHT))
     crossing = Follow(PlaceReference(Place.CORNER))  # there is no corner, but a crossing
-    assert not doubts.impossible(feasible, WEST)
-    assert not doubts.impossible(crossing, WEST)
+    assert not ambiguity_filter.impossible(feasible, WEST)
+    assert not ambiguity_filter.impossible(crossing, WEST)
 
 
 @pytest.mark.parametrize("language", ["en", "de"])

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from semnav_env.agents.evaluation import run_suite, suite
-from semnav_env.dynamics import OFF, Dynamics
+from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.env import SemNavEnv
 from semnav_env.scripts.main import main
 from tests.episodes import actions, digest, rollout
@@ -94,7 +94,9 @@ def test_another_seed_has_other_people() -> None:
 
 
 def test_off_is_the_default_and_changes_nothing() -> None:
-    plain, off = (SemNavEnv(observation="all", **chosen) for chosen in ({}, {"dynamics": OFF}))
+    plain, off = (
+        SemNavEnv(observation="all", **chosen) for chosen in ({}, {"dynamics": NO_DYNAMICS})
+    )
     assert plain.world.moving is None
     assert plain.floor_plan is plain.world.still is plain.world.floor_plan
     steps = actions(40, 2)

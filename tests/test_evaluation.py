@@ -19,13 +19,13 @@ from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Expected, StaleEpisodeError, load_episodes, write_episodes
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
-from semnav_env.metrics import COLUMNS, Metrics
+from semnav_env.metrics import METRIC_NAMES, Metrics
 from semnav_env.robots import ROBOTS
 from semnav_env.scripts.main import main
 from semnav_env.verifier import plan_goals
 
 TWENTIETH = {"command": "take the twentieth door", "language": "en"}
-NOTHING = Metrics(**dict.fromkeys(COLUMNS, 0))
+NOTHING = Metrics(**dict.fromkeys(METRIC_NAMES, 0))
 
 
 def result(success: bool, collisions: int = 0, seed: int = 0, rechecked: str = "") -> Result:
@@ -55,7 +55,7 @@ def test_a_summary_has_means_and_the_worst_and_names_failures() -> None:
 def test_the_row_of_an_episode_is_flat_json() -> None:
     row = json.loads(json.dumps(result(True).row()))
     assert row["success"] is True
-    assert set(COLUMNS) < set(row)
+    assert set(METRIC_NAMES) < set(row)
 
 
 def test_evaluate_reports_shares_causes_and_failures(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from shapely import box
 
 from semnav_env.maps import FloorPlan, PlanDoor, Region, Surface, load_floor_plan
-from semnav_env.maps.gaps import leaks
+from semnav_env.maps.gaps import gaps
 from semnav_env.maps.importers import import_map
 from semnav_env.maps.importers.imported import boundary_of
 from semnav_env.maps.occupancy_export import export_map
@@ -21,7 +21,7 @@ GAPS = st.floats(0.1, 1.8)
 
 
 def found(plan: FloorPlan) -> list[str]:
-    return [str(finding) for finding in leaks(plan)]
+    return [str(finding) for finding in gaps(plan)]
 
 
 def hall_with_a_gap(width: float, at: float = 4.0) -> FloorPlan:
@@ -59,7 +59,7 @@ def test_closed_walls_with_a_boundary_outside_do_not_leak() -> None:
 @given(GAPS, st.floats(1.0, 7.0))
 @settings(max_examples=20, deadline=None)
 def test_a_gap_in_the_walls_is_found_where_it_is(width: float, at: float) -> None:
-    (finding,) = leaks(hall_with_a_gap(width, at))
+    (finding,) = gaps(hall_with_a_gap(width, at))
     assert finding.where == pytest.approx((at + width / 2, 0.0), abs=0.02)
     assert "one can walk out of the building" in finding.problem
 
@@ -69,14 +69,14 @@ def test_an_open_end_of_a_corridor_is_found_however_wide() -> None:
     plan = FloorPlan(
         "hall", sides, (), (), (Region("hall", box(0, 0, 9, 3)),), (), boundary_of(sides)
     )
-    (finding,) = leaks(plan)
+    (finding,) = gaps(plan)
     assert finding.where is not None
     assert finding.where[0] == pytest.approx(9.0, abs=0.01)
 
 
 def test_a_missing_wall_on_the_boundary_is_found_without_regions() -> None:
     wall = Surface(((5, 0), (0, 0), (0, 6), (10, 6), (10, 0)))
-    (finding,) = leaks(FloorPlan("hall", (wall,), (), (), (), (), box(0, 0, 10, 6)))
+    (finding,) = gaps(FloorPlan("hall", (wall,), (), (), (), (), box(0, 0, 10, 6)))
     assert finding.where == pytest.approx((7.5, 0.0), abs=0.01)
 
 
@@ -89,7 +89,7 @@ def test_the_hollow_of_a_wall_with_two_faces_is_no_space(thickness: float) -> No
 @given(st.floats(0.02, 0.45), GAPS)
 @settings(max_examples=10, deadline=None)
 def test_an_opening_through_a_wall_with_two_faces_is_a_leak(thickness: float, gap: float) -> None:
-    south, north = leaks(two_rooms(thickness, gap))
+    south, north = gaps(two_rooms(thickness, gap))
     assert (south.part, north.part) == ("south", "north")
     for finding in (south, north):
         assert finding.where == pytest.approx((thickness / 2 + gap / 2, 4.0), abs=0.05)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.floor_plan import FloorPlan, Surface
-from semnav_env.maps.geodesic import CLEARANCE, KEPT, SPACING, Geodesic
+from semnav_env.maps.geodesic import CLEARANCE, GRID_SPACING, MAX_KEPT_GOALS, Geodesic
 
 PLAN = load_floor_plan("office_cross")
 GEODESIC = Geodesic(PLAN)
@@ -25,8 +25,8 @@ def test_geodesics_are_symmetric_and_no_shorter_than_lines(
     a: tuple[float, float], b: tuple[float, float]
 ) -> None:
     there, back = GEODESIC.to(b).length(a), GEODESIC.to(a).length(b)
-    assert there >= math.dist(a, b) - 2 * SPACING
-    assert there == pytest.approx(back, abs=4 * SPACING)
+    assert there >= math.dist(a, b) - 2 * GRID_SPACING
+    assert there == pytest.approx(back, abs=4 * GRID_SPACING)
 
 
 def test_the_way_into_a_room_leads_through_its_door() -> None:
@@ -40,7 +40,7 @@ def test_ways_keep_their_distance_from_everything_solid() -> None:
     solid = shapely.multilinestrings(PLAN.segments.reshape(-1, 2, 2))
     assert shapely.distance(solid, shapely.points(way)).min() >= CLEARANCE - 1e-9
     steps = np.hypot(*np.diff(way, axis=0).T)
-    assert steps.max() <= 2 * SPACING
+    assert steps.max() <= 2 * GRID_SPACING
 
 
 def test_a_closed_door_is_no_way_in() -> None:
@@ -59,7 +59,7 @@ def test_a_cell_is_free_where_everything_solid_is_far_enough(
     plan = FloorPlan("walls", walls, (), (), (), (), shapely.box(-3.0, -3.0, 3.0, 3.0))
     solid = shapely.multilinestrings(plan.segments.reshape(-1, 2, 2))
     rows, columns = np.indices((61, 61))
-    places = shapely.points(-3.0 + SPACING * columns, -3.0 + SPACING * rows)
+    places = shapely.points(-3.0 + GRID_SPACING * columns, -3.0 + GRID_SPACING * rows)
     distance = shapely.distance(solid, places)
     inside = shapely.contains(plan.boundary, places)
     clear = np.abs(distance - CLEARANCE) > 1e-6
@@ -69,8 +69,8 @@ def test_a_cell_is_free_where_everything_solid_is_far_enough(
 def test_only_so_many_goals_are_kept_and_the_latest_stay() -> None:
     geodesic = Geodesic(PLAN)
     first = geodesic.to((1.0, 9.0)).distances
-    for step in range(KEPT + 10):
+    for step in range(MAX_KEPT_GOALS + 10):
         assert geodesic.to((2.0 + 0.1 * step, 9.0)).distances.min() == 0.0
         assert geodesic.to((1.0, 9.0)).distances is first
-    assert len(geodesic._known) == KEPT
-    assert geodesic.to((2.0, 9.0)).length((1.0, 9.0)) == pytest.approx(1.0, abs=SPACING)
+    assert len(geodesic._known) == MAX_KEPT_GOALS
+    assert geodesic.to((2.0, 9.0)).length((1.0, 9.0)) == pytest.approx(1.0, abs=GRID_SPACING)

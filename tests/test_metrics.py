@@ -16,8 +16,8 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.metrics import (
-    COLUMNS,
-    HIGH_IS_BAD,
+    COST_METRICS,
+    METRIC_NAMES,
     Metrics,
     Recording,
     clearances,
@@ -175,12 +175,12 @@ def test_the_mean_of_all_is_the_mean_and_the_worst_are_worse() -> None:
     _, good = glided("go through the first door on the right", (3.4, 8.6), (3.4, 7.0))
     _, bad = glided("go through the second door on the right", (3.4, 8.6), (3.4, 7.0))
     average, tail = means([good, bad]), worst([good, bad], 0.5)
-    assert set(average) == set(COLUMNS) == set(asdict(good))
-    for name in COLUMNS:
+    assert set(average) == set(METRIC_NAMES) == set(asdict(good))
+    for name in METRIC_NAMES:
         a, b = float(getattr(good, name)), float(getattr(bad, name))
         if name != "collisions_per_100m":
             assert average[name] == pytest.approx((a + b) / 2)
-        assert tail[name] == pytest.approx(max(a, b) if name in HIGH_IS_BAD else min(a, b))
+        assert tail[name] == pytest.approx(max(a, b) if name in COST_METRICS else min(a, b))
 
 
 def test_mean_collisions_per_100m_are_those_of_the_whole_way() -> None:

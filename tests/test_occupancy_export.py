@@ -21,7 +21,7 @@ from semnav_env.maps.check import check
 from semnav_env.maps.doorways import DoorState, door_state
 from semnav_env.maps.importers import Tracing, import_map
 from semnav_env.maps.importers.building_doors import without_leaves
-from semnav_env.maps.importers.imported import Imported
+from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.occupancy_export import draw_pixels, export_map
 from semnav_env.maps.rules import FloorPlanError
 from semnav_env.scripts import main as cli
@@ -30,7 +30,7 @@ from tests.small_plans import closed
 EXACT = Tracing(mend=0, simplify=0.0, straighten=0.0)
 
 
-def there_and_back(plan: FloorPlan, folder: Path, resolution: float, image: str) -> Imported:
+def there_and_back(plan: FloorPlan, folder: Path, resolution: float, image: str) -> ImportedPlan:
     path = folder / "map.yaml"
     export_map(plan, path, resolution, image)
     return import_map(path, tracing=EXACT)

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.dynamics import Dynamics, Walking
-from semnav_env.dynamics.nearby import walls_of
+from semnav_env.dynamics.nearby import culled_walls
 from semnav_env.dynamics.orca import FASTEST, nearest_allowed, orca
-from semnav_env.dynamics.social_force import TAU, social_force
+from semnav_env.dynamics.social_force import RELAXATION_TIME, social_force
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.world import World
 from tests.moving_worlds import drive_about, world_of
@@ -36,7 +36,7 @@ def next_velocities(
 ) -> np.ndarray:
     out = np.zeros((len(places), 2))
     now = np.array(velocities or wishes, dtype=np.float64)
-    lines = walls_of(np.array(walls, dtype=np.float64).reshape(-1, 4))
+    lines = culled_walls(np.array(walls, dtype=np.float64).reshape(-1, 4))
     people = np.array(places, dtype=np.float64), now, np.array(wishes, dtype=np.float64)
     KERNELS[model](*people, 0.25, lines, NO_LEAVES, body, sees_robot, DT, out)
     return out
@@ -49,7 +49,7 @@ def test_somebody_alone_walks_as_wished(model: str) -> None:
 
 def test_social_force_relaxes_to_the_wish_within_tau() -> None:
     after = next_velocities("social_force", [[0, 0]], [[1.0, 0.0]], [[0.0, 0.0]])
-    assert after[0] == pytest.approx((DT / TAU, 0.0))
+    assert after[0] == pytest.approx((DT / RELAXATION_TIME, 0.0))
 
 
 @models

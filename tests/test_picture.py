@@ -14,7 +14,7 @@ from semnav_env.dynamics import Dynamics
 from semnav_env.features.frames import path_length
 from semnav_env.maps import load_floor_plan
 from semnav_env.metrics import Recorder, Recording
-from semnav_env.metrics.picture import TAIL, draw_episode, save_episode
+from semnav_env.metrics.picture import TRAIL_LENGTH, draw_episode, save_episode
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.world import World
 
@@ -52,7 +52,7 @@ def test_people_are_drawn_at_the_end_with_their_last_metres(
     for number, end in enumerate(recording.people[-1, :, :2]):
         (tail,) = [line for line in lines if np.array_equal(line[-1], end)]
         walked = path_length(recording.people[:, number, :2])
-        assert path_length(tail) == pytest.approx(min(TAIL, walked), abs=0.15)
+        assert path_length(tail) == pytest.approx(min(TRAIL_LENGTH, walked), abs=0.15)
 
 
 def test_doors_stand_as_they_did_at_the_end(recording: Recording) -> None:

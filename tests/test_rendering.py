@@ -13,7 +13,7 @@ from semnav_env.features.scene import Corner, CornerKind, CorridorProbe, Scene, 
 from semnav_env.grounding.goal import PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.maps.floor_plan import Material, Surface
 from semnav_env.rendering.frame import Frame
-from semnav_env.rendering.legend import LEGEND_HEIGHT, ROW, legend_entries
+from semnav_env.rendering.legend import LEGEND_HEIGHT, ROW_HEIGHT, legend_entries
 from semnav_env.rendering.viewer import Viewer
 from semnav_env.robots import SPOT, WHEELCHAIR
 from tests.small_office import DOOR, PLAIN, PLAN, office
@@ -150,7 +150,7 @@ def test_the_legend_lists_what_the_plan_and_the_episode_hold() -> None:
 def test_the_longest_legend_fits_on_the_page(viewer: Viewer) -> None:
     everything = replace(PLAIN, people=np.array([(6.0, 1.0, 0.3)]))
     rows = -(-len(legend_entries(everything)) // 2)
-    assert 22.0 + ROW * (rows - 0.5) <= LEGEND_HEIGHT
+    assert 22.0 + ROW_HEIGHT * (rows - 0.5) <= LEGEND_HEIGHT
     difference = changed(viewer.draw(PLAIN), viewer.draw(everything))
     assert difference[-int(LEGEND_HEIGHT) :, MAP_WIDTH:].any()
 

@@ -23,7 +23,7 @@ from semnav_env.robots import WHEELCHAIR
 from semnav_env.routes.choices import words_of
 from semnav_env.routes.describe import UndescribableError, describe
 from semnav_env.routes.follow import follows
-from semnav_env.routes.route import STEP, TURN_STEP, Route, RouteError
+from semnav_env.routes.route import HEADING_STEP, POSE_SPACING, Route, RouteError
 from semnav_env.routes.route_to import comfortable, route_to
 from semnav_env.verifier import plan_goals
 
@@ -192,8 +192,8 @@ def test_the_poses_of_a_route_are_dense_from_end_to_end(
     steps = np.diff(route.poses[:, :2], axis=0)
     turns = np.diff(route.poses[:, 2])
     assert np.isfinite(route.poses).all()
-    assert np.hypot(*steps.T).max() <= STEP + 1e-9
-    assert np.abs(np.arctan2(np.sin(turns), np.cos(turns))).max() <= TURN_STEP + 1e-9
+    assert np.hypot(*steps.T).max() <= POSE_SPACING + 1e-9
+    assert np.abs(np.arctan2(np.sin(turns), np.cos(turns))).max() <= HEADING_STEP + 1e-9
     assert route.poses[0] == pytest.approx((*points[0], heading))
     assert route.poses[-1, :2] == pytest.approx(points[-1])
     if facing is not None:

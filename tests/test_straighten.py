@@ -23,7 +23,7 @@ from semnav_env.maps.importers import Tracing, import_map
 from semnav_env.maps.importers.building_doors import with_walls
 from semnav_env.maps.importers.directions import dominant_direction
 from semnav_env.maps.importers.outlines import outlines
-from semnav_env.maps.importers.redrawing import Drawn, clashing
+from semnav_env.maps.importers.redrawing import RedrawnOutline, clashing
 from semnav_env.maps.importers.runs import PixelRun, Span
 from semnav_env.maps.importers.straighten import straighten
 from semnav_env.maps.rules import FloorPlanError
@@ -180,7 +180,7 @@ def test_of_two_equal_runs_the_first_is_given_up(first: int, further: int) -> No
     runs = [PixelRun(k, Span(0, 1, 0, 4.0), -1, 1, 0, True, 0, 4) for k in (first, first + further)]
     square = np.array(((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)))
     one, other = (
-        Drawn(square + 2.0 * k, [frozenset((run,))] * 4, {run: 0.0}, turned=False)
+        RedrawnOutline(square + 2.0 * k, [frozenset((run,))] * 4, {run: 0.0}, turned=False)
         for k, run in enumerate(runs)
     )
     assert clashing([one, other]) == clashing([other, one]) == {runs[0]}

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 
 from semnav_env.dynamics.social import for_json
-from semnav_env.metrics import SHARES, Metrics, means, worst
+from semnav_env.metrics import WORST_SHARES, Metrics, means, worst
 from semnav_env.verifier import FAILURES
 
 
@@ -63,7 +63,7 @@ class Summary:
         episodes: number of episodes.
         means: mean of each measure, by its name.
         worst: mean of each measure over its worst episodes, one dictionary for each of
-            `metrics.SHARES`.
+            `metrics.WORST_SHARES`.
         failures: the failed episodes.
         disagreements: number of episodes that the second opinion judges otherwise.
     """
@@ -81,7 +81,9 @@ class Summary:
             "name": self.name,
             "episodes": self.episodes,
             **self.means,
-            "cvar": {f"{share:.0%}": row for share, row in zip(SHARES, self.worst, strict=True)},
+            "cvar": {
+                f"{share:.0%}": row for share, row in zip(WORST_SHARES, self.worst, strict=True)
+            },
             "failures": [failure_line(result) for result in self.failures],
             "disagreements": self.disagreements,
         }
@@ -94,7 +96,7 @@ def summarise(name: str, results: Sequence[Result]) -> Summary:
         name,
         len(results),
         means(measured),
-        tuple(worst(measured, share) for share in SHARES),
+        tuple(worst(measured, share) for share in WORST_SHARES),
         tuple(result for result in results if not result.success),
         sum(bool(result.rechecked) for result in results),
     )

@@ -17,7 +17,7 @@ from semnav_env.agents.evaluation.drive import Drive, drive
 from semnav_env.agents.evaluation.results import Result, failure_line
 from semnav_env.agents.evaluation.suites import Trial
 from semnav_env.agents.registry import AgentSource, make_agent
-from semnav_env.dynamics import OFF, Dynamics
+from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode, Expected
 from semnav_env.features.frames import Pose
@@ -56,7 +56,7 @@ class SuiteSetup:
     agent: AgentSource
     robot: str | RobotSpec
     extras: Extras = NO_EXTRAS
-    dynamics: Dynamics = OFF
+    dynamics: Dynamics = NO_DYNAMICS
 
 
 def run_suite(
@@ -66,7 +66,7 @@ def run_suite(
     seeds: Sequence[int] = (),
     workers: int = 1,
     extras: Extras = NO_EXTRAS,
-    dynamics: Dynamics = OFF,
+    dynamics: Dynamics = NO_DYNAMICS,
 ) -> Iterator[Result]:
     """The result of every trial with every seed, in their order.
 

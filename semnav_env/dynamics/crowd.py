@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import shapely
 
-from semnav_env.dynamics.nearby import walls_of
+from semnav_env.dynamics.destinations import Destinations, look_ahead
+from semnav_env.dynamics.nearby import culled_walls
 from semnav_env.dynamics.orca import orca
-from semnav_env.dynamics.routes import Routes, look_ahead
 from semnav_env.dynamics.settings import Dynamics
 from semnav_env.dynamics.social_force import social_force
 from semnav_env.dynamics.walking import walk
@@ -18,17 +18,19 @@ from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import WaysTo
 
-TRIES = 400
-"""Places drawn for somebody before it is found that there is no room."""
+MAX_PLACEMENT_DRAWS = 400
+"""Largest number of places drawn for one person; where none of them is free, the plan counts as
+full."""
 
-ROBOT_ROOM = 1.5
-"""Nobody begins nearer than this to the robot's centre, metres."""
+START_CLEARANCE = 1.5
+"""Least distance from the robot's centre at which a person begins, metres: nobody stands in the way
+of its first steps."""
 
-ARRIVED = 0.5
-"""Somebody this near to where they want to go chooses another place, metres."""
+ARRIVAL_DISTANCE = 0.5
+"""Length of way left at which a person has arrived and chooses another place, metres."""
 
-PROGRESS = 0.2
-"""Somebody who gets this much nearer is getting on, metres."""
+LEAST_PROGRESS = 0.2
+"""Least shortening of the way left that counts as progress, metres; less is swaying in a jam."""
 
 
 class Crowd:
@@ -49,9 +51,9 @@ class Crowd:
         self.places = np.zeros((dynamics.pedestrians, 2))
         self.velocities = np.zeros((dynamics.pedestrians, 2))
         self._wishes = np.zeros((dynamics.pedestrians, 2))
-        self._walls = walls_of(still.segments)
+        self._walls = culled_walls(still.segments)
         self._model = orca if dynamics.model == "orca" else social_force
-        self._routes = Routes(plan)
+        self._routes = Destinations(plan)
 
     def begin(self, start: Pose, rng: np.random.Generator) -> None:
         """Put everybody somewhere, with somewhere to go.
@@ -81,7 +83,7 @@ class Crowd:
         """Let everybody walk for a time step.
 
         Args:
-            body: of the robot, see `on_body`.
+            body: of the robot, see `nearest_on_body`.
             leaves: segments that move, shape (m, 4).
             guard: see `walk`.
             touch: see `walk`.
@@ -109,10 +111,10 @@ class Crowd:
             x, y = self.places[i]
             ahead, aside, left = look_ahead(ways.distances, *ways.geodesic.origin, x, y)
             self._wishes[i] = self._speeds[i] * ahead, self._speeds[i] * aside
-            nearer = left < self._best[i] - PROGRESS
+            nearer = left < self._best[i] - LEAST_PROGRESS
             self._best[i] = left if nearer else self._best[i]
             self._waited[i] = 0.0 if nearer else self._waited[i] + seconds
-            if left < ARRIVED or self._waited[i] > self._dynamics.walking.patience:
+            if left < ARRIVAL_DISTANCE or self._waited[i] > self._dynamics.walking.patience:
                 self._ways[i] = self._somewhere((x, y)) or ways
                 self._best[i], self._waited[i] = math.inf, 0.0
 
@@ -120,12 +122,16 @@ class Crowd:
         """The ways to a place that can be reached from there; None if none was found."""
         for index in self._rng.permutation(len(self._routes.places))[:8]:
             ways = self._routes.to(int(index))
-            if ARRIVED < look_ahead(ways.distances, *ways.geodesic.origin, *place)[2] < math.inf:
+            if (
+                ARRIVAL_DISTANCE
+                < look_ahead(ways.distances, *ways.geodesic.origin, *place)[2]
+                < math.inf
+            ):
                 return ways
         return None
 
     def _free_place(self, i: int, start: Pose) -> tuple[Point, WaysTo]:
-        for _ in range(TRIES):
+        for _ in range(MAX_PLACEMENT_DRAWS):
             place = self._anywhere()
             if self._is_free(place, i, start):
                 ways = self._somewhere(place)
@@ -145,7 +151,7 @@ class Crowd:
         return float(x), float(y)
 
     def _is_free(self, place: Point, i: int, start: Pose) -> bool:
-        if math.dist(place, start[:2]) < ROBOT_ROOM:
+        if math.dist(place, start[:2]) < START_CLEARANCE:
             return False
         radius, point = self._dynamics.walking.radius, shapely.Point(place)
         apart = np.hypot(*(self.places[:i] - place).T)

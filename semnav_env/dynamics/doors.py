@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from semnav_env.dynamics.leaves import PlanLeaf
-from semnav_env.dynamics.nearby import on_body, on_segment
+from semnav_env.dynamics.nearby import nearest_on_body, nearest_on_segment
 from semnav_env.dynamics.settings import Dynamics
 from semnav_env.features.frames import FloatArray
 
@@ -61,7 +61,7 @@ class SwingingDoors:
             seconds: of the step.
             places: where people stand, metres, shape (n, 2).
             radius: of a person, metres.
-            body: of the robot, see `on_body`.
+            body: of the robot, see `nearest_on_body`.
             guard: metres that stay free between a leaf that moves and the robot.
         """
         swinging = self._dynamics.swinging
@@ -98,14 +98,14 @@ def _has_way(
     """Whether a leaf there leaves everybody their room."""
     for k in range(len(places)):
         x, y = places[k]
-        near_x, near_y = on_segment(x, y, hinge[0], hinge[1], tip[0], tip[1])
+        near_x, near_y = nearest_on_segment(x, y, hinge[0], hinge[1], tip[0], tip[1])
         if math.hypot(x - near_x, y - near_y) < radius + 0.02:
             return False
     pieces = math.ceil(math.hypot(tip[0] - hinge[0], tip[1] - hinge[1]) / 0.05)
     for k in range(pieces + 1):
         share = k / pieces
         x, y = hinge[0] + share * (tip[0] - hinge[0]), hinge[1] + share * (tip[1] - hinge[1])
-        near_x, near_y = on_body(x, y, body)
+        near_x, near_y = nearest_on_body(x, y, body)
         if math.hypot(x - near_x, y - near_y) < guard:
             return False
     return True

@@ -16,32 +16,40 @@ from semnav_env.features.frames import Point
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_env.robots import RobotSpec
 
-SHIFT, TURN = 0.6, math.radians(20.0)
-"""Standard deviation of how far a piece was moved along x and y, metres, and turned, radians."""
+POSITION_STD = 0.6
+"""Standard deviation of how far a piece of furniture is moved along x and along y, metres."""
 
-SIDES = (0.3, 0.8)
+HEADING_STD = math.radians(20.0)
+"""Standard deviation of the angle by which a piece of furniture is rotated, radians."""
+
+BOX_SIDES = (0.3, 0.8)
 """Shortest and longest side of an added box, metres."""
 
-DOOR_ROOM = 1.0
-"""Nothing is put this near to the middle of a doorway, metres."""
+DOOR_CLEARANCE = 1.0
+"""Radius around the middle of a doorway in which nothing is put, metres."""
 
-LANE = 1.0
-"""Wide ways that are free stay in one piece, and so do ways of the robot's width; metres."""
+LANE_WIDTH = 1.0
+"""Width of the wide ways, metres: where one as wide leads now, one still leads after a piece was
+put down. The same holds for ways of the width of the robot."""
 
-SLACK = 0.1
-"""Added to the robot's width for the narrow ways, metres."""
+LANE_MARGIN = 0.1
+"""Margin added to the robot's width for the narrow ways, metres."""
 
-APART = 0.05
-"""Between furniture and everything else, metres."""
+FURNITURE_GAP = 0.05
+"""Least distance between furniture and everything else, metres."""
 
-LEAST_PART, CRUMB = 0.2, 0.01
-"""Free areas that count as a part of the ways, and as a part of one, m^2."""
+LEAST_WAY_AREA = 0.2
+"""Area from which a connected free region counts as a way, square metres."""
 
-TRIES = 30
-"""Places drawn for a piece before it stays where it is or is left out."""
+LEAST_PIECE_AREA = 0.01
+"""Area from which a part that is cut off a way counts as a second one, square metres; less is a
+matter of rounding."""
+
+MAX_DRAWS = 30
+"""Largest number of places drawn for a piece before it stays where it is or is left out."""
 
 
-def furnished(
+def with_moved_furniture(
     plan: FloorPlan,
     dynamics: Dynamics,
     robot: RobotSpec,
@@ -57,7 +65,7 @@ def furnished(
         rng: of what is drawn.
         keep: where the robot will stand; nothing is put near it.
     """
-    room = Rearranged(plan, robot, keep)
+    room = FurnitureMover(plan, robot, keep)
     for index, surface in enumerate(plan.surfaces):
         if _is_piece(surface) and rng.random() < dynamics.moved_furniture:
             room.move(index, rng)
@@ -66,7 +74,7 @@ def furnished(
     return room.plan
 
 
-class Rearranged:
+class FurnitureMover:
     """A plan whose furniture is being moved.
 
     Args:
@@ -80,11 +88,11 @@ class Rearranged:
 
     def __init__(self, plan: FloorPlan, robot: RobotSpec, keep: Point | None) -> None:
         self.plan = plan
-        around = [(door.midpoint, DOOR_ROOM) for door in plan.doors]
-        around += [(keep, DOOR_ROOM + robot.length / 2)] if keep is not None else []
+        around = [(door.midpoint, DOOR_CLEARANCE) for door in plan.doors]
+        around += [(keep, DOOR_CLEARANCE + robot.length / 2)] if keep is not None else []
         discs = [shapely.Point(point).buffer(reach) for point, reach in around]
         self._kept_free = shapely.union_all(discs)
-        self._lanes = LANE, robot.width + SLACK
+        self._lanes = LANE_WIDTH, robot.width + LANE_MARGIN
 
     def move(self, index: int, rng: np.random.Generator) -> None:
         """Put a piece elsewhere, if it finds a place."""
@@ -93,8 +101,8 @@ class Rearranged:
         outline = Polygon(surfaces[index].points)
 
         def draw() -> Polygon:
-            turned = rotate(outline, rng.normal(0.0, TURN), use_radians=True)
-            return translate(turned, *rng.normal(0.0, SHIFT, 2))
+            turned = rotate(outline, rng.normal(0.0, HEADING_STD), use_radians=True)
+            return translate(turned, *rng.normal(0.0, POSITION_STD, 2))
 
         piece = self._placed(draw, replace(self.plan, surfaces=others))
         if piece is not None:
@@ -106,7 +114,7 @@ class Rearranged:
 
         def draw() -> Polygon:
             x, y = rng.uniform((west, south), (east, north))
-            half_x, half_y = rng.uniform(*SIDES, 2) / 2
+            half_x, half_y = rng.uniform(*BOX_SIDES, 2) / 2
             upright = shapely.box(x - half_x, y - half_y, x + half_x, y + half_y)
             return rotate(upright, rng.uniform(0.0, 180.0))
 
@@ -117,11 +125,13 @@ class Rearranged:
     def _placed(self, draw: Callable[[], Polygon], plan: FloorPlan) -> Surface | None:
         """The first drawn piece that stands free, at no door, and parts no way in two."""
         ways: list[tuple[float, list[Polygon]]] = []
-        for _ in range(TRIES):
+        for _ in range(MAX_DRAWS):
             piece = draw()
             if piece.intersects(self._kept_free) or len(plan.furniture.query(piece, "intersects")):
                 continue
-            if not plan.boundary.contains(piece) or len(plan.solids.query(piece, "dwithin", APART)):
+            if not plan.boundary.contains(piece) or len(
+                plan.solids.query(piece, "dwithin", FURNITURE_GAP)
+            ):
                 continue
             ways = ways or [(lane / 2, _free_ways(plan, lane / 2)) for lane in self._lanes]
             if all(_stay_whole(parts, piece.buffer(half)) for half, parts in ways):
@@ -138,9 +148,9 @@ def _free_ways(plan: FloorPlan, half: float) -> list[Polygon]:
 def _stay_whole(parts: list[Polygon], piece: Polygon) -> bool:
     """Whether each part is still one after a piece was put there."""
     for part in parts:
-        if part.area > LEAST_PART and part.intersects(piece):
+        if part.area > LEAST_WAY_AREA and part.intersects(piece):
             rest = shapely.get_parts(part.difference(piece))
-            if sum(each.area > CRUMB for each in rest) != 1:
+            if sum(each.area > LEAST_PIECE_AREA for each in rest) != 1:
                 return False
     return True
 

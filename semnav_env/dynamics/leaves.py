@@ -10,19 +10,19 @@ import numpy as np
 from shapely import Polygon
 
 from semnav_env.features.frames import Point
+from semnav_env.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 
-TOUCH = 0.05
-"""A leaf that begins so near to a jamb hangs on it, metres."""
+OPEN_ANGLE = math.radians(85.0)
+"""Angle at which a leaf that the plan does not draw stands open, radians: nearly square to the
+opening, so that a robot passes."""
 
-OPEN = math.radians(85.0)
-"""How far a leaf that the plan does not draw stands open."""
+ANGLE_MARGIN = math.radians(1.5)
+"""Angle next to the closed and to the open leaf in which walls may lie, radians: the leaf ends at a
+jamb and may rest against a wall."""
 
-SPARE = math.radians(1.5)
-"""Angle at the closed and the open leaf in which walls may lie."""
-
-AXLE = 0.06
-"""Around the hinge walls may lie within this, metres."""
+HINGE_RADIUS = 0.06
+"""Radius around the hinge in which walls may lie, metres: a leaf hangs in its jamb."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,9 @@ def _hangs(surface: Surface, door: PlanDoor) -> bool:
     if surface.material is not Material.LEAF:
         return False
     ends = surface.points[0], surface.points[-1]
-    return any(math.dist(end, jamb) < TOUCH for end in ends for jamb in (door.start, door.end))
+    return any(
+        math.dist(end, jamb) < DRAWING_TOLERANCE for end in ends for jamb in (door.start, door.end)
+    )
 
 
 def _as_leaf(surface: Surface, door: PlanDoor) -> PlanLeaf | None:
@@ -103,7 +105,10 @@ def _as_leaf(surface: Surface, door: PlanDoor) -> PlanLeaf | None:
     for hinge, tip in (surface.points, surface.points[::-1]):
         for jamb, other in ((door.start, door.end), (door.end, door.start)):
             length = math.dist(hinge, tip)
-            if math.dist(hinge, jamb) < TOUCH and abs(length - door.width) < 2 * TOUCH:
+            if (
+                math.dist(hinge, jamb) < DRAWING_TOLERANCE
+                and abs(length - door.width) < 2 * DRAWING_TOLERANCE
+            ):
                 closed = math.atan2(other[1] - hinge[1], other[0] - hinge[0])
                 drawn = math.atan2(tip[1] - hinge[1], tip[0] - hinge[0])
                 return PlanLeaf(
@@ -117,7 +122,10 @@ def _new_leaves(door: PlanDoor, plan: FloorPlan) -> list[PlanLeaf]:
     leaves = []
     for jamb, other in ((door.start, door.end), (door.end, door.start)):
         closed = math.atan2(other[1] - jamb[1], other[0] - jamb[0])
-        leaves += [PlanLeaf(door.name, jamb, door.width, closed, swing) for swing in (OPEN, -OPEN)]
+        leaves += [
+            PlanLeaf(door.name, jamb, door.width, closed, swing)
+            for swing in (OPEN_ANGLE, -OPEN_ANGLE)
+        ]
     return sorted(leaves, key=lambda leaf: _in_corridor(leaf, plan))
 
 
@@ -129,10 +137,10 @@ def _in_corridor(leaf: PlanLeaf, plan: FloorPlan) -> bool:
 def _swept(leaf: PlanLeaf) -> Polygon:
     """What the leaf sweeps, a little less at the hinge and at both ends of the way."""
     sign = math.copysign(1.0, leaf.swing)
-    angles = np.linspace(sign * SPARE, leaf.swing - sign * SPARE, 16)
+    angles = np.linspace(sign * ANGLE_MARGIN, leaf.swing - sign * ANGLE_MARGIN, 16)
     x, y = leaf.hinge
     rim = [leaf.tip(angle) for angle in angles]
-    share = AXLE / leaf.length
+    share = HINGE_RADIUS / leaf.length
     inner = [(x + share * (px - x), y + share * (py - y)) for px, py in rim]
     return Polygon([*rim, *inner[::-1]])
 
@@ -145,7 +153,7 @@ def _meets(leaf: PlanLeaf, taken: Sequence[Polygon]) -> bool:
 
 def _has_room(leaf: PlanLeaf, plan: FloorPlan, own: Surface | None = None) -> bool:
     """Whether nothing stands where the leaf swings."""
-    if abs(leaf.swing) < 4 * SPARE:
+    if abs(leaf.swing) < 4 * ANGLE_MARGIN:
         return False
     swept = _swept(leaf)
     if not plan.boundary.covers(swept):

@@ -10,7 +10,7 @@ import shapely
 from semnav_env.dynamics.crowd import Crowd
 from semnav_env.dynamics.doors import SwingingDoors
 from semnav_env.dynamics.leaves import swinging_leaves
-from semnav_env.dynamics.settings import FASTEST, Dynamics
+from semnav_env.dynamics.settings import MAX_SPEED_FACTOR, Dynamics
 from semnav_env.dynamics.social import SocialRecord, gaps
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.maps.floor_plan import FloorPlan
@@ -48,7 +48,7 @@ class Moving:
         self._robot, self._seconds = robot, seconds
         self._radius = dynamics.walking.radius
         fastest = dynamics.walking.speed + 2.0 * dynamics.walking.spread
-        self._guard = seconds * (_fastest(robot) + FASTEST * fastest) + 0.05
+        self._guard = seconds * (_max_point_speed(robot) + MAX_SPEED_FACTOR * fastest) + 0.05
 
     @property
     def shapes(self) -> tuple[FloatArray, FloatArray]:
@@ -71,7 +71,7 @@ class Moving:
             velocity: forward, left (m/s) and turning (rad/s), robot frame.
         """
         body = as_body(self._robot, pose, velocity)
-        touch = _reach(self._robot, velocity, self._seconds)
+        touch = _step_length(self._robot, velocity, self._seconds)
         self.crowd.step(body, self.doors.segments, self._guard, touch, self._seconds)
         self.doors.step(self._seconds, self.crowd.places, self._radius, body, self._guard)
         self.discs[:, :2] = self.crowd.places
@@ -94,26 +94,26 @@ class Moving:
 
 
 def as_body(robot: RobotSpec, pose: Pose, velocity: Pose) -> FloatArray:
-    """The robot as kernels take it, see `on_body`."""
+    """The robot as kernels take it, see `nearest_on_body`."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
     forward, left, turn = velocity
     moved = c * forward - s * left, s * forward + c * left
     return np.array([*pose, robot.length / 2, robot.width / 2, *moved, turn])
 
 
-def _arm(robot: RobotSpec) -> float:
+def _turning_radius(robot: RobotSpec) -> float:
     """From the axle to the farthest corner, metres."""
     return math.hypot(robot.length / 2 + abs(robot.axle), robot.width / 2)
 
 
-def _fastest(robot: RobotSpec) -> float:
+def _max_point_speed(robot: RobotSpec) -> float:
     """No point of the body moves faster than this, m/s."""
     straight = math.hypot(robot.max_speed, robot.max_sideways_speed)
-    return straight + robot.max_turn_rate * _arm(robot)
+    return straight + robot.max_turn_rate * _turning_radius(robot)
 
 
-def _reach(robot: RobotSpec, velocity: Pose, seconds: float) -> float:
+def _step_length(robot: RobotSpec, velocity: Pose, seconds: float) -> float:
     """No point of the body gets farther than this in the next step, but for a bit, metres."""
     forward, left, turn = velocity
-    gain = seconds * (robot.max_acceleration + robot.max_turn_acceleration * _arm(robot))
-    return seconds * (math.hypot(forward, left) + abs(turn) * _arm(robot) + gain) + 0.01
+    gain = seconds * (robot.max_acceleration + robot.max_turn_acceleration * _turning_radius(robot))
+    return seconds * (math.hypot(forward, left) + abs(turn) * _turning_radius(robot) + gain) + 0.01

@@ -11,15 +11,17 @@ from numba import njit
 from semnav_env.features.frames import FloatArray
 from semnav_env.lidar.culling import Culling, cell_of
 
-REACH = 2.0
-"""Walls beyond this do not matter to somebody, metres."""
+WALL_RANGE = 2.0
+"""Distance up to which walls matter to a person, metres: at 1.34 m/s more than a second of
+walking."""
 
-MOST = 128
-"""Pieces of wall around somebody that are avoided; no step leads into others either."""
+MAX_WALL_PIECES = 128
+"""Largest number of pieces of wall that one person avoids, the size of a buffer; `walk` still lets
+nobody step into the others."""
 
 
 @njit(cache=True, error_model="numpy")
-def on_segment(
+def nearest_on_segment(
     x: float, y: float, x1: float, y1: float, x2: float, y2: float
 ) -> tuple[float, float]:
     """The point of a segment that is nearest to (x, y)."""
@@ -31,7 +33,7 @@ def on_segment(
 
 
 @njit(cache=True, error_model="numpy")
-def on_body(x: float, y: float, body: FloatArray) -> tuple[float, float]:
+def nearest_on_body(x: float, y: float, body: FloatArray) -> tuple[float, float]:
     """The point of a robot's footprint that is nearest to (x, y), which may be (x, y) itself.
 
     Args:
@@ -49,7 +51,7 @@ def on_body(x: float, y: float, body: FloatArray) -> tuple[float, float]:
 
 @njit(cache=True, error_model="numpy")
 def walls_near(x: float, y: float, walls: Any, leaves: FloatArray, out: FloatArray) -> int:
-    """Write the nearest points of the walls and leaves within `REACH` of (x, y).
+    """Write the nearest points of the walls and leaves within `WALL_RANGE` of (x, y).
 
     Args:
         x: metres.
@@ -59,7 +61,7 @@ def walls_near(x: float, y: float, walls: Any, leaves: FloatArray, out: FloatArr
         out: rows x, y; shape (MOST, 2).
 
     Returns:
-        How many there are; beyond `MOST` the later ones are left out.
+        How many there are; beyond `MAX_WALL_PIECES` the later ones are left out.
     """
     grid, starts, ends = walls
     cell = cell_of(grid, x, y)
@@ -76,8 +78,8 @@ def walls_near(x: float, y: float, walls: Any, leaves: FloatArray, out: FloatArr
 def _keep(
     x: float, y: float, x1: float, y1: float, x2: float, y2: float, out: FloatArray, count: int
 ) -> int:
-    near_x, near_y = on_segment(x, y, x1, y1, x2, y2)
-    if (x - near_x) ** 2 + (y - near_y) ** 2 > REACH * REACH or count == len(out):
+    near_x, near_y = nearest_on_segment(x, y, x1, y1, x2, y2)
+    if (x - near_x) ** 2 + (y - near_y) ** 2 > WALL_RANGE * WALL_RANGE or count == len(out):
         return count
     out[count, 0], out[count, 1] = near_x, near_y
     return count + 1
@@ -85,23 +87,25 @@ def _keep(
 
 @njit(cache=True, error_model="numpy")
 def nearest_wall(x: float, y: float, walls: Any, leaves: FloatArray) -> tuple[float, float]:
-    """The nearest point of all walls and leaves within `REACH`; far away if there is none."""
+    """The nearest point of all walls and leaves within `WALL_RANGE`; far away if there is none."""
     grid, starts, ends = walls
     cell = cell_of(grid, x, y)
-    best, best_x, best_y = np.inf, x + 10.0 * REACH, y
+    best, best_x, best_y = np.inf, x + 10.0 * WALL_RANGE, y
     for k in range(starts[cell] - len(leaves), starts[cell + 1]):
         i = k - starts[cell] + len(leaves)
         if i < len(leaves):
-            px, py = on_segment(x, y, leaves[i, 0], leaves[i, 1], leaves[i, 2], leaves[i, 3])
+            px, py = nearest_on_segment(
+                x, y, leaves[i, 0], leaves[i, 1], leaves[i, 2], leaves[i, 3]
+            )
         else:
-            px, py = on_segment(x, y, ends[0, k], ends[1, k], ends[2, k], ends[3, k])
+            px, py = nearest_on_segment(x, y, ends[0, k], ends[1, k], ends[2, k], ends[3, k])
         squared = (x - px) ** 2 + (y - py) ** 2
         if squared < best:
             best, best_x, best_y = squared, px, py
     return best_x, best_y
 
 
-def walls_of(segments: FloatArray) -> tuple[np.ndarray, np.ndarray, FloatArray]:
+def culled_walls(segments: FloatArray) -> tuple[np.ndarray, np.ndarray, FloatArray]:
     """Segments as `walls_near` takes them."""
-    culling = Culling.of(segments, REACH)
+    culling = Culling.of(segments, WALL_RANGE)
     return culling.grid, culling.starts, culling.ends

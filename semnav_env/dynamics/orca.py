@@ -13,18 +13,20 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from semnav_env.dynamics.nearby import MOST, on_body, walls_near
-from semnav_env.dynamics.settings import FASTEST
+from semnav_env.dynamics.nearby import MAX_WALL_PIECES, nearest_on_body, walls_near
+from semnav_env.dynamics.settings import MAX_SPEED_FACTOR
 from semnav_env.features.frames import FloatArray
 
-HORIZON = 2.5
-"""Time for which nobody will meet anybody, tau, s."""
+PEOPLE_HORIZON = 2.5
+"""Time for which no two people will meet, seconds; tau in the paper."""
 
 WALL_HORIZON = 0.5
-"""The same for walls, s: shorter, or nobody would walk through a door."""
+"""Time for which a person will meet no wall, seconds; shorter than for people, or nobody would walk
+through a door."""
 
-HALVINGS = 16
-"""Bisections that find how far the half-planes must be moved where they leave no velocity."""
+BISECTIONS = 16
+"""Bisections that find how far half-planes must be moved back where they leave no velocity: 16 find
+it to a 65,000th of the interval."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -49,30 +51,34 @@ def orca(
 
     It takes what `social_force` takes.
     """
-    points = np.empty((MOST, 2))
-    planes = np.empty((MOST + len(places) + 1, 3))
+    points = np.empty((MAX_WALL_PIECES, 2))
+    planes = np.empty((MAX_WALL_PIECES + len(places) + 1, 3))
     for i in range(len(places)):
         x, y = places[i]
         hard = count = walls_near(x, y, walls, leaves, points)
         for k in range(hard):
-            _stay_off(x - points[k, 0], y - points[k, 1], radius, WALL_HORIZON, planes[k])
+            _static_half_plane(x - points[k, 0], y - points[k, 1], radius, WALL_HORIZON, planes[k])
         if sees_robot:
-            near_x, near_y = on_body(x, y, body)
-            _stay_off(x - near_x, y - near_y, radius, HORIZON, planes[count])
+            near_x, near_y = nearest_on_body(x, y, body)
+            _static_half_plane(x - near_x, y - near_y, radius, PEOPLE_HORIZON, planes[count])
             planes[count, 2] += planes[count, 0] * body[5] + planes[count, 1] * body[6]
             count += 1
         for j in range(len(places)):
             if j != i:
                 between = places[j] - places[i]
                 relative = velocities[i] - velocities[j]
-                _share(between, relative, velocities[i], 2.0 * radius, seconds, planes[count])
+                _reciprocal_half_plane(
+                    between, relative, velocities[i], 2.0 * radius, seconds, planes[count]
+                )
                 count += 1
-        limit = FASTEST * math.hypot(wishes[i, 0], wishes[i, 1])
-        _least_bad(planes[:count], hard, wishes[i], limit, out[i])
+        limit = MAX_SPEED_FACTOR * math.hypot(wishes[i, 0], wishes[i, 1])
+        _least_violating(planes[:count], hard, wishes[i], limit, out[i])
 
 
 @njit(cache=True, error_model="numpy")
-def _stay_off(dx: float, dy: float, radius: float, horizon: float, plane: FloatArray) -> None:
+def _static_half_plane(
+    dx: float, dy: float, radius: float, horizon: float, plane: FloatArray
+) -> None:
     """The half-plane of a thing at rest whose nearest point is at -d."""
     distance = max(math.hypot(dx, dy), 1e-9)
     plane[0], plane[1] = dx / distance, dy / distance
@@ -80,7 +86,7 @@ def _stay_off(dx: float, dy: float, radius: float, horizon: float, plane: FloatA
 
 
 @njit(cache=True, error_model="numpy")
-def _share(
+def _reciprocal_half_plane(
     between: FloatArray,
     relative: FloatArray,
     velocity: FloatArray,
@@ -96,7 +102,7 @@ def _share(
     """
     px, py, vx, vy = between[0], between[1], relative[0], relative[1]
     distance = math.hypot(px, py)
-    horizon = HORIZON if distance > reach else seconds
+    horizon = PEOPLE_HORIZON if distance > reach else seconds
     wx, wy = vx - px / horizon, vy - py / horizon
     w = math.hypot(wx, wy)
     towards = wx * px + wy * py
@@ -117,14 +123,14 @@ def _share(
 
 
 @njit(cache=True, error_model="numpy")
-def _least_bad(
+def _least_violating(
     planes: FloatArray, hard: int, wish: FloatArray, limit: float, out: FloatArray
 ) -> None:
     """The allowed velocity nearest to the wish, or the one that breaks the least (5.3)."""
     if nearest_allowed(planes, hard, 0.0, wish, limit, out):
         return
     low, high = 0.0, max(planes[:, 2].max(), 0.0) + limit
-    for _ in range(HALVINGS):
+    for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
         if nearest_allowed(planes, hard, middle, wish, limit, out):
             high = middle

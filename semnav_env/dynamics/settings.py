@@ -6,9 +6,12 @@ import math
 from dataclasses import dataclass, field
 
 MODELS = ("social_force", "orca")
+"""Models of how people avoid each other."""
 
-FASTEST = 1.3
-"""Largest speed of people as a multiple of the desired one (Helbing and Molnar 1995, at (12))."""
+
+MAX_SPEED_FACTOR = 1.3
+"""Largest speed of a person as a multiple of the desired one (Helbing and Molnar 1995, below
+equation (12))."""
 
 
 @dataclass(frozen=True)
@@ -110,5 +113,5 @@ def _check(holds: bool, name: str, value: object, right: str) -> None:
         raise ValueError(f"{name} is {value!r}; it must be {right}")
 
 
-OFF = Dynamics()
-"""Nothing moves but the robot."""
+NO_DYNAMICS = Dynamics()
+"""Settings with which nothing moves but the robot."""

@@ -10,12 +10,12 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from semnav_env.dynamics.nearby import on_body
+from semnav_env.dynamics.nearby import nearest_on_body
 from semnav_env.features.frames import FloatArray
 
 PERSONAL_SPACE = 0.45
-"""A gap below this is an intrusion, metres: the intimate distance of E. T. Hall, The hidden
-dimension (1966), chapter 10, between the bodies."""
+"""Gap between two bodies below which one intrudes on the other, metres: the intimate distance of E.
+T. Hall, The hidden dimension (1966), chapter 10."""
 
 
 @dataclass
@@ -47,7 +47,7 @@ class SocialRecord:
         """Take in a step.
 
         Args:
-            body: of the robot, see `on_body`.
+            body: of the robot, see `nearest_on_body`.
             discs: x, y and radius of people, metres, shape (n, 3).
             velocities: of people, m/s, shape (n, 2).
             seconds: length of the step.
@@ -86,12 +86,12 @@ def gaps(body: FloatArray, discs: FloatArray) -> FloatArray:
     0 where they touch or overlap.
 
     Args:
-        body: of the robot, see `on_body`.
+        body: of the robot, see `nearest_on_body`.
         discs: x, y and radius, metres, shape (n, 3).
     """
     found = np.empty(len(discs))
     for i in range(len(discs)):
-        near_x, near_y = on_body(discs[i, 0], discs[i, 1], body)
+        near_x, near_y = nearest_on_body(discs[i, 0], discs[i, 1], body)
         distance = math.hypot(discs[i, 0] - near_x, discs[i, 1] - near_y)
         found[i] = max(distance - discs[i, 2], 0.0)
     return found
@@ -106,7 +106,7 @@ def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArr
     says when. 0 where they overlap, infinite where they never meet.
 
     Args:
-        body: of the robot, see `on_body`.
+        body: of the robot, see `nearest_on_body`.
         discs: x, y and radius, metres, shape (n, 3).
         velocities: of the people, m/s, shape (n, 2).
     """

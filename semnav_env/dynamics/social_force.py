@@ -13,25 +13,34 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from semnav_env.dynamics.nearby import MOST, on_body, walls_near
-from semnav_env.dynamics.settings import FASTEST
+from semnav_env.dynamics.nearby import MAX_WALL_PIECES, nearest_on_body, walls_near
+from semnav_env.dynamics.settings import MAX_SPEED_FACTOR
 from semnav_env.features.frames import FloatArray
 
-TAU = 0.5
-"""Relaxation time, s."""
+RELAXATION_TIME = 0.5
+"""Time tau in which a person takes up the desired velocity, seconds, equation (2)."""
 
-V0, SIGMA = 2.1, 0.3
-"""Repulsion between people, m^2/s^2 and m: V(b) = V0 exp(-b / sigma), equation (13)."""
+V0 = 2.1
+"""Strength of the repulsion between people, m^2/s^2: V(b) = V0 exp(-b / sigma), equation (13)."""
 
-U0, R = 10.0, 0.1
-"""Repulsion of walls, m^2/s^2 and m: U(r) = U0 exp(-r / R), equation (13). The paper has R = 0.2:
-with that the jambs of a door of 0.9 m push somebody back harder than the wish pulls."""
+SIGMA = 0.3
+"""Range of the repulsion between people, metres, equation (13)."""
 
-STEP = 2.0
-"""Time of the steps that somebody is expected to take, s, in equation (4)."""
+U0 = 10.0
+"""Strength of the repulsion of walls, m^2/s^2: U(r) = U0 exp(-r / R), equation (13)."""
 
-COS_SIGHT, UNSEEN = math.cos(math.radians(100.0)), 0.5
-"""Cosine of half the angle of sight (200 degrees), and weight c of what lies outside, (7)."""
+R = 0.1
+"""Range of the repulsion of walls, metres. The paper has 0.2: with that the jambs of a door of 0.9
+m push a person back harder than the desired velocity pulls."""
+
+STEP_TIME = 2.0
+"""Time delta t of the step that another person is expected to take, seconds, equation (4)."""
+
+COS_SIGHT = math.cos(math.radians(100.0))
+"""Cosine of half the angle of sight, which is 200 degrees, equation (7)."""
+
+UNSEEN_WEIGHT = 0.5
+"""Weight c of what lies outside the angle of sight, equation (7)."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -60,23 +69,23 @@ def social_force(
         radius: of a person, metres.
         walls: as `walls_near` takes them.
         leaves: shape (m, 4).
-        body: of the robot, see `on_body`.
+        body: of the robot, see `nearest_on_body`.
         sees_robot: whether the robot counts.
         seconds: length of the step.
         out: shape (n, 2).
     """
-    points = np.empty((MOST, 2))
+    points = np.empty((MAX_WALL_PIECES, 2))
     for i in range(len(places)):
         x, y = places[i]
-        force_x = (wishes[i, 0] - velocities[i, 0]) / TAU  # (2)
-        force_y = (wishes[i, 1] - velocities[i, 1]) / TAU
+        force_x = (wishes[i, 0] - velocities[i, 0]) / RELAXATION_TIME  # (2)
+        force_y = (wishes[i, 1] - velocities[i, 1]) / RELAXATION_TIME
         for j in range(len(places)):
             if j != i:
                 rx, ry = x - places[j, 0], y - places[j, 1]
                 fx, fy = _repulsion(rx, ry, velocities[j, 0], velocities[j, 1], wishes[i])
                 force_x, force_y = force_x + fx, force_y + fy
         if sees_robot:
-            near_x, near_y = on_body(x, y, body)
+            near_x, near_y = nearest_on_body(x, y, body)
             distance = math.hypot(x - near_x, y - near_y)
             longer = (distance + radius) / max(distance, 1e-6)
             rx, ry = longer * (x - near_x), longer * (y - near_y)
@@ -86,7 +95,7 @@ def social_force(
         fx, fy = _wall_repulsion(x, y, points, count)
         vx = velocities[i, 0] + seconds * (force_x + fx)  # (10)
         vy = velocities[i, 1] + seconds * (force_y + fy)
-        limit = FASTEST * math.hypot(wishes[i, 0], wishes[i, 1])
+        limit = MAX_SPEED_FACTOR * math.hypot(wishes[i, 0], wishes[i, 1])
         speed = math.hypot(vx, vy)
         share = limit / speed if speed > limit else 1.0  # (11), (12)
         out[i, 0], out[i, 1] = share * vx, share * vy
@@ -99,7 +108,7 @@ def _repulsion(rx: float, ry: float, vx: float, vy: float, wish: FloatArray) -> 
     The equipotentials are ellipses with the other's next step s = v STEP as the line between the
     foci; b is their semi-minor axis.
     """
-    sx, sy = STEP * vx, STEP * vy
+    sx, sy = STEP_TIME * vx, STEP_TIME * vy
     near, far = math.hypot(rx, ry), math.hypot(rx - sx, ry - sy)
     if near < 1e-6:
         return 0.0, 0.0
@@ -112,7 +121,7 @@ def _repulsion(rx: float, ry: float, vx: float, vy: float, wish: FloatArray) -> 
     fx, fy = strength * away_x, strength * away_y
     ahead = -(fx * wish[0] + fy * wish[1])
     seen = ahead >= COS_SIGHT * math.hypot(fx, fy) * math.hypot(wish[0], wish[1])
-    weight = 1.0 if seen else UNSEEN
+    weight = 1.0 if seen else UNSEEN_WEIGHT
     return weight * fx, weight * fy
 
 

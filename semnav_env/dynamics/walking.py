@@ -7,14 +7,14 @@ from typing import Any
 
 from numba import njit
 
-from semnav_env.dynamics.nearby import nearest_wall, on_body
+from semnav_env.dynamics.nearby import nearest_on_body, nearest_wall
 from semnav_env.features.frames import FloatArray
 
-ROUNDS = 4
-"""How often a step is bent before it is given up."""
+MAX_DEFLECTIONS = 4
+"""Number of times that a step is bent along what is in its way before it is given up."""
 
-TIGHT = 1e-6
-"""By which bodies may overlap, metres: rounding."""
+OVERLAP_TOLERANCE = 1e-6
+"""Depth by which bodies may overlap, metres: rounding errors."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -41,7 +41,7 @@ def walk(
         radius: of a person, metres.
         walls: as `walls_near` takes them.
         leaves: shape (m, 4).
-        body: of the robot, see `on_body`.
+        body: of the robot, see `nearest_on_body`.
         guard: metres; more than what robot and person can come nearer in a step, so that only the
             robot can make them touch.
         touch: metres; how far the robot can get in this step.
@@ -49,21 +49,21 @@ def walk(
     """
     for i in range(len(places)):
         x, y = places[i]
-        near_x, near_y = on_body(x, y, body)
+        near_x, near_y = nearest_on_body(x, y, body)
         gap = math.hypot(x - near_x, y - near_y) - radius
         vx, vy = velocities[i, 0], velocities[i, 1]
         if gap < guard:
             vx, vy = _off_the_robot(x - near_x, y - near_y, vx, vy, gap < touch)
         step_x, step_y = seconds * vx, seconds * vy
-        longest = math.hypot(step_x, step_y) + TIGHT
-        for _ in range(ROUNDS):
+        longest = math.hypot(step_x, step_y) + OVERLAP_TOLERANCE
+        for _ in range(MAX_DEFLECTIONS):
             depth, push_x, push_y = _worst(x + step_x, y + step_y, i, places, radius, walls, leaves)
-            if depth <= TIGHT or gap < touch:
+            if depth <= OVERLAP_TOLERANCE or gap < touch:
                 break
             step_x, step_y = step_x + depth * push_x, step_y + depth * push_y
         too_long = math.hypot(step_x, step_y) > longest
         nearer = gap < guard and _nears_robot(x, y, step_x, step_y, radius + gap, body)
-        if depth > TIGHT or too_long or nearer:
+        if depth > OVERLAP_TOLERANCE or too_long or nearer:
             step_x = step_y = 0.0
         places[i, 0], places[i, 1] = x + step_x, y + step_y
         velocities[i, 0], velocities[i, 1] = step_x / seconds, step_y / seconds
@@ -86,7 +86,7 @@ def _nears_robot(
     x: float, y: float, step_x: float, step_y: float, before: float, body: FloatArray
 ) -> bool:
     """Whether a step leads nearer to the robot than `before`."""
-    near_x, near_y = on_body(x + step_x, y + step_y, body)
+    near_x, near_y = nearest_on_body(x + step_x, y + step_y, body)
     return math.hypot(x + step_x - near_x, y + step_y - near_y) < before - 1e-9
 
 

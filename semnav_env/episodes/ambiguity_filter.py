@@ -25,11 +25,15 @@ from semnav_env.grounding.situation import Situation
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import is_clear
 
-FARTHEST = 40.0
-"""One can be asked to find out what is within so much of a corridor, metres."""
+MAX_INSPECTED_LENGTH = 40.0
+"""Longest stretch of corridor that a person can be asked to search, metres."""
 
-BEFORE_END, SPACE = 1.5, 0.45
-"""So far before its end one must be able to look, with so much space around, metres."""
+LOOKOUT_DISTANCE = 1.5
+"""Distance from the end of a corridor to the place from which it must be possible to look at the
+end, metres."""
+
+LOOKOUT_CLEARANCE = 0.45
+"""Free radius around that place, metres: half the width of a robot and a little more."""
 
 
 class AmbiguityFilter:
@@ -86,13 +90,13 @@ class AmbiguityFilter:
         """
         for scene in self.scenes:
             seen = corridor_at(scene, begin)
-            if seen.end > FARTHEST or any(j.is_corner for j in junctions_ahead(seen)):
+            if seen.end > MAX_INSPECTED_LENGTH or any(j.is_corner for j in junctions_ahead(seen)):
                 return False
         seen = corridor_at(self._plan.scene, begin)
         if any(math.isfinite(seen.unseen(left, 0.0, seen.end)) for left in (True, False)):
             return False
-        before = seen.place(max(0.0, seen.end - BEFORE_END))
-        return is_clear(self._plan, before[:2], SPACE)
+        before = seen.place(max(0.0, seen.end - LOOKOUT_DISTANCE))
+        return is_clear(self._plan, before[:2], LOOKOUT_CLEARANCE)
 
     def is_behind_a_closed_one(self, first: GoToDoor, begin: Pose) -> bool:
         """Whether the first open door comes right after the first door, which is closed."""

@@ -25,9 +25,14 @@ from semnav_env.commands import (
 from semnav_env.commands.languages import language_of
 
 Readings: TypeAlias = tuple[tuple[Clause, ...], ...]
-Recipe: TypeAlias = Callable[[np.random.Generator, str], tuple[str, Readings]]
+"""All clauses that a text can stand for, one tuple for each meaning."""
 
-SIDES = {"en": ("left", "right"), "de": ("links", "rechts")}
+Recipe: TypeAlias = Callable[[np.random.Generator, str], tuple[str, Readings]]
+"""Makes a text and its readings from a random generator and the code of a language."""
+
+
+SIDE_WORDS = {"en": ("left", "right"), "de": ("links", "rechts")}
+"""Words for left and right by the code of the language."""
 
 
 def ambiguous_text(
@@ -54,8 +59,8 @@ def _bare_door(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
     door = DoorReference(ordinal, _SIDE[side])
     word = language_of(code).ordinal(ordinal)
     text = {
-        "en": f"the {word} door on the {SIDES['en'][side]}",
-        "de": f"die {word} Tür {SIDES['de'][side]}",
+        "en": f"the {word} door on the {SIDE_WORDS['en'][side]}",
+        "de": f"die {word} Tür {SIDE_WORDS['de'][side]}",
     }[code]
     return text, ((GoToDoor(door, Approach.TO),), (GoToDoor(door),))
 
@@ -78,8 +83,8 @@ def _at_door(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
     ordinal, side = _ordinal(rng), int(rng.integers(2))
     word = language_of(code).ordinal(ordinal)
     text = {
-        "en": f"turn {SIDES['en'][side]} at the {word} door",
-        "de": f"bieg an der {word}n Tür {SIDES['de'][side]} ab",
+        "en": f"turn {SIDE_WORDS['en'][side]} at the {word} door",
+        "de": f"bieg an der {word}n Tür {SIDE_WORDS['de'][side]} ab",
     }[code]
     beside = Follow(DoorReference(ordinal)), Turn(_TURNING[side])
     return text, (beside, (GoToDoor(DoorReference(ordinal, _SIDE[side])),))
@@ -90,8 +95,8 @@ def _comma_side(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
     ordinal, side = _ordinal(rng), int(rng.integers(2))
     word = language_of(code).ordinal(ordinal)
     text = {
-        "en": f"take the {word} door, {SIDES['en'][side]}",
-        "de": f"nimm die {word} Tür, {SIDES['de'][side]}",
+        "en": f"take the {word} door, {SIDE_WORDS['en'][side]}",
+        "de": f"nimm die {word} Tür, {SIDE_WORDS['de'][side]}",
     }[code]
     turned = GoToDoor(DoorReference(ordinal)), Turn(_TURNING[side])
     return text, (turned, (GoToDoor(DoorReference(ordinal, _SIDE[side])),))
@@ -113,6 +118,8 @@ def _counting(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
 
 
 RECIPES: tuple[Recipe, ...] = (_bare_door, _back, _quarter, _at_door, _comma_side, _counting)
+"""All recipes; each is drawn equally often."""
+
 
 _SIDE = (Side.LEFT, Side.RIGHT)
 _TURNING = (Turning.LEFT, Turning.RIGHT)

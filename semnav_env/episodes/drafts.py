@@ -30,10 +30,10 @@ from semnav_env.tasks.sampling import looks_along
 from semnav_env.verifier import plan_goals
 from semnav_env.verifier.goals import check_grounded
 
-TRIES = 15
-"""Clauses drawn for each place in a command before the command is given up."""
+MAX_CLAUSE_DRAWS = 15
+"""Largest number of clauses drawn for one place in a command before the command is given up."""
 
-AROUND = 0.1
+TURN_AROUND_SHARE = 0.1
 """Share of the commands of several clauses that begin with turning around."""
 
 
@@ -56,25 +56,25 @@ class Drafter:
         self._followers: dict[tuple[Clause, ...], Follower] = {}
 
     @cached_property
-    def doubts(self) -> AmbiguityFilter:
+    def ambiguity_filter(self) -> AmbiguityFilter:
         """What people could see otherwise there."""
         return AmbiguityFilter(self._plan)
 
-    def feasible(self, clauses: int, verb: CommandTopic | None) -> Command | None:
+    def feasible(self, clauses: int, topic: CommandTopic | None) -> Command | None:
         """A command that can be carried out; None if none came up.
 
         Args:
             clauses: how many it has.
-            verb: what it is about; None if more is to be said after it.
+            topic: what it is about; None if more is to be said after it.
         """
-        if verb is CommandTopic.CONDITION:
+        if topic is CommandTopic.CONDITION:
             return self._conditional(clauses)
-        said: tuple[Clause, ...] = (Leave(),) if verb is CommandTopic.LEAVE else ()
+        said: tuple[Clause, ...] = (Leave(),) if topic is CommandTopic.LEAVE else ()
         if said and self.problem(said) is not None:
             return None
         for index in range(len(said), clauses):
-            for attempt in range(TRIES):
-                clause = self._draw(said, verb if index == clauses - 1 else None, attempt)
+            for attempt in range(MAX_CLAUSE_DRAWS):
+                clause = self._draw_clause(said, topic if index == clauses - 1 else None, attempt)
                 if self._follows(said, clause) and self.problem((*said, clause)) is None:
                     said = (*said, clause)
                     break
@@ -89,24 +89,28 @@ class Drafter:
             return None
         before = first.clauses if first else ()
         begin = self._begin_after(before)
-        for _ in range(TRIES):
-            verb = self._clauses.choose(
+        for _ in range(MAX_CLAUSE_DRAWS):
+            topic = self._clauses.choose(
                 CommandTopic.ENTER,
                 CommandTopic.ENTER,
                 CommandTopic.TURN,
                 CommandTopic.APPROACH,
                 CommandTopic.FOLLOW,
             )
-            last = self._clauses.last(verb, alone=True)
+            last = self._clauses.last(topic, alone=True)
             impossible = self.problem((*before, last)) is not None
-            if impossible and self._follows(before, last) and self.doubts.impossible(last, begin):
+            if (
+                impossible
+                and self._follows(before, last)
+                and self.ambiguity_filter.impossible(last, begin)
+            ):
                 return Command((*before, last))
         return None
 
     def turns(self, clauses: int) -> Command | None:
         """A command that only turns at junctions, so that it starts no counting of doors."""
         said: tuple[Clause, ...] = ()
-        for _ in range(TRIES):
+        for _ in range(MAX_CLAUSE_DRAWS):
             clause = self._clauses.turn()
             if self._follows(said, clause) and self.problem((*said, clause)) is None:
                 said = (*said, clause)
@@ -129,7 +133,7 @@ class Drafter:
             return False
         if any(isinstance(clause, IfThere) for clause in before):
             return False
-        return self.doubts.is_behind_a_closed_one(last, self._begin_after(tuple(before)))
+        return self.ambiguity_filter.is_behind_a_closed_one(last, self._begin_after(tuple(before)))
 
     def _conditional(self, clauses: int) -> Command | None:
         """Ends with a condition that nobody would decide otherwise, and what hangs on it."""
@@ -139,11 +143,11 @@ class Drafter:
             return None
         said = before.clauses if before else ()
         begin = self._begin_after(said)
-        for _ in range(TRIES):
+        for _ in range(MAX_CLAUSE_DRAWS):
             condition, *rest = self._clauses.condition(otherwise=hanging == 3)
             assert isinstance(condition, IfThere)
             command = Command((*said, condition, *rest))
-            sure = self.doubts.met(condition, begin) is not None
+            sure = self.ambiguity_filter.met(condition, begin) is not None
             if sure and self._goals(command) == len(said) + 1:
                 return command
         return None
@@ -189,13 +193,15 @@ class Drafter:
             return True
         return isinstance(before.until, DoorReference) or isinstance(clause.until, DoorReference)
 
-    def _draw(self, said: tuple[Clause, ...], verb: CommandTopic | None, attempt: int) -> Clause:
-        """The next clause: of that verb, or else on the way to more."""
+    def _draw_clause(
+        self, said: tuple[Clause, ...], topic: CommandTopic | None, attempt: int
+    ) -> Clause:
+        """The next clause: on that topic, or else on the way to more."""
         if said and isinstance(said[-1], Leave) and self._faces_a_wall(said):
             return self._clauses.turn_here()
-        if verb is not None:
-            return self._clauses.last(verb, alone=not said)
-        if not said and attempt == 0 and self.rng.random() < AROUND:
+        if topic is not None:
+            return self._clauses.last(topic, alone=not said)
+        if not said and attempt == 0 and self.rng.random() < TURN_AROUND_SHARE:
             return Turn(Turning.AROUND)
         return self._clauses.underway()
 

@@ -15,7 +15,10 @@ from semnav_env.commands.languages import languages
 from semnav_env.episodes.episode import Episode, Expected
 
 SUFFIXES = (".jsonl", ".jsonl.gz")
-PLAN = ".geojson"
+"""Endings of the names of episode files; the second one is compressed."""
+
+PLAN_SUFFIX = ".geojson"
+"""Ending of the name of a floor plan that lies beside the file of its episodes."""
 
 
 class EpisodeFileError(ValueError):
@@ -66,7 +69,7 @@ def read_episodes(path: str | Path) -> tuple[Episode, ...]:
 
 def _found_beside(where: Path, episode: Episode) -> Episode:
     plan = Path(episode.floor_plan)
-    if plan.suffix != PLAN or plan.is_absolute():
+    if plan.suffix != PLAN_SUFFIX or plan.is_absolute():
         return episode
     return replace(episode, floor_plan=str(where.parent / plan))
 
@@ -159,6 +162,6 @@ FIELDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "route": (lambda v: _all(v, lambda p: _numbers(p, 2)), "a list of [x, y], finite, metres"),
     "expected": (lambda v: v in list(Expected), f"one of {', '.join(Expected)}"),
 }
-"""What every field must be, and how that is said."""
+"""For each field of an episode: a test of its value, and words for what passes it."""
 
 assert tuple(FIELDS) == tuple(field.name for field in fields(Episode))

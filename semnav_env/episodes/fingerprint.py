@@ -1,4 +1,4 @@
-"""A short name for the geometry of a floor plan, by which a change of it is noticed."""
+"""A fingerprint of the geometry of a floor plan, by which a change of it is noticed."""
 
 from __future__ import annotations
 
@@ -8,23 +8,24 @@ import numpy as np
 
 from semnav_env.maps import FloorPlan
 
-DIGITS = 16
-"""Hexadecimal ones."""
+FINGERPRINT_DIGITS = 16
+"""Length of a fingerprint in hexadecimal digits: 64 bits, so that no two plans of a split share one
+by chance."""
 
-PER_METRE = 1000
-"""Coordinates count in whole millimetres."""
+STEPS_PER_METRE = 1000
+"""Steps to which coordinates are rounded, per metre: whole millimetres."""
 
 
 def fingerprint(plan: FloorPlan) -> str:
-    """The first `DIGITS` of a SHA-256 over all that is solid, the doors and the named rooms.
+    """The first `FINGERPRINT_DIGITS` of a SHA-256 of what is solid, the doors and the rooms.
 
-    Coordinates are rounded to millimetres, so that it is the same on every platform.
+    Coordinates are rounded to millimetres, so that every platform gives the same.
     """
     doors = "".join(f"{d.name}|{_whole((*d.start, *d.end))}|{d.open}\n" for d in plan.doors)
     rooms = "".join(f"{r.name}|{_whole(r.polygon.bounds)}\n" for r in plan.rooms)
     solid = "".join(_whole(row) for row in plan.segments.tolist())
-    return sha256(f"{solid}\n{doors}{rooms}".encode()).hexdigest()[:DIGITS]
+    return sha256(f"{solid}\n{doors}{rooms}".encode()).hexdigest()[:FINGERPRINT_DIGITS]
 
 
 def _whole(values: tuple[float, ...] | list[float]) -> str:
-    return f"{np.rint(np.array(values) * PER_METRE).astype(np.int64).tolist()}"
+    return f"{np.rint(np.array(values) * STEPS_PER_METRE).astype(np.int64).tolist()}"

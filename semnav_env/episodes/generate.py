@@ -31,32 +31,39 @@ from semnav_env.robots import ROBOTS, WHEELCHAIR
 from semnav_env.tasks.sampling import sample_start
 from semnav_env.verifier import Verifier, place, plan_mission
 
-STARTS, DRAFTS = 15, 4
-"""Starts tried for what an episode should be about, before it is about something else, and commands
-drawn from each."""
+MAX_STARTS = 15
+"""Starts tried for the topic that an episode should have, before it gets another one."""
 
-BODY = replace(
+DRAFTS_PER_START = 4
+"""Commands drawn at each start."""
+
+LARGEST_BODY = replace(
     WHEELCHAIR,
     name="body",
     length=max(robot.length for robot in ROBOTS.values()),
     width=max(robot.width for robot in ROBOTS.values()),
 )
-"""As long as the longest and as wide as the widest: where it gets to, every body does."""
+"""A body as long as the longest robot and as wide as the widest: every robot gets to where it
+gets."""
 
-SHORTEST, LONGEST = 1.5, 120.0
-"""Of true routes, metres."""
+MIN_ROUTE_LENGTH = 1.5
+"""Length of the shortest true route, metres: less is no drive."""
 
-NEAR = 0.3
-"""A body must get so near to every goal, metres."""
+MAX_ROUTE_LENGTH = 120.0
+"""Length of the longest true route, metres: it keeps an episode within a few minutes of simulated
+time."""
 
-SIMPLE = 0.05
-"""True routes are simplified by at most so much, metres."""
+GOAL_REACH = 0.3
+"""Largest distance from a goal to a place that the largest body gets to, metres."""
 
-GERMAN = 0.2
+ROUTE_TOLERANCE = 0.05
+"""Largest distance of a simplified true route from the exact one, metres."""
+
+GERMAN_SHARE = 0.2
 """Share of the episodes in German."""
 
-SPACE = 0.75
-"""Around a start in a room, metres: every body can turn round there."""
+START_CLEARANCE = 0.75
+"""Free radius around a start in a room, metres: every body can turn round there."""
 
 
 class TooBareError(ValueError):
@@ -83,7 +90,7 @@ class Site:
     @cached_property
     def reach(self) -> Reach:
         """Where every body gets to."""
-        return reach(self.plan, BODY.length, BODY.width)
+        return reach(self.plan, LARGEST_BODY.length, LARGEST_BODY.width)
 
     @cached_property
     def plan_hash(self) -> str:
@@ -114,14 +121,14 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
     """
     rng = Generator(PCG64(SeedSequence((seed, zlib.crc32(split.name.encode()), number))))
     maker = _MAKERS[split.expected]
-    for clauses, verb in _wanted(site.plan, split, number, seed):
-        for _ in range(STARTS):
-            start = _start(site, split, verb, rng)
-            for _ in range(0 if start is None else DRAFTS):
+    for clauses, topic in _wanted(site.plan, split, number, seed):
+        for _ in range(MAX_STARTS):
+            start = _start(site, split, topic, rng)
+            for _ in range(0 if start is None else DRAFTS_PER_START):
                 assert start is not None
-                language = "de" if rng.random() < GERMAN else "en"
+                language = "de" if rng.random() < GERMAN_SHARE else "en"
                 drafter = Drafter(site.plan, site.geodesic, start, rng)
-                said = maker(site, drafter, clauses, verb, language)
+                said = maker(site, drafter, clauses, topic, language)
                 if said is not None:
                     return _episode(f"{split.name}-{number:05d}", site, start, language, said)
     raise TooBareError(f"{site.plan.name}: found no command of the kind of {split.name} there")
@@ -135,7 +142,7 @@ def _wanted(
     All take turns, in another order each time: so every tenth episode, say, is not about the same.
     A room cannot be named where none has a name.
     """
-    pairs = [(n, verb) for n in split.clauses for verb in topics_of(n)]
+    pairs = [(n, topic) for n in split.clauses for topic in topics_of(n)]
     if not plan.room_names:
         pairs = [pair for pair in pairs if pair[1] is not CommandTopic.ROOM]
     rounds, place = divmod(number, len(pairs))
@@ -155,9 +162,9 @@ class EpisodeDraft:
 
 
 def _feasible(
-    site: Site, drafter: Drafter, clauses: int, verb: CommandTopic, language: str
+    site: Site, drafter: Drafter, clauses: int, topic: CommandTopic, language: str
 ) -> EpisodeDraft | None:
-    command = drafter.feasible(clauses, verb)
+    command = drafter.feasible(clauses, topic)
     route = None if command is None else _route(site, command, drafter.start)
     if command is None or route is None:
         return None
@@ -167,7 +174,7 @@ def _feasible(
 
 
 def _infeasible(
-    site: Site, drafter: Drafter, clauses: int, verb: CommandTopic, language: str
+    site: Site, drafter: Drafter, clauses: int, topic: CommandTopic, language: str
 ) -> EpisodeDraft | None:
     command = drafter.infeasible(clauses)
     if command is None:
@@ -182,7 +189,7 @@ def _infeasible(
 
 
 def _ambiguous(
-    site: Site, drafter: Drafter, clauses: int, verb: CommandTopic, language: str
+    site: Site, drafter: Drafter, clauses: int, topic: CommandTopic, language: str
 ) -> EpisodeDraft | None:
     """A text all of whose readings can be carried out there."""
     first = drafter.turns(clauses - 1) if clauses > 1 else None
@@ -207,16 +214,16 @@ def _episode(name: str, site: Site, start: Pose, language: str, said: EpisodeDra
     return Episode(name, *where, said.text, language, readings, said.route, said.expected)
 
 
-def _start(site: Site, split: Split, verb: CommandTopic, rng: Generator) -> Pose | None:
+def _start(site: Site, split: Split, topic: CommandTopic, rng: Generator) -> Pose | None:
     """Where every body can stand, rounded as it is written; in a room if that is to be left."""
-    if verb is CommandTopic.LEAVE and split.expected is Expected.FEASIBLE and site.plan.rooms:
+    if topic is CommandTopic.LEAVE and split.expected is Expected.FEASIBLE and site.plan.rooms:
         pose = _start_in_room(site, rng)
     else:
-        pose = sample_start(site.plan, BODY, rng)
+        pose = sample_start(site.plan, LARGEST_BODY, rng)
     if pose is None:
         return None
     start = round(pose[0], 2), round(pose[1], 2), round(pose[2], 3)
-    stands = placement_error(site.plan, BODY, start) is None
+    stands = placement_error(site.plan, LARGEST_BODY, start) is None
     return start if stands and site.reach.near(shapely.Point(start[:2])) else None
 
 
@@ -225,11 +232,11 @@ def _start_in_room(site: Site, rng: Generator) -> Pose | None:
     plan = site.plan
     room = plan.rooms[int(rng.integers(len(plan.rooms)))]
     try:
-        pose = sample_pose(plan, BODY, rng, room)
+        pose = sample_pose(plan, LARGEST_BODY, rng, room)
     except ValueError:
         return None
     fair = exits(plan, room.polygon) == 1 and len(doors_around(plan.scene, pose)) == 1
-    return pose if fair and is_clear(plan, pose[:2], SPACE) else None
+    return pose if fair and is_clear(plan, pose[:2], START_CLEARANCE) else None
 
 
 def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
@@ -240,10 +247,10 @@ def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
 def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | None:
     """The true route, if bodies get along and the verifier accepts it."""
     verifier = Verifier(plan_mission(site.plan, site.geodesic, command, start))
-    if not SHORTEST <= verifier.mission.route_length <= LONGEST:
+    if not MIN_ROUTE_LENGTH <= verifier.mission.route_length <= MAX_ROUTE_LENGTH:
         return None
     places = [shapely.Point(place(goal)) for goal in verifier.mission.goals]
-    if not all(site.reach.near(point, NEAR) for point in places):
+    if not all(site.reach.near(point, GOAL_REACH) for point in places):
         return None
     if not all(_has_room(site.plan, goal) for goal in verifier.mission.goals):
         return None
@@ -257,10 +264,10 @@ def _has_room(plan: FloorPlan, goal: Goal) -> bool:
     It may lie so near to a wall, or in a corner, that nobody could turn or stop right there.
     """
     stands = isinstance(goal, ReachGoal) and (goal.fixes_heading or goal.corridor is not None)
-    return not stands or placement_error(plan, BODY, goal.pose) is None
+    return not stands or placement_error(plan, LARGEST_BODY, goal.pose) is None
 
 
 def _simple(route: FloatArray) -> tuple[Point, ...]:
     """Fewer points, in whole centimetres."""
-    line = shapely.LineString(route).simplify(SIMPLE, preserve_topology=False)
+    line = shapely.LineString(route).simplify(ROUTE_TOLERANCE, preserve_topology=False)
     return tuple((float(x), float(y)) for x, y in np.round(line.coords, 2).tolist())

@@ -30,9 +30,9 @@ from semnav_env.commands.rooms import plain_name
 
 T = TypeVar("T")
 
-ON_THE_SPOT = 0.03
-"""Share of the turns drawn for the end of several clauses that are by degrees; of those that can be
-carried out it is larger."""
+SPOT_TURN_SHARE = 0.03
+"""Share of turns by degrees among the turns drawn for the end of several clauses. Among those that
+can be carried out their share is larger, for a turn by degrees always can."""
 
 
 class CommandTopic(StrEnum):
@@ -49,14 +49,14 @@ class CommandTopic(StrEnum):
     CONDITION = "condition"
 
 
-LATE = (CommandTopic.BACK, CommandTopic.WAIT, CommandTopic.CONDITION)
-"""They need something to be said before them, or behind."""
+LATER_TOPICS = (CommandTopic.BACK, CommandTopic.WAIT, CommandTopic.CONDITION)
+"""Topics of commands that need several clauses: something is said before them, or behind."""
 
 
 def topics_of(clauses: int) -> tuple[CommandTopic, ...]:
     """The verbs that a command of so many clauses can have."""
-    late = LATE if clauses > 1 else ()
-    return tuple(verb for verb in CommandTopic if verb not in LATE) + late
+    late = LATER_TOPICS if clauses > 1 else ()
+    return tuple(topic for topic in CommandTopic if topic not in LATER_TOPICS) + late
 
 
 class RandomClauses:
@@ -70,14 +70,14 @@ class RandomClauses:
     def __init__(self, rng: np.random.Generator, rooms: Sequence[str]) -> None:
         self._rng, self._rooms = rng, rooms
 
-    def last(self, verb: CommandTopic, *, alone: bool) -> Clause:
+    def last(self, topic: CommandTopic, *, alone: bool) -> Clause:
         """The last clause of a command about something; `alone` if nothing is said before it."""
-        match verb:
+        match topic:
             case CommandTopic.APPROACH:
                 return GoToDoor(self.door(), Approach.TO)
             case CommandTopic.FOLLOW:
                 return self.follow()
-            case CommandTopic.TURN if not alone and self._rng.random() < ON_THE_SPOT:
+            case CommandTopic.TURN if not alone and self._rng.random() < SPOT_TURN_SHARE:
                 return self.turn_on_the_spot()
             case CommandTopic.TURN:
                 return self.turn()

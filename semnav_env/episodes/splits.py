@@ -14,11 +14,15 @@ from semnav_env.episodes.files import read_episodes
 from semnav_env.maps.generator.distributions import DISTRIBUTIONS
 from semnav_env.maps.generator.naming import office_name
 
-FROZEN = files("semnav_env.episodes") / "frozen"
-SUFFIX = ".jsonl.gz"
+FROZEN_FOLDER = files("semnav_env.episodes") / "frozen"
+"""Folder of the frozen episodes in the package."""
+
+FROZEN_SUFFIX = ".jsonl.gz"
+"""Ending of the names of the frozen files."""
+
 
 SEED = 2026
-"""That the frozen episodes are made from."""
+"""Seed that the frozen episodes are made from."""
 
 
 @dataclass(frozen=True)
@@ -92,6 +96,7 @@ SPLITS = {
         ),
     )
 }
+"""The splits by their names."""
 
 
 def load_episodes(name: str | Path) -> tuple[Episode, ...]:
@@ -124,5 +129,5 @@ def evenly(episodes: Sequence[Episode], count: int) -> tuple[Episode, ...]:
 
 @lru_cache(maxsize=len(SPLITS))
 def _frozen(name: str) -> tuple[Episode, ...]:
-    with as_file(FROZEN / f"{name}{SUFFIX}") as path:
+    with as_file(FROZEN_FOLDER / f"{name}{FROZEN_SUFFIX}") as path:
         return read_episodes(path)

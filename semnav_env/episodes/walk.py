@@ -11,13 +11,15 @@ from semnav_env.grounding import Goal, PassGoal, ReachGoal, StopGoal
 from semnav_env.routes.route import Route
 from semnav_env.verifier import Motion, Verifier, place
 
-PERIOD = 0.1
-"""From one pose to the next, seconds."""
+STEP_SECONDS = 0.1
+"""Time from one pose of the walk to the next, seconds."""
 
-BEHIND = 0.4
-"""A door is crossed by so much, metres."""
+CROSSING_DEPTH = 0.4
+"""Distance that the walk goes on behind the middle of a door, metres, so that the door is
+crossed."""
 
-MOST_LEGS = 20
+MAX_LEGS = 20
+"""Largest number of goals that are gone to; a command has fewer."""
 
 
 def carries_out(verifier: Verifier) -> bool:
@@ -26,14 +28,14 @@ def carries_out(verifier: Verifier) -> bool:
     A point goes, so this says nothing of bodies. The verifier is used up.
     """
     pose = verifier.mission.start
-    for _ in range(MOST_LEGS):
+    for _ in range(MAX_LEGS):
         if verifier.over:
             break
         goal, active = verifier.follower.goal, verifier.follower.active
         for x, y, heading in _leg(verifier, pose, goal):
             pose = x, y, heading
             speed = 0.0 if isinstance(goal, StopGoal) else 1.0
-            verifier.update(Motion(pose, speed, 0.0, in_contact=False, seconds=PERIOD))
+            verifier.update(Motion(pose, speed, 0.0, in_contact=False, seconds=STEP_SECONDS))
             if verifier.over or verifier.follower.active != active:
                 break
     return verifier.success
@@ -41,11 +43,11 @@ def carries_out(verifier: Verifier) -> bool:
 
 def _leg(verifier: Verifier, pose: Pose, goal: Goal) -> Iterator[Pose]:
     if isinstance(goal, StopGoal):
-        yield from (pose,) * (round(goal.wait / PERIOD) + 2)
+        yield from (pose,) * (round(goal.wait / STEP_SECONDS) + 2)
         return
     way = verifier.mission.geodesic.to(place(goal)).way(pose[:2])
     facing = goal.pose[2] if isinstance(goal, ReachGoal) and goal.fixes_heading else None
     if isinstance(goal, PassGoal):
-        behind = to_parent((*place(goal), goal.pose[2]), (BEHIND, 0.0))
+        behind = to_parent((*place(goal), goal.pose[2]), (CROSSING_DEPTH, 0.0))
         way = np.vstack((way, behind))
     yield from Route(pose, way, facing).poses.tolist()

@@ -23,22 +23,36 @@ from semnav_env.commands import (
 from semnav_env.commands.errors import CommandError
 from semnav_env.commands.languages import language_of
 
-OTHER_WORDS, CORRECTED = 0.6, 0.18
-"""Shares of commands in other than canonical words, and of those with a slip that is corrected."""
+PARAPHRASED_SHARE = 0.6
+"""Share of the commands that are said in other than canonical words."""
 
-NO = {"en": "no", "de": "nein"}
+CORRECTED_SHARE = 0.18
+"""Share of the commands with a slip of the tongue that is corrected."""
 
-ONE = {
+CORRECTION_WORDS = {"en": "no", "de": "nein"}
+"""Words that begin a correction, by the code of the language."""
+
+
+CORRECTED_DOORS = {
     "en": {"left": "the left one", "right": "the right one", "nth": "the {} one"},
     "de": {"left": "die linke", "right": "die rechte", "nth": "die {}"},
 }
+"""Words for the right door in a correction: by its side, or by its ordinal."""
 
-WAY = {"en": {"left": "left", "right": "right"}, "de": {"left": "links", "right": "rechts"}}
 
-CLOSED = {
+CORRECTED_TURNS = {
+    "en": {"left": "left", "right": "right"},
+    "de": {"left": "links", "right": "rechts"},
+}
+"""Words for the right side of a turn in a correction."""
+
+
+CLOSED_DOOR_PHRASES = {
     "en": "if {} is closed, take the next",
     "de": "falls {} geschlossen ist, nimm die nächste",
 }
+"""Phrases for the door behind a closed one; {} stands for the closed door."""
+
 
 _OPPOSITE = {"left": "right", "right": "left"}
 
@@ -60,11 +74,11 @@ def worded(
     """
     text = command.say(language)
     draw = rng.random()
-    if closed and draw < OTHER_WORDS:
+    if closed and draw < PARAPHRASED_SHARE:
         text = _but_for_a_closed_one(command, language) or text
-    elif draw < CORRECTED:
+    elif draw < CORRECTED_SHARE:
         text = _corrected(command, language, rng) or text
-    elif draw < CORRECTED + OTHER_WORDS:
+    elif draw < CORRECTED_SHARE + PARAPHRASED_SHARE:
         text = next(iter(paraphrases(command, rng, 1, language)), text)
     try:
         clear = readings(text, language, rooms) == (command,)
@@ -79,7 +93,7 @@ def _but_for_a_closed_one(command: Command, language: str) -> str | None:
     if not isinstance(last, GoToDoor) or last.approach is not Approach.THROUGH:
         return None
     said = f"{Command(tuple(before)).say(language)}, " if before else ""
-    return said + CLOSED[language].format(last.door.say(language_of(language)))
+    return said + CLOSED_DOOR_PHRASES[language].format(last.door.say(language_of(language)))
 
 
 def _corrected(command: Command, language: str, rng: Generator) -> str | None:
@@ -91,7 +105,7 @@ def _corrected(command: Command, language: str, rng: Generator) -> str | None:
     if wrong is None:
         return None
     said = Command((*before, wrong)).say(language)
-    return f"{said}, {NO[language]}, {instead}"
+    return f"{said}, {CORRECTION_WORDS[language]}, {instead}"
 
 
 def _slip(clause: Clause, language: str, rng: Generator) -> tuple[Clause | None, str]:
@@ -99,11 +113,11 @@ def _slip(clause: Clause, language: str, rng: Generator) -> tuple[Clause | None,
     match clause:
         case GoToDoor(DoorReference(ordinal, Side.LEFT | Side.RIGHT as side)) if rng.random() < 0.5:
             door = DoorReference(ordinal, Side(_OPPOSITE[side]))
-            return replace(clause, door=door), ONE[language][side]
+            return replace(clause, door=door), CORRECTED_DOORS[language][side]
         case GoToDoor(DoorReference(ordinal, side)) if ordinal > 0:
             said = ordinal + 1 if ordinal == 1 or rng.random() < 0.5 else ordinal - 1
-            nth = ONE[language]["nth"].format(language_of(language).ordinal(ordinal))
+            nth = CORRECTED_DOORS[language]["nth"].format(language_of(language).ordinal(ordinal))
             return replace(clause, door=DoorReference(said, side)), nth
         case Turn(Turning.LEFT | Turning.RIGHT as way, _, None):
-            return replace(clause, turning=Turning(_OPPOSITE[way])), WAY[language][way]
+            return replace(clause, turning=Turning(_OPPOSITE[way])), CORRECTED_TURNS[language][way]
     return None, ""

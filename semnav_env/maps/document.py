@@ -15,9 +15,17 @@ from semnav_env.maps.rules import FloorPlanError
 Document: TypeAlias = dict[str, Any]
 
 SCHEMA_FILE = Path(__file__).with_name("floor_plan.schema.json")
+"""The JSON Schema of floor plan files."""
+
 MAX_BYTES = 20_000_000
+"""Size of the largest file that is read, bytes: more than any plan of `MAX_FEATURES` features
+needs."""
+
 MAX_FEATURES = 10_000
+"""Largest number of features in a file; checking a plan takes time that grows with it."""
+
 MAX_NUMBERS = 100_000
+"""Largest number of coordinates in a file, two for each position."""
 
 
 def read_text(path: Path) -> str:
@@ -47,7 +55,7 @@ def parse_document(text: str, where: str) -> Document:
 
     Args:
         text: JSON; NaN and Infinity are refused.
-        where: what to call the text in an error, as a file's name.
+        where: name of the text in an error, as the name of a file.
 
     Raises:
         FloorPlanError: not JSON, too large, or not what the schema asks for.
@@ -98,7 +106,7 @@ def _check_sizes(document: object) -> None:
 
 
 def _numbers(document: object) -> int:
-    """How many numbers there are; stops counting beyond the limit."""
+    """How many numbers a document holds; counting stops beyond the limit."""
     count, todo = 0, [document]
     while todo and count <= MAX_NUMBERS:
         value = todo.pop()
@@ -110,7 +118,7 @@ def _numbers(document: object) -> int:
 
 
 def _drop_nulls(document: object) -> None:
-    """Drawing programs write every attribute of every feature, most of them null."""
+    """Remove null attributes: drawing programs write every attribute of every feature."""
     features = document.get("features") if isinstance(document, dict) else None
     for feature in features if isinstance(features, list) else []:
         if isinstance(feature, dict) and isinstance(feature.get("properties"), dict):

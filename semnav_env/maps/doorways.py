@@ -10,18 +10,19 @@ from shapely import LineString, Point
 
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 
-TOUCH = 0.05
-"""Metres within which two drawn things count as touching."""
+DRAWING_TOLERANCE = 0.05
+"""Distance within which two drawn things touch, metres: plans are drawn and measured this
+exactly."""
 
 NARROWEST_ROBOT = 0.5
-"""Metres of clear width that an open door has at least (SPOT is 0.50 m wide)."""
+"""Width of the narrowest robot, SPOT, metres; every open door leaves at least this much clear."""
 
-HALF_OPEN_BELOW = math.radians(75.0)
-"""A leaf at a smaller angle to its opening narrows the way through."""
+HALF_OPEN_ANGLE = math.radians(75.0)
+"""Angle between a leaf and its opening below which the leaf narrows the way through, radians."""
 
 
 class DoorState(StrEnum):
-    """As in the `state` of a door in a floor plan file."""
+    """Values of the `state` of a door in a floor plan file."""
 
     OPEN = "open"
     HALF_OPEN = "half-open"
@@ -29,17 +30,17 @@ class DoorState(StrEnum):
 
 
 def door_state(door: PlanDoor, plan: FloorPlan) -> DoorState:
-    """Whether something solid fills the opening, a leaf narrows it, or neither."""
+    """The state of a door as drawn: closed if something solid fills it, half open by its leaf."""
     near = _near(door, plan)
-    if _uncovered(door, near) < TOUCH:
+    if _uncovered(door, near) < DRAWING_TOLERANCE:
         return DoorState.CLOSED
     ways = ((door.start, door.end), (door.end, door.start))
     angles = [_angle(jamb, other, leaf) for jamb, other in ways for leaf in _hung(jamb, near)]
-    return DoorState.HALF_OPEN if min(angles, default=math.pi) < HALF_OPEN_BELOW else DoorState.OPEN
+    return DoorState.HALF_OPEN if min(angles, default=math.pi) < HALF_OPEN_ANGLE else DoorState.OPEN
 
 
 def clear_width(door: PlanDoor, plan: FloorPlan) -> float:
-    """Width in metres of what may pass: between the two jambs with the leaves that hang on them.
+    """Clear width of a door between its jambs and the leaves that hang on them, metres.
 
     A leaf as wide as the door, at an angle a < 90 degrees to it, leaves width * sin(a).
     """
@@ -50,7 +51,7 @@ def clear_width(door: PlanDoor, plan: FloorPlan) -> float:
 
 def _near(door: PlanDoor, plan: FloorPlan) -> list[Surface]:
     """The surfaces that touch the opening."""
-    rows = plan.solids.query(LineString((door.start, door.end)), "dwithin", TOUCH)
+    rows = plan.solids.query(LineString((door.start, door.end)), "dwithin", DRAWING_TOLERANCE)
     return [plan.surfaces[i] for i in sorted(set(plan.owners[rows].tolist()))]
 
 
@@ -58,7 +59,7 @@ def _uncovered(door: PlanDoor, near: list[Surface]) -> float:
     """Longest stretch of the opening that no surface lies on or crosses, metres."""
     opening = LineString((door.start, door.end))
     solid = shapely.union_all([LineString(surface.points) for surface in near])
-    free = opening.difference(solid.buffer(TOUCH / 2, cap_style="flat"))
+    free = opening.difference(solid.buffer(DRAWING_TOLERANCE / 2, cap_style="flat"))
     return max((float(part.length) for part in shapely.get_parts(free)), default=0.0)
 
 
@@ -66,7 +67,9 @@ def _hung(jamb: tuple[float, float], near: list[Surface]) -> list[LineString]:
     """The leaves that start at the jamb, each directed away from it."""
     leaves = [surface.points for surface in near if surface.material is Material.LEAF]
     directed = [points for leaf in leaves for points in (leaf, leaf[::-1])]
-    return [LineString(points) for points in directed if math.dist(points[0], jamb) < TOUCH]
+    return [
+        LineString(points) for points in directed if math.dist(points[0], jamb) < DRAWING_TOLERANCE
+    ]
 
 
 def _angle(jamb: tuple[float, float], other: tuple[float, float], leaf: LineString) -> float:

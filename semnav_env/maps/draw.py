@@ -15,34 +15,38 @@ from matplotlib.transforms import Bbox, ScaledTranslation
 from shapely import Polygon, union_all
 
 from semnav_env.features.plot import check_suffix
-from semnav_env.maps.doorways import TOUCH
+from semnav_env.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.maps.draw_faults import (
     LINE_HEIGHT,
-    MARK_ROOM,
+    MARK_MARGIN,
     columns_of,
-    leave_room,
     mark,
+    widen,
     write_columns,
 )
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_env.maps.plan_fault import PlanFault
 
-COLOURS = {
+MATERIAL_COLOURS = {
     Material.WALL: "black",
     Material.GLASS: "deepskyblue",
     Material.LEAF: "saddlebrown",
     Material.FURNITURE: "grey",
 }
-TINTS = {
+"""Colours of surfaces by their material."""
+
+REGION_TINTS = {
     "rooms": "oldlace",
     "corridors": "lightsteelblue",
     "intersections": "plum",
     "areas": "honeydew",
 }
+"""Colours of regions by the attribute of `FloorPlan` that holds them."""
+
 LONGEST_SIDE = 12.0
-"""Of a picture, inches."""
-NAME_BEHIND = 0.3
-"""From a door to its name, metres."""
+"""Longest side of a picture, inches."""
+NAME_OFFSET = 0.3
+"""Distance from a door to its name, metres."""
 
 
 def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
@@ -55,7 +59,7 @@ def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
         ax: where to draw.
         names: whether to write the names of doors and regions.
     """
-    for group, tint in TINTS.items():
+    for group, tint in REGION_TINTS.items():
         for region in getattr(plan, group):
             ax.add_patch(PathPatch(_outline(region.polygon), facecolor=tint, alpha=0.6, lw=0))
     for surface in plan.surfaces:
@@ -103,7 +107,7 @@ def _free_place(text: Text, kept: Sequence[Bbox], figure: Figure) -> Bbox | None
 
 
 def save_picture(
-    plan: FloorPlan, path: str | Path, dpi: int = 100, findings: Sequence[PlanFault] = ()
+    plan: FloorPlan, path: str | Path, dpi: int = 100, faults: Sequence[PlanFault] = ()
 ) -> None:
     """Write a picture of a plan; the suffix of `path` says the format (png, svg, pdf).
 
@@ -111,7 +115,7 @@ def save_picture(
         plan: the plan.
         path: where to.
         dpi: dots per inch; the longest side is 12 inches.
-        findings: what is wrong with it: numbered circles, and what they mean below.
+        faults: what is wrong with it, drawn as numbered circles with a list below.
 
     Raises:
         ValueError: another suffix, or a folder.
@@ -120,21 +124,21 @@ def save_picture(
     west, south, east, north = plan.boundary.bounds
     inch = LONGEST_SIDE / max(east - west, north - south)
     width, height = (east - west) * inch + 1.0, (north - south) * inch + 1.0
-    columns = columns_of(findings, width)
+    columns = columns_of(faults, width)
     below = LINE_HEIGHT * (1 + max(map(len, columns), default=-1))
     figure = Figure(figsize=(width, height + below), layout="constrained")
     FigureCanvasAgg(figure)
     above: FigureBase = figure
-    if findings:
+    if faults:
         parts = figure.subfigures(2, 1, squeeze=False, height_ratios=(height, below))
         above, under = parts.flat
         write_columns(columns, under)
     ax = above.add_subplot()
-    mark(findings, ax)
+    mark(faults, ax)
     draw_floor_plan(plan, ax)
     ax.set_title(plan.name)
-    if findings:
-        leave_room(ax, MARK_ROOM / inch)
+    if faults:
+        widen(ax, MARK_MARGIN / inch)
     leave_out_overlapping(ax)
     figure.savefig(path, dpi=dpi)
 
@@ -154,7 +158,7 @@ def _name_region(region: Region, plan: FloorPlan, ax: Axes) -> None:
     """Written where no other region lies, if there is such a place."""
     others = union_all([r.polygon for r in plan.regions if r is not region])
     own = region.polygon.difference(others)
-    at = (region.polygon if own.area < TOUCH else own).representative_point()
+    at = (region.polygon if own.area < DRAWING_TOLERANCE else own).representative_point()
     style = "italic" if region.assumed else "normal"
     ax.text(at.x, at.y, region.name, size=7, style=style, color="dimgrey", ha="center")
 
@@ -164,7 +168,7 @@ def _draw_surface(surface: Surface, ax: Axes) -> None:
     if surface.material is Material.FURNITURE:
         ax.fill(x, y, facecolor="lightgrey", edgecolor="none")
     dashes = "--" if surface.assumed else "-"
-    ax.plot(x, y, dashes, color=COLOURS[surface.material], linewidth=1.5)
+    ax.plot(x, y, dashes, color=MATERIAL_COLOURS[surface.material], linewidth=1.5)
 
 
 def _draw_door(door: PlanDoor, ax: Axes) -> None:
@@ -176,7 +180,7 @@ def _name_door(door: PlanDoor, ax: Axes) -> None:
     """Behind the door, seen from its corridor."""
     (x1, y1), (x2, y2) = door.start, door.end
     right = (y2 - y1) / door.width, (x1 - x2) / door.width
-    x, y = (m + NAME_BEHIND * r for m, r in zip(door.midpoint, right, strict=True))
+    x, y = (m + NAME_OFFSET * r for m, r in zip(door.midpoint, right, strict=True))
     side = "center" if abs(right[0]) < 0.7 else "left" if right[0] > 0 else "right"
     ax.text(x, y, door.name, size=7, weight="bold", color=_colour(door), ha=side, va="center")
 

@@ -11,22 +11,28 @@ from matplotlib.transforms import offset_copy
 
 from semnav_env.maps.plan_fault import PlanFault
 
-MOST_LINES = 12
-"""Of findings below a picture before they are set in columns."""
-COLUMN_WIDTH, LINE_HEIGHT, LETTER_WIDTH = 5.5, 0.155, 0.078
-"""Of the list of findings, inches; that of letters is a little more than their mean."""
-MARK_ROOM = 0.35
-"""Around a picture with marks, inches."""
-PLATE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
-"""Behind the numbers of marks."""
+MAX_SINGLE_COLUMN = 12
+"""Largest number of faults that are listed in one column below a picture."""
+COLUMN_WIDTH = 5.5
+"""Least width of a column of the list, inches."""
+
+LINE_HEIGHT = 0.155
+"""Height of a line of the list, inches."""
+
+LETTER_WIDTH = 0.078
+"""Width that a letter of the list is given, inches: a little more than the mean."""
+MARK_MARGIN = 0.35
+"""Margin around a picture with marks, inches."""
+NUMBER_BACKGROUND = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
+"""Background of the numbers of marks, as Matplotlib takes it."""
 
 
-def mark(findings: Sequence[PlanFault], ax: Axes) -> None:
-    """A numbered circle at each finding that has a place."""
+def mark(faults: Sequence[PlanFault], ax: Axes) -> None:
+    """Draw a numbered circle at each fault that has a place."""
     beside = offset_copy(ax.transData, ax.get_figure(root=True), 6.0, 6.0, units="points")
-    for number, finding in enumerate(findings, 1):
-        if finding.where is not None:
-            x, y = finding.where
+    for number, fault in enumerate(faults, 1):
+        if fault.where is not None:
+            x, y = fault.where
             ax.plot(x, y, "o", mec="red", mfc="none", markersize=14, mew=1.8, zorder=8)
             ax.text(
                 x,
@@ -36,30 +42,30 @@ def mark(findings: Sequence[PlanFault], ax: Axes) -> None:
                 color="red",
                 weight="bold",
                 zorder=9,
-                bbox=PLATE,
+                bbox=NUMBER_BACKGROUND,
             )
 
 
-def leave_room(ax: Axes, metres: float) -> None:
-    """Around all that is drawn, so that no mark at the edge is cut off."""
+def widen(ax: Axes, metres: float) -> None:
+    """Widen the limits of the axes, so that no mark at the edge is cut off."""
     drawn = ax.dataLim
     ax.set_xlim(drawn.x0 - metres, drawn.x1 + metres)
     ax.set_ylim(drawn.y0 - metres, drawn.y1 + metres)
 
 
-def columns_of(findings: Sequence[PlanFault], width: float) -> list[list[str]]:
-    """The list of findings, numbered, in lines that are short enough; many in columns.
+def columns_of(faults: Sequence[PlanFault], width: float) -> list[list[str]]:
+    """The list of faults, numbered, broken into lines; a long list in several columns.
 
     Args:
-        findings: what is wrong with a plan.
+        faults: what is wrong with a plan.
         width: of the picture, inches.
     """
-    if not findings:
+    if not faults:
         return []
-    beside = max(1, int(width / COLUMN_WIDTH)) if len(findings) > MOST_LINES else 1
+    beside = max(1, int(width / COLUMN_WIDTH)) if len(faults) > MAX_SINGLE_COLUMN else 1
     letters = int(width / beside / LETTER_WIDTH)
-    rows = -(-len(findings) // beside)
-    written = [f"{number}  {finding}" for number, finding in enumerate(findings, 1)]
+    rows = -(-len(faults) // beside)
+    written = [f"{number}  {fault}" for number, fault in enumerate(faults, 1)]
     return [
         [
             line

@@ -40,7 +40,7 @@ class Surface:
 
     @property
     def is_closed(self) -> bool:
-        """Whether it goes around an area."""
+        """Whether it encloses an area."""
         return len(self.points) > 3 and self.points[0] == self.points[-1]
 
 
@@ -62,7 +62,7 @@ class PlanDoor:
 
     @property
     def midpoint(self) -> Point:
-        """Middle of the opening."""
+        """Middle of the opening, (x, y) in metres."""
         return self.as_door().midpoint
 
     @property
@@ -138,7 +138,7 @@ class FloorPlan:
 
     @cached_property
     def owners(self) -> NDArray[np.intp]:
-        """Which surface each row of `segments` belongs to, shape (n,)."""
+        """Index of the surface that each row of `segments` belongs to, shape (n,)."""
         counts = np.array([len(surface.points) - 1 for surface in self.surfaces], dtype=np.intp)
         return np.repeat(np.arange(len(counts)), counts)
 
@@ -149,7 +149,7 @@ class FloorPlan:
 
     @cached_property
     def furniture(self) -> STRtree:
-        """Spatial index of the areas of closed furniture, in which nothing else can be."""
+        """Spatial index of the areas that closed furniture covers."""
         closed = [
             surface.points
             for surface in self.surfaces

@@ -1,8 +1,8 @@
 """Gaps in the walls of a plan: to the outside, and out of rooms other than through their doors.
 
-A space is what one can get to without touching a wall, be a gap as small as it may. What is too
-narrow for any robot is no place, though: the hollow between the two faces of a wall, or the strip
-by which the outline of a room misses its wall.
+A space is what can be reached from a point without touching a wall, through gaps of any width. A
+space that is too narrow for every robot is no place: the hollow between the two faces of a wall, or
+the strip by which the outline of a room misses its wall.
 """
 
 from __future__ import annotations
@@ -15,43 +15,45 @@ from numpy.typing import NDArray
 from shapely import LineString, Point, Polygon, STRtree
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.maps.doorways import NARROWEST_ROBOT, TOUCH
+from semnav_env.maps.doorways import DRAWING_TOLERANCE, NARROWEST_ROBOT
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.plan_fault import PlanFault, point_in, written
 
 Lines = NDArray[np.object_] | Sequence[LineString]
 
-LINE = 0.0005
-"""Half the thickness, in metres, that walls get to tell the spaces between them apart."""
+HALF_LINE_WIDTH = 0.0005
+"""Half the thickness that walls are given to part the spaces between them, metres: next to
+nothing."""
 
-WIDEST_GAP = 2.0
-"""Where nothing else tells the inside, what walls enclose but for gaps up to this is, metres."""
+MAX_GAP = 2.0
+"""Width of the widest gap, metres. Where nothing else tells the inside, it is what the walls
+enclose when gaps up to this width are closed."""
 
-NICHE = 0.3
-"""By less than this the outline of a room only misses its wall, metres."""
+OUTLINE_ERROR = 0.3
+"""Distance by which the outline of a room may miss its wall, metres."""
 
-SHEET = WIDEST_GAP
-"""So far around the boundary lies the outside, metres."""
+OUTSIDE_MARGIN = MAX_GAP
+"""Width of the outside that is looked at around the boundary, metres."""
 
 
-def leaks(plan: FloorPlan) -> Iterator[PlanFault]:
-    """All of them."""
+def gaps(plan: FloorPlan) -> Iterator[PlanFault]:
+    """All gaps of a plan, each as a fault with its place."""
     walls = shapely.linestrings(plan.segments.reshape(-1, 2, 2))
-    thin = _thick(walls, LINE, 1)
+    thin = _thick(walls, HALF_LINE_WIDTH, 1)
     at = _way_out(plan, walls, thin)
     if at is not None:
         problem = f"one can walk out of the building at {written(at)}; close the walls"
         yield PlanFault(plan.name, problem, at)
-    yield from _leaks_of_rooms(plan, thin)
+    yield from _room_gaps(plan, thin)
 
 
 def _way_out(
     plan: FloorPlan, walls: NDArray[np.object_], thin: BaseGeometry
 ) -> tuple[float, float] | None:
-    """Where the outside and something inside are one space."""
+    """A place where the outside and something inside are one space; None if there is none."""
     outside = _outside(plan, thin)
-    near = walls[shapely.dwithin(walls, plan.boundary.exterior, 2 * TOUCH)]
-    on_walls = plan.boundary.exterior.intersection(_thick(near, 2 * TOUCH))
+    near = walls[shapely.dwithin(walls, plan.boundary.exterior, 2 * DRAWING_TOLERANCE)]
+    on_walls = plan.boundary.exterior.intersection(_thick(near, 2 * DRAWING_TOLERANCE))
     if on_walls.length > plan.boundary.exterior.length / 2:
         return _gap(outside, plan.boundary)
     ways = (_gap(outside, region.polygon) for region in plan.regions)
@@ -59,17 +61,17 @@ def _way_out(
 
 
 def _gap(outside: Polygon, inside: Polygon) -> tuple[float, float] | None:
-    """Where the outside gets into something."""
-    leak = outside.intersection(inside.buffer(-2 * TOUCH))
-    return _at(outside, inside, leak) if _fits(NARROWEST_ROBOT, leak) else None
+    """A place where the outside reaches into a region; None if it does not."""
+    part_outside = outside.intersection(inside.buffer(-2 * DRAWING_TOLERANCE))
+    return _at(outside, inside, part_outside) if _fits(NARROWEST_ROBOT, part_outside) else None
 
 
 def _gap_in_walls(plan: FloorPlan, walls: Lines, outside: Polygon) -> tuple[float, float] | None:
-    """The gap through which the outside gets into what the walls enclose but for gaps.
+    """The gap through which the outside reaches into what the walls enclose except for gaps.
 
-    Of several enclosed spaces that of the largest.
+    Where they enclose several spaces, the gap is that of the largest.
     """
-    thick = _thick(walls, WIDEST_GAP / 2)
+    thick = _thick(walls, MAX_GAP / 2)
     around = _outside(plan, thick)
     for enclosed in sorted(_spaces(plan, thick), key=lambda space: -space.area):
         if not enclosed.equals(around) and outside.intersects(enclosed):
@@ -78,54 +80,54 @@ def _gap_in_walls(plan: FloorPlan, walls: Lines, outside: Polygon) -> tuple[floa
     return None
 
 
-def _leaks_of_rooms(plan: FloorPlan, thin: BaseGeometry) -> Iterator[PlanFault]:
-    """With all doors sealed, no space may reach from a room to somewhere else."""
+def _room_gaps(plan: FloorPlan, thin: BaseGeometry) -> Iterator[PlanFault]:
+    """Places where a space reaches out of a room although all doors are sealed."""
     doors = [LineString((door.start, door.end)) for door in plan.doors]
-    spaces = STRtree(_spaces(plan, thin.union(_thick(doors, LINE, 1))))
+    spaces = STRtree(_spaces(plan, thin.union(_thick(doors, HALF_LINE_WIDTH, 1))))
     for room in plan.rooms:
-        core = room.polygon.buffer(-TOUCH)
+        core = room.polygon.buffer(-DRAWING_TOLERANCE)
         for index in sorted(spaces.query(core, "intersects").tolist()):
             space = spaces.geometries[index]
             if not _fits(NARROWEST_ROBOT, space.intersection(core)):
                 continue
-            near = shapely.clip_by_rect(space, *room.polygon.buffer(WIDEST_GAP).bounds)
-            leak = near.difference(room.polygon.buffer(TOUCH))
-            if _fits(NICHE, leak):
-                at = _at(space, room.polygon, leak)
+            near = shapely.clip_by_rect(space, *room.polygon.buffer(MAX_GAP).bounds)
+            part_outside = near.difference(room.polygon.buffer(DRAWING_TOLERANCE))
+            if _fits(OUTLINE_ERROR, part_outside):
+                at = _at(space, room.polygon, part_outside)
                 problem = f"leaks at {written(at)} other than through a door; close it"
                 yield PlanFault(room.name, problem, at)
 
 
 def _thick(lines: Lines, by: float, quad_segs: int = 16) -> BaseGeometry:
-    """What lies within a distance of lines.
+    """Everything within a distance of lines.
 
-    Thousands of thick lines are united in far less time than their union is made thick.
+    To unite thousands of thick lines takes far less time than to thicken their union.
     """
     return shapely.union_all(shapely.buffer(lines, by, quad_segs=quad_segs))
 
 
 def _fits(width: float, space: BaseGeometry) -> bool:
-    """Whether a disc so wide fits in."""
+    """Whether a disc of some width fits into a space."""
     return not space.buffer(-width / 2).is_empty
 
 
-def _at(space: Polygon, region: BaseGeometry, leak: BaseGeometry) -> tuple[float, float]:
+def _at(space: Polygon, region: BaseGeometry, part_outside: BaseGeometry) -> tuple[float, float]:
     """The middle of the widest gap through which a space crosses the edge of a region."""
     edge = shapely.line_merge(space.intersection(region.boundary))
-    gaps = [part for part in shapely.get_parts(edge) if part.length > 0.0]
-    if not gaps:
-        return point_in(leak)
-    return point_in(max(gaps, key=lambda gap: gap.length).interpolate(0.5, normalized=True))
+    crossings = [part for part in shapely.get_parts(edge) if part.length > 0.0]
+    if not crossings:
+        return point_in(part_outside)
+    return point_in(max(crossings, key=lambda part: part.length).interpolate(0.5, normalized=True))
 
 
 def _spaces(plan: FloorPlan, solid: BaseGeometry) -> list[Polygon]:
-    """The connected spaces beside what is solid, the outside among them."""
-    sheet = shapely.box(*plan.boundary.bounds).buffer(SHEET, join_style="mitre")
-    return list(shapely.get_parts(sheet.difference(solid)))
+    """The connected spaces between what is solid; the outside is one of them."""
+    around = shapely.box(*plan.boundary.bounds).buffer(OUTSIDE_MARGIN, join_style="mitre")
+    return list(shapely.get_parts(around.difference(solid)))
 
 
 def _outside(plan: FloorPlan, solid: BaseGeometry) -> Polygon:
-    """The space that holds the corner of the sheet."""
+    """The space that holds the south-west corner of the area looked at."""
     west, south, _, _ = plan.boundary.bounds
-    corner = Point(west - 0.95 * SHEET, south - 0.95 * SHEET)
+    corner = Point(west - 0.95 * OUTSIDE_MARGIN, south - 0.95 * OUTSIDE_MARGIN)
     return next(space for space in _spaces(plan, solid) if space.contains(corner))

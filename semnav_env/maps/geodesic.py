@@ -1,4 +1,4 @@
-"""Shortest ways through a floor plan, on a grid: for rewards and for comparing path lengths."""
+"""Shortest ways through a floor plan on a grid, for rewards, routes and measures of paths."""
 
 from __future__ import annotations
 
@@ -18,27 +18,28 @@ from semnav_env.features.kernels.grid_search import descent, least_costs
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.nearness import clear_near
 
-SPACING = 0.1
-"""Of the grid, metres."""
+GRID_SPACING = 0.1
+"""Distance between the points of the grid, metres."""
 
 CLEARANCE = 0.2
-"""The way of the robot's centre keeps this far from everything solid, metres."""
+"""Distance that the way of the robot's centre keeps from everything solid, metres: a door of 0.8 m
+stays passable."""
 
-DISCOMFORT = 3.0
-"""Right beside something solid a comfortable way counts so many times its length more."""
+DISCOMFORT_FACTOR = 3.0
+"""Extra cost of a comfortable way right beside something solid, in multiples of its length."""
 
-KEPT = 64
-"""Goals whose distances are kept: doors come up again and again, but memory has an end."""
+MAX_KEPT_GOALS = 64
+"""Number of goals whose distances are kept: doors come up again and again, but memory is finite."""
 
 
 class Geodesic:
     """Shortest ways of a robot's centre in one floor plan, each computed when it is asked for.
 
     Args:
-        floor_plan: where.
-        comfort: how far from everything solid ways would rather keep, metres. Nearer to it they
-            count for more, so that they run in the middle of corridors; 0 for the shortest ways.
-        clearance: from everything solid that every way keeps, metres.
+        floor_plan: the plan.
+        comfort: distance from everything solid that ways prefer to keep, metres. Nearer to it they
+            cost more, so that they run in the middle of corridors; 0 for the shortest ways.
+        clearance: distance from everything solid that every way keeps, metres.
     """
 
     def __init__(
@@ -49,8 +50,8 @@ class Geodesic:
         self._floor_plan = floor_plan
         self._comfort, self._clearance = comfort, clearance
         self._shape = (
-            math.ceil((north - south) / SPACING) + 1,
-            math.ceil((east - west) / SPACING) + 1,
+            math.ceil((north - south) / GRID_SPACING) + 1,
+            math.ceil((east - west) / GRID_SPACING) + 1,
         )
         self._known: dict[tuple[int, int], FloatArray] = {}
 
@@ -59,59 +60,65 @@ class Geodesic:
         return WaysTo(goal, self)
 
     def distances_to(self, goal: Point) -> FloatArray:
-        """Of every cell of the grid, metres; those to the last `KEPT` goals are kept."""
+        """Cost of the way from every cell of the grid to a goal, metres, shape (rows, columns).
+
+        The arrays of the last `MAX_KEPT_GOALS` goals are kept. Cells without a way are infinite.
+        """
         row, column = self._cell(goal)
         known = self._known.pop((row, column), None)
         if known is None:
-            source, diagonal = np.array([(row, column)]), SPACING * math.hypot(1, 1)
-            known = least_costs(source, np.zeros(1), self._weight, SPACING, diagonal, True)
+            source, diagonal = np.array([(row, column)]), GRID_SPACING * math.hypot(1, 1)
+            known = least_costs(source, np.zeros(1), self._weight, GRID_SPACING, diagonal, True)
         self._known[row, column] = known  # the latest one is the last to go
-        if len(self._known) > KEPT:
+        if len(self._known) > MAX_KEPT_GOALS:
             del self._known[next(iter(self._known))]
         return known
 
     def _cell(self, point: Point) -> tuple[int, int]:
         """The nearest free cell (row, column)."""
         rows, columns = np.nonzero(self.free)
-        dx = self.origin[0] + SPACING * columns - point[0]
-        dy = self.origin[1] + SPACING * rows - point[1]
+        dx = self.origin[0] + GRID_SPACING * columns - point[0]
+        dy = self.origin[1] + GRID_SPACING * rows - point[1]
         nearest = int(np.argmin(dx * dx + dy * dy))
         return int(rows[nearest]), int(columns[nearest])
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
-        """Where the robot's centre may be, one value per cell (row, column) of the grid."""
+        """Whether the robot's centre may be in each cell, shape (rows, columns)."""
         floor_plan = self._floor_plan
         rows, columns = np.indices(self._shape)
-        x = self.origin[0] + SPACING * columns
-        y = self.origin[1] + SPACING * rows
+        x = self.origin[0] + GRID_SPACING * columns
+        y = self.origin[1] + GRID_SPACING * rows
         free = np.asarray(shapely.contains_xy(floor_plan.boundary, x, y), dtype=bool)
         reach = self._clearance - 1e-9  # what is exactly so far away is free
-        clear_near(free, floor_plan.segments, *self.origin, SPACING, reach)
+        clear_near(free, floor_plan.segments, *self.origin, GRID_SPACING, reach)
         for piece in floor_plan.furniture.geometries:
             self._block_inside(free, piece)
         return free
 
     def _block_inside(self, free: NDArray[np.bool_], piece: Polygon) -> None:
-        """No way begins or ends inside a piece of furniture."""
+        """Clear the cells inside a piece of furniture: no way begins or ends there."""
         west, south, east, north = piece.bounds
         rows, columns = (
             np.arange(
-                math.ceil((low - origin) / SPACING), math.floor((high - origin) / SPACING) + 1
+                math.ceil((low - origin) / GRID_SPACING),
+                math.floor((high - origin) / GRID_SPACING) + 1,
             )
             for low, high, origin in ((south, north, self.origin[1]), (west, east, self.origin[0]))
         )
-        x, y = np.meshgrid(self.origin[0] + SPACING * columns, self.origin[1] + SPACING * rows)
+        x, y = np.meshgrid(
+            self.origin[0] + GRID_SPACING * columns, self.origin[1] + GRID_SPACING * rows
+        )
         row, column = np.nonzero(shapely.contains_xy(piece, x, y))
         free[rows[row], columns[column]] = False
 
     @cached_property
     def _weight(self) -> FloatArray:
-        """How many times its length a way counts in each cell; infinite where none leads."""
+        """Cost of a metre of way in each cell; infinite where no way leads."""
         weight = np.where(self.free, 1.0, np.inf)
         if self._comfort:
-            room = self._clearance + SPACING * distance_transform_edt(self.free)
-            weight += DISCOMFORT * np.clip(1.0 - room / self._comfort, 0.0, 1.0)
+            room = self._clearance + GRID_SPACING * distance_transform_edt(self.free)
+            weight += DISCOMFORT_FACTOR * np.clip(1.0 - room / self._comfort, 0.0, 1.0)
         return weight
 
 
@@ -121,7 +128,7 @@ class WaysTo:
 
     Attributes:
         goal: (x, y) in metres.
-        geodesic: of the floor plan.
+        geodesic: shortest ways of the floor plan.
     """
 
     goal: Point
@@ -129,21 +136,21 @@ class WaysTo:
 
     @cached_property
     def distances(self) -> FloatArray:
-        """Of every cell of the grid from the goal, metres."""
+        """Cost of the way from every cell of the grid to the goal, metres."""
         return self.geodesic.distances_to(self.goal)
 
     def length(self, start: Point) -> float:
         """Length of the shortest way from `start`, metres; infinite if there is none."""
-        return float(_read(self.distances, *self.geodesic.origin, SPACING, *start))
+        return float(_read(self.distances, *self.geodesic.origin, GRID_SPACING, *start))
 
     def way(self, start: Point) -> FloatArray:
         """The shortest way from `start` as points, shape (k, 2)."""
         west, south = self.geodesic.origin
-        row = round((start[1] - south) / SPACING)
-        column = round((start[0] - west) / SPACING)
+        row = round((start[1] - south) / GRID_SPACING)
+        column = round((start[0] - west) / GRID_SPACING)
         first = _nearest_reached(self.distances, row, column)
         cells = descent(self.distances, *first, self.distances.size)
-        inner = np.array((west, south)) + SPACING * cells[:, ::-1]
+        inner = np.array((west, south)) + GRID_SPACING * cells[:, ::-1]
         return np.vstack((start, inner[1:-1], self.goal))
 
 
@@ -151,7 +158,7 @@ class WaysTo:
 def _read(
     field: FloatArray, west: float, south: float, spacing: float, x: float, y: float
 ) -> float:
-    """The distance at a point: over the best of the nearest nine cells."""
+    """The distance at a point by way of the best of the nearest nine cells, metres."""
     row, column = round((y - south) / spacing), round((x - west) / spacing)
     best = np.inf
     for r in range(max(row - 1, 0), min(row + 2, field.shape[0])):

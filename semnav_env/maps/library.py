@@ -8,23 +8,26 @@ from pathlib import Path
 from rapidfuzz import process
 
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.generator.naming import PREFIX, office_named
+from semnav_env.maps.generator.naming import OFFICE_PREFIX, office_named
 from semnav_env.maps.reader import read_plan
 from semnav_env.maps.rules import FloorPlanError, check_plan
 
-LONGEST_PATH = 4096
-KEPT_OFFICES = 64
-"""So many generated offices are kept, those used last."""
+MAX_PATH_LENGTH = 4096
+"""Length of the longest path, characters, as on Linux."""
 
-KEPT_FILES = 16
-"""So many plans of files are kept, those used last."""
+MAX_KEPT_OFFICES = 64
+"""Number of generated offices that are kept in memory, those used last."""
 
-BUNDLED = Path(__file__).with_name("bundled")
+MAX_KEPT_FILES = 16
+"""Number of plans read from files that are kept in memory, those used last."""
+
+BUNDLED_FOLDER = Path(__file__).with_name("bundled")
+"""Folder of the floor plans that come with the package."""
 
 
 def bundled_names() -> tuple[str, ...]:
     """Names of the floor plans that come with the package, sorted."""
-    return tuple(sorted(path.stem for path in BUNDLED.glob("*.geojson")))
+    return tuple(sorted(path.stem for path in BUNDLED_FOLDER.glob("*.geojson")))
 
 
 def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
@@ -42,7 +45,7 @@ def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
         return plan
     if isinstance(plan, str) and plan in bundled_names():
         return _bundled(plan)
-    if isinstance(plan, str) and plan.split(":")[0] == PREFIX:
+    if isinstance(plan, str) and plan.split(":")[0] == OFFICE_PREFIX:
         return _office(plan)
     if not isinstance(plan, str | Path):
         raise FloorPlanError(f"a floor plan is a name, a path or a FloorPlan, not {plan!r:.80}")
@@ -60,17 +63,17 @@ def _at(path: Path) -> FloorPlan:
     return _unchanged(path, (told.st_dev, told.st_ino, told.st_size, told.st_mtime_ns))
 
 
-@lru_cache(maxsize=KEPT_FILES)
+@lru_cache(maxsize=MAX_KEPT_FILES)
 def _unchanged(path: Path, state: tuple[int, ...]) -> FloorPlan:
     return read_plan(path)
 
 
 @cache
 def _bundled(name: str) -> FloorPlan:
-    return read_plan(BUNDLED / f"{name}.geojson")
+    return read_plan(BUNDLED_FOLDER / f"{name}.geojson")
 
 
-@lru_cache(maxsize=KEPT_OFFICES)
+@lru_cache(maxsize=MAX_KEPT_OFFICES)
 def _office(name: str) -> FloorPlan:
     try:
         return office_named(name)
@@ -79,8 +82,8 @@ def _office(name: str) -> FloorPlan:
 
 
 def _is_path(text: str) -> bool:
-    """Anything with a folder or a suffix, and what lies in this folder under that name."""
-    if len(text) > LONGEST_PATH or not set(text).isdisjoint("\0\n\r"):
+    """Whether a text is a path: it has a folder or a suffix, or names a file that is here."""
+    if len(text) > MAX_PATH_LENGTH or not set(text).isdisjoint("\0\n\r"):
         return False
     return "/" in text or bool(Path(text).suffix) or text in map(str, Path().iterdir())
 
@@ -89,5 +92,5 @@ def _unknown(name: str) -> str:
     names = bundled_names()
     near = process.extractOne(name[:80], names, score_cutoff=60)
     hint = f"; did you mean {near[0]}?" if near else ""
-    others = f"{PREFIX}:medium:17 (a generated one) or a path"
+    others = f"{OFFICE_PREFIX}:medium:17 (a generated one) or a path"
     return f"no floor plan named {name[:80]!r}; there are: {', '.join(names)}, {others}{hint}"

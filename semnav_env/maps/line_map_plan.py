@@ -1,4 +1,4 @@
-"""From a map of lines to a floor plan that every rule of floor plans holds for."""
+"""Makes a floor plan that keeps all rules of floor plans from a map of lines."""
 
 from __future__ import annotations
 
@@ -10,18 +10,24 @@ from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features.elements import Door
 from semnav_env.features.scene import Scene
-from semnav_env.maps.doorways import NARROWEST_ROBOT, TOUCH, DoorState, clear_width, door_state
+from semnav_env.maps.doorways import (
+    DRAWING_TOLERANCE,
+    NARROWEST_ROBOT,
+    DoorState,
+    clear_width,
+    door_state,
+)
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Surface
 from semnav_env.maps.rules import FloorPlanError
 
-_MARGIN = 0.5
-"""From the outermost wall to the boundary, metres."""
+_BOUNDARY_MARGIN = 0.5
+"""Distance from the outermost wall to the boundary, metres."""
 
-_SHORTEST = 0.02
-"""What is left of a wall beside a door is kept from this length on, metres."""
+_LEAST_REMNANT = 0.02
+"""Length from which on what a doorway leaves of a wall is kept, metres."""
 
-_JAMB_REACH = 0.4
-"""A jamb this near to a wall is joined to it by a stretch that is marked as assumed, metres."""
+_MAX_JAMB_GAP = 0.4
+"""Largest gap between a jamb and a wall that is closed by an assumed stretch of wall, metres."""
 
 
 def plan_of_scene(scene: Scene, name: str, source: str = "") -> FloorPlan:
@@ -60,13 +66,13 @@ def _plan(
     name: str, surfaces: Sequence[Surface], doors: Sequence[PlanDoor], source: str
 ) -> FloorPlan:
     solid = shapely.multilinestrings([LineString(surface.points) for surface in surfaces])
-    boundary: Polygon = shapely.box(*solid.buffer(_MARGIN).bounds)
+    boundary: Polygon = shapely.box(*solid.buffer(_BOUNDARY_MARGIN).bounds)
     return FloorPlan(name, tuple(surfaces), tuple(doors), (), (), (), boundary, source)
 
 
 def _opening(door: Door) -> BaseGeometry:
-    """What must be free for a door to be open: its chord, as wide as things that touch it."""
-    return LineString((door.start, door.end)).buffer(TOUCH, cap_style="flat")
+    """The strip along a door's chord that must be free for the door to be open."""
+    return LineString((door.start, door.end)).buffer(DRAWING_TOLERANCE, cap_style="flat")
 
 
 def _cut(walls: Sequence[LineString], openings: Sequence[BaseGeometry]) -> list[LineString]:
@@ -76,19 +82,19 @@ def _cut(walls: Sequence[LineString], openings: Sequence[BaseGeometry]) -> list[
     for wall in walls:
         near = [openings[k] for k in tree.query(wall)]
         rest = wall.difference(shapely.union_all(near)) if near else wall
-        pieces += [part for part in shapely.get_parts(rest) if part.length > _SHORTEST]
+        pieces += [part for part in shapely.get_parts(rest) if part.length > _LEAST_REMNANT]
     return pieces
 
 
 def _stubs(door: Door, walls: Sequence[LineString]) -> list[LineString] | None:
-    """What joins the jambs to the walls beside them; None where there is no such wall."""
+    """The stretches that join the jambs to the walls beside them; None without such walls."""
     solid = shapely.multilinestrings(list(walls))
     stubs: list[LineString] = []
     for jamb in (door.start, door.end):
         stub = shapely.shortest_line(Point(jamb), solid)
-        if not stub.length <= _JAMB_REACH:
+        if not stub.length <= _MAX_JAMB_GAP:
             return None
-        if stub.length > TOUCH / 2:
+        if stub.length > DRAWING_TOLERANCE / 2:
             stubs.append(stub)
     return stubs
 

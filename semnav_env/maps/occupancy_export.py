@@ -16,17 +16,25 @@ from PIL import Image
 
 from semnav_env.features.frames import Point
 from semnav_env.maps.floor_plan import FloorPlan, Material
-from semnav_env.maps.importers.labels import ALL_DOORS, DOORS, KINDS, PLACES
+from semnav_env.maps.importers.labels import ALL_DOORS, DOORS_FILE, PLACE_KINDS, PLACES_FILE
 from semnav_env.maps.importers.raster import MAX_PIXELS
 from semnav_env.maps.nearness import clear_near
 from semnav_env.maps.rules import FloorPlanError
 
-SOLID, FREE, UNKNOWN = 0, 254, 205
-"""Brightness of pixels, as map_saver writes them."""
+SOLID_GREY = 0
+"""Brightness of solid pixels, as map_saver writes them."""
 
-IMAGES = (".pgm", ".png")
+FREE_GREY = 254
+"""Brightness of free pixels, as map_saver writes them."""
 
-BORDER = 2
+UNKNOWN_GREY = 205
+"""Brightness of unknown pixels, as map_saver writes them."""
+
+IMAGE_SUFFIXES = (".pgm", ".png")
+"""Formats that the image can be written in."""
+
+
+BORDER_PIXELS = 2
 """Pixels between the boundary and the edge of the image."""
 
 
@@ -92,8 +100,8 @@ def export_map(
     pixels = draw_pixels(plan, resolution)
     picture, doors, places = (
         where.with_suffix(image),
-        where.with_name(DOORS),
-        where.with_name(PLACES),
+        where.with_name(DOORS_FILE),
+        where.with_name(PLACES_FILE),
     )
     where.parent.mkdir(parents=True, exist_ok=True)
     Image.fromarray(pixels.grey).save(picture)
@@ -122,8 +130,8 @@ def draw_pixels(plan: FloorPlan, resolution: float) -> PixelPlan:
     if not (math.isfinite(resolution) and 0.001 <= resolution <= 10.0):
         raise FloorPlanError(f"resolution is {resolution}; it must be 0.001 to 10 metres a pixel")
     west, south, east, north = plan.boundary.bounds
-    first = [math.floor(low / resolution) - BORDER for low in (west, south)]
-    last = [math.ceil(high / resolution) + BORDER for high in (east, north)]
+    first = [math.floor(low / resolution) - BORDER_PIXELS for low in (west, south)]
+    last = [math.ceil(high / resolution) + BORDER_PIXELS for high in (east, north)]
     columns, rows = (b - a + 1 for a, b in zip(first, last, strict=True))
     if columns * rows > MAX_PIXELS:
         coarse = resolution * math.sqrt(columns * rows / MAX_PIXELS)
@@ -138,7 +146,7 @@ def draw_pixels(plan: FloorPlan, resolution: float) -> PixelPlan:
     row, column = np.indices(clear.shape)
     x, y = left + resolution * column, bottom + resolution * row
     inside = shapely.contains_xy(plan.boundary, x, y)
-    grey = np.where(clear, np.where(inside, FREE, UNKNOWN), SOLID).astype(np.uint8)
+    grey = np.where(clear, np.where(inside, FREE_GREY, UNKNOWN_GREY), SOLID_GREY).astype(np.uint8)
     origin = left - 0.5 * resolution, bottom - 0.5 * resolution
     return PixelPlan(np.flipud(grey).copy(), origin, resolution)
 
@@ -146,11 +154,11 @@ def draw_pixels(plan: FloorPlan, resolution: float) -> PixelPlan:
 def _check(where: Path, image: str) -> None:
     if where.suffix.lower() not in (".yaml", ".yml"):
         raise FloorPlanError(f"{where}: a map's name ends in .yaml")
-    if image not in IMAGES:
-        raise FloorPlanError(f"image is {image!r}; it is one of {', '.join(IMAGES)}")
-    if where.name in (DOORS, PLACES):
+    if image not in IMAGE_SUFFIXES:
+        raise FloorPlanError(f"image is {image!r}; it is one of {', '.join(IMAGE_SUFFIXES)}")
+    if where.name in (DOORS_FILE, PLACES_FILE):
         raise FloorPlanError(f"{where}: that name is of the labels; give another one")
-    labels = [where.with_name(name) for name in (DOORS, PLACES)]
+    labels = [where.with_name(name) for name in (DOORS_FILE, PLACES_FILE)]
     if not where.exists() and (there := [str(file) for file in labels if file.exists()]):
         raise FloorPlanError(
             f"{there[0]}: labels of another map are there; export into a folder of its own"
@@ -184,7 +192,9 @@ def _door_rows(plan: FloorPlan) -> list[dict[str, Any]]:
 
 
 def _place_rows(plan: FloorPlan, pixels: PixelPlan) -> dict[str, Any]:
-    kinds = zip(KINDS, (plan.rooms, plan.corridors, plan.intersections, plan.areas), strict=True)
+    kinds = zip(
+        PLACE_KINDS, (plan.rooms, plan.corridors, plan.intersections, plan.areas), strict=True
+    )
     places = [(kind, place) for kind, regions in kinds for place in regions]
     rings = [
         [
@@ -203,7 +213,7 @@ def _place_rows(plan: FloorPlan, pixels: PixelPlan) -> dict[str, Any]:
 
 
 def _left_out(plan: FloorPlan) -> tuple[str, ...]:
-    """Solid things of which a map says no more than that they are solid."""
+    """Kinds of solid things that the map cannot tell from walls, one line each."""
     counts = Counter(surface.material for surface in plan.surfaces)
     named = {
         Material.GLASS: "panes of glass",

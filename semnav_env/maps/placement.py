@@ -1,4 +1,4 @@
-"""Where a robot can stand."""
+"""Poses at which a robot can stand in a floor plan."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from semnav_env.features.frames import Point, Pose, points_to_parent
 from semnav_env.maps.floor_plan import FloorPlan, Region
 from semnav_env.robots import RobotSpec, robot_spec
 
-TRIES = 2000
+MAX_DRAWS = 2000
+"""Largest number of poses drawn before a region counts as full."""
 
 
 def footprint(robot: RobotSpec, pose: Pose) -> Polygon:
@@ -54,7 +55,7 @@ def sample_pose(
 
     Args:
         plan: the plan.
-        robot: what should stand there.
+        robot: its footprint must lie in the boundary and touch nothing solid.
         rng: source of randomness.
         region: where its centre should be; any corridor by default.
         margin: metres to keep free all around it.
@@ -66,7 +67,7 @@ def sample_pose(
     if area.is_empty:
         raise ValueError(f"{plan.name} has no corridor to start in; name a region or a pose")
     west, south, east, north = area.bounds
-    for _ in range(TRIES):
+    for _ in range(MAX_DRAWS):
         x, y, heading = rng.uniform((west, south, -math.pi), (east, north, math.pi)).tolist()
         inside = bool(shapely.contains_xy(area, x, y))
         if inside and _problem(plan, robot, (x, y, heading), margin) is None:
@@ -100,7 +101,7 @@ def _touched(plan: FloorPlan, body: Polygon) -> str | None:
 
 
 def is_clear(plan: FloorPlan, point: Point, radius: float) -> bool:
-    """Whether nothing solid is within `radius` metres of a point of the plan, and it in none."""
+    """Whether a point lies in no furniture and nothing solid is within `radius` metres of it."""
     place = shapely.Point(point)
     near = plan.solids.query(place, predicate="dwithin", distance=radius)
     return len(near) == 0 and len(plan.furniture.query(place, predicate="covered_by")) == 0

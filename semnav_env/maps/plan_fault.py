@@ -11,12 +11,12 @@ from semnav_env.features.frames import Point
 
 @dataclass(frozen=True)
 class PlanFault:
-    """Something that a maker of plans would want to mend.
+    """Something in a plan that its author should mend.
 
     Attributes:
-        part: the door, region or plan it is about.
+        part: name of the door or region that has the fault, or of the plan.
         problem: what is wrong with it.
-        where: a place to look at, (x, y) in metres, if there is one.
+        where: place of the fault, (x, y) in metres; None if it has none.
     """
 
     part: str
@@ -28,11 +28,11 @@ class PlanFault:
 
 
 def point_in(geometry: BaseGeometry) -> Point:
-    """A place in a geometry, metres."""
+    """A point that lies in a geometry, (x, y) in metres."""
     point = geometry.representative_point()
     return point.x, point.y
 
 
 def written(point: Point) -> str:
-    """As "(1.20, 3.40)"."""
+    """The text of a point, as "(1.20, 3.40)"."""
     return f"({point[0]:.2f}, {point[1]:.2f})"

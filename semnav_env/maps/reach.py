@@ -1,8 +1,9 @@
-"""Where a body of some length and width can get to in a floor plan, whichever way it must turn.
+"""Places that a rectangular body can reach in a floor plan, turning where it must.
 
-The rectangle's centre lies on a grid and its heading is one of a few; from one such place it moves
-to the next cell or the next heading. Everything solid is drawn onto the same grid, and a body
-covers every cell that it touches: what is found reachable is so with a few centimetres to spare.
+A flood fill over poses: the centre of the rectangle lies on a grid and its heading is one of a few;
+from a pose it moves to the next cell or the next heading. Everything solid is drawn onto the same
+grid, and a body covers every cell that it touches, so a place that is found reachable is so with a
+few centimetres to spare.
 """
 
 from __future__ import annotations
@@ -19,27 +20,27 @@ from shapely.geometry.base import BaseGeometry
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.floor_plan import FloorPlan
 
-SPACING = 0.05
-"""Of the grid, metres."""
+REACH_SPACING = 0.05
+"""Distance between the points of the grid, metres."""
 
-HEADINGS = 12
-"""Over half a turn: a rectangle looks the same from behind."""
+HEADING_COUNT = 12
+"""Number of headings over half a turn: a rectangle looks the same from behind."""
 
-PAD = 4
+BORDER_CELLS = 4
 """Cells around the plan that nothing reaches."""
 
-MOST_CELLS = 6_000_000
-"""Of the grid; larger plans get a coarser one."""
+MAX_CELLS = 6_000_000
+"""Largest number of cells of the grid; a larger plan gets a coarser one."""
 
 
 @dataclass(frozen=True, eq=False)
 class Reach:
-    """Where the centre of a body can get to from a place.
+    """Cells that the centre of a body can reach.
 
     Attributes:
-        cells: whether it can, in some heading, shape (rows, columns).
-        origin: of the first cell's middle, metres.
-        spacing: of the cells, metres.
+        cells: whether the centre can be there in some heading, shape (rows, columns).
+        origin: middle of the first cell, (x, y) in metres.
+        spacing: distance between the middles of cells, metres.
     """
 
     cells: NDArray[np.bool_]
@@ -47,7 +48,7 @@ class Reach:
     spacing: float
 
     def near(self, place: BaseGeometry, within: float = 0.0) -> bool:
-        """Whether the centre gets to within so many metres of a place, but for half a cell."""
+        """Whether the centre gets within a distance of a place, metres, up to half a cell."""
         area = place.buffer(max(within, 0.75 * self.spacing))
         west, south, east, north = area.bounds
         first_column, first_row = self._cell(west, south)
@@ -68,26 +69,26 @@ def reach(
     plan: FloorPlan,
     length: float,
     width: float,
-    spacing: float = SPACING,
-    headings: int = HEADINGS,
+    spacing: float = REACH_SPACING,
+    headings: int = HEADING_COUNT,
 ) -> Reach:
-    """Where a rectangular body gets to from the middle of the largest corridor.
+    """The cells that a rectangular body reaches from the middle of the largest corridor.
 
-    Without corridors it starts in the middle of the boundary.
+    In a plan without corridors it starts in the middle of the boundary.
 
     Args:
-        plan: where.
+        plan: the floor plan.
         length: of the body, metres.
         width: of the body, metres.
-        spacing: of the grid, metres; that of a very large plan is coarser.
-        headings: that the body may have, evenly spread over half a turn.
+        spacing: of the grid, metres; a very large plan gets a coarser one.
+        headings: number of headings of the body, evenly spread over half a turn.
     """
     west, south, east, north = plan.boundary.bounds
-    spacing = max(spacing, math.sqrt((east - west) * (north - south) / MOST_CELLS))
-    origin = west - PAD * spacing, south - PAD * spacing
+    spacing = max(spacing, math.sqrt((east - west) * (north - south) / MAX_CELLS))
+    origin = west - BORDER_CELLS * spacing, south - BORDER_CELLS * spacing
     shape = (
-        math.ceil((north - south) / spacing) + 2 * PAD,
-        math.ceil((east - west) / spacing) + 2 * PAD,
+        math.ceil((north - south) / spacing) + 2 * BORDER_CELLS,
+        math.ceil((east - west) / spacing) + 2 * BORDER_CELLS,
     )
     blocked = _drawn(plan.segments, *origin, spacing, *shape)
     start = _start(plan)
@@ -108,11 +109,11 @@ def _start(plan: FloorPlan) -> Point:
 def _footprints(
     length: float, width: float, spacing: float, headings: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """The cells that a body touches in each heading, as runs along the rows.
+    """The cells that a body touches in each heading, as runs of cells along the rows.
 
     Returns:
-        Where the runs of each heading begin in the other three; the row, the first column and the
-        length of each run, relative to the cell of the centre.
+        For each heading the index of its first run, shape (headings + 1,); then for each run its
+        row and first column, relative to the cell of the centre, and its length in cells.
     """
     starts, runs = [0], []
     half = math.ceil(math.hypot(length, width) / 2 / spacing) + 1
@@ -141,7 +142,7 @@ def _footprints(
 def _drawn(
     segments: FloatArray, west: float, south: float, spacing: float, rows: int, columns: int
 ) -> NDArray[np.bool_]:
-    """The cells that something solid passes through; those at the rim count as solid."""
+    """The cells that something solid passes through; the cells at the rim are solid too."""
     blocked = np.zeros((rows, columns), dtype=np.bool_)
     blocked[:2] = blocked[-2:] = True
     blocked[:, :2] = blocked[:, -2:] = True
@@ -168,17 +169,20 @@ def _flood(
     row: int,
     column: int,
 ) -> NDArray[np.bool_]:
-    """The cells that the centre gets to.
+    """The cells that the centre reaches, by a flood fill over cells and headings.
+
+    Where nothing solid is within `far` cells, all headings are free and only the cell is noted;
+    elsewhere each heading is a state of its own.
 
     Args:
         blocked: the solid cells.
-        starts: see `_footprints`.
-        run_rows: see there.
-        run_firsts: see there.
-        run_lengths: see there.
-        far: where the next solid cell is farther, every heading is free.
-        row: of the start.
-        column: of the start.
+        starts: index of the first run of each heading, as `_footprints` gives it.
+        run_rows: rows of the runs, as `_footprints` gives them.
+        run_firsts: first columns of the runs.
+        run_lengths: lengths of the runs, cells.
+        far: distance of the next solid cell beyond which every heading is free, cells.
+        row: row of the start.
+        column: column of the start.
     """
     rows, columns = blocked.shape
     headings = len(starts) - 1
@@ -217,7 +221,7 @@ def _flood(
 
 @njit(cache=True, error_model="numpy")
 def _free_ahead(blocked: NDArray[np.bool_]) -> NDArray[np.int16]:
-    """How many cells are free from each one on to the right, itself included."""
+    """How many successive cells are free from each cell to the right, itself included."""
     rows, columns = blocked.shape
     ahead = np.zeros((rows, columns), dtype=np.int16)
     for r in range(rows):
@@ -230,7 +234,11 @@ def _free_ahead(blocked: NDArray[np.bool_]) -> NDArray[np.int16]:
 
 @njit(cache=True, error_model="numpy")
 def _wide(blocked: NDArray[np.bool_], far: int) -> NDArray[np.bool_]:
-    """The cells with nothing solid in the square that reaches `far` cells to all sides."""
+    """Whether nothing solid is in the square of `far` cells to all sides of each cell.
+
+    `total` is the summed-area table of the solid cells: the count in any rectangle is a sum of
+    four of its entries.
+    """
     rows, columns = blocked.shape
     total = np.zeros((rows + 1, columns + 1), dtype=np.int32)
     for r in range(rows):

@@ -1,4 +1,4 @@
-"""What a plan promises a robot: its open doors, the rooms behind them, its corridors' ends."""
+"""Parts of a plan that a robot cannot reach: open doors, rooms behind them, ends of corridors."""
 
 from __future__ import annotations
 
@@ -9,53 +9,59 @@ import shapely
 from shapely import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.maps.doorways import TOUCH, clear_width
+from semnav_env.maps.doorways import DRAWING_TOLERANCE, clear_width
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.maps.plan_fault import PlanFault, point_in
-from semnav_env.maps.reach import HEADINGS, SPACING, Reach, reach
+from semnav_env.maps.reach import HEADING_COUNT, REACH_SPACING, Reach, reach
 from semnav_env.robots import RobotSpec
 
-SEARCHES = ((SPACING, HEADINGS), (SPACING / 2, 2 * HEADINGS))
-"""Spacing of the grid, metres, and headings; the finer search is for what the first one misses."""
+SEARCH_GRIDS = ((REACH_SPACING, HEADING_COUNT), (REACH_SPACING / 2, 2 * HEADING_COUNT))
+"""Spacing, metres, and number of headings of each search; the finer one is for what the first one
+misses."""
 
-END = 1.0
-"""A corridor promises its middle so far before its end, metres, as in "the end of the hall"."""
+END_DISTANCE = 1.0
+"""Distance from the end of a corridor to the place that must be reachable, metres, as a robot that
+drives "to the end" stops before the wall."""
 
-AT_END = 0.6
-"""So near to that its end is reached, metres."""
+END_TOLERANCE = 0.6
+"""Distance at which that place counts as reached, metres."""
 
 
-def broken_promises(plan: FloorPlan, robot: RobotSpec) -> list[PlanFault]:
-    """What a robot cannot reach from the middle of the largest corridor.
+def unreachable_parts(plan: FloorPlan, robot: RobotSpec) -> list[PlanFault]:
+    """Doors, rooms and corridors that a robot cannot reach from the middle of the largest corridor.
 
     An open door is reached when the robot's centre gets onto its line; a room with an open door,
     when the whole robot gets in, though it may have to back out; a corridor, when its centre gets
-    near both ends. Nothing is promised behind closed doors.
+    near both ends. What lies behind closed doors need not be reachable.
     """
-    findings: list[PlanFault] = []
-    for spacing, headings in SEARCHES:
-        way = reach(plan, robot.length, robot.width, spacing, headings)
-        findings = list(_unreached(plan, robot, way))
-        if not findings:
+    faults: list[PlanFault] = []
+    for spacing, headings in SEARCH_GRIDS:
+        area = reach(plan, robot.length, robot.width, spacing, headings)
+        faults = list(_unreached(plan, robot, area))
+        if not faults:
             break
-    return findings
+    return faults
 
 
-def _unreached(plan: FloorPlan, robot: RobotSpec, way: Reach) -> Iterator[PlanFault]:
+def _unreached(plan: FloorPlan, robot: RobotSpec, area: Reach) -> Iterator[PlanFault]:
     body = f"a {robot.name} ({robot.length} m x {robot.width} m)"
-    if not way.cells.any():
+    if not area.cells.any():
         yield PlanFault(plan.name, f"{body} cannot stand in the middle of the largest corridor")
         return
     for door in plan.doors:
-        if door.open and not way.near(_line(door)):
+        if door.open and not area.near(_line(door)):
             yield PlanFault(door.name, _of_door(door, plan, robot, body), door.midpoint)
     for room in plan.rooms:
-        opens = [d for d in plan.doors if d.open and room.polygon.dwithin(_line(d).centroid, TOUCH)]
-        if opens and not way.near(_inside(room, opens, robot)):
+        opens = [
+            d
+            for d in plan.doors
+            if d.open and room.polygon.dwithin(_line(d).centroid, DRAWING_TOLERANCE)
+        ]
+        if opens and not area.near(_inside(room, opens, robot)):
             yield PlanFault(room.name, f"{body} cannot get into this room", point_in(room.polygon))
     for corridor in plan.corridors:
         for end in _ends(corridor.polygon):
-            if not way.near(end, AT_END):
+            if not area.near(end, END_TOLERANCE):
                 problem = f"{body} cannot get to this end of the corridor"
                 yield PlanFault(corridor.name, problem, point_in(end))
 
@@ -68,7 +74,7 @@ def _of_door(door: PlanDoor, plan: FloorPlan, robot: RobotSpec, body: str) -> st
 
 
 def _inside(room: Region, doors: list[PlanDoor], robot: RobotSpec) -> BaseGeometry:
-    """Where the centre of a robot is that has come in as a whole."""
+    """Where the centre of a robot can be once the whole robot is in a room."""
     steps = shapely.union_all([_line(door) for door in doors]).buffer(robot.length / 2)
     return room.polygon.buffer(-robot.width / 2).difference(steps)
 
@@ -78,14 +84,14 @@ def _line(door: PlanDoor) -> LineString:
 
 
 def _ends(corridor: Polygon) -> list[BaseGeometry]:
-    """Places on its axis before its two ends; one in its middle if it is short."""
+    """Places on the axis of a corridor before its two ends; its middle if it is short."""
     corners = list(corridor.minimum_rotated_rectangle.exterior.coords)[:4]
     if math.dist(corners[0], corners[1]) > math.dist(corners[1], corners[2]):
         corners = [*corners[1:], corners[0]]
     axis = LineString((_middle(corners[0], corners[1]), _middle(corners[2], corners[3])))
-    if axis.length < 2 * END:
+    if axis.length < 2 * END_DISTANCE:
         return [axis.centroid]
-    return [axis.interpolate(END), axis.interpolate(-END)]
+    return [axis.interpolate(END_DISTANCE), axis.interpolate(-END_DISTANCE)]
 
 
 def _middle(a: tuple[float, ...], b: tuple[float, ...]) -> tuple[float, float]:

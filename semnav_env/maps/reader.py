@@ -23,7 +23,8 @@ from semnav_env.maps.rules import (
 Properties: TypeAlias = dict[str, Any]
 Part: TypeAlias = Surface | PlanDoor | Region | Polygon
 
-SOLIDS = frozenset(Material)
+SOLID_KINDS = frozenset(Material)
+"""Kinds of features that are solid."""
 
 
 def read_plan(path: Path) -> FloorPlan:
@@ -40,7 +41,7 @@ def parse_plan(text: str, where: str, name: str) -> FloorPlan:
 
     Args:
         text: the document.
-        where: what to call it in an error.
+        where: name of the document in an error.
         name: the plan's name if the document gives none.
 
     Raises:
@@ -51,7 +52,7 @@ def parse_plan(text: str, where: str, name: str) -> FloorPlan:
     for index, feature in enumerate(document["features"]):
         try:
             kind = feature["properties"]["kind"]
-            parts.setdefault("solid" if kind in SOLIDS else kind, []).append(_part(feature))
+            parts.setdefault("solid" if kind in SOLID_KINDS else kind, []).append(_part(feature))
         except FloorPlanError as error:
             raise FloorPlanError(f"{where}: {label(document, index)}: {error}") from None
     try:
@@ -87,7 +88,7 @@ def _assemble(document: Document, parts: dict[str, list[Any]], name: str) -> Flo
 
 
 def _check_states(document: Document, plan: FloorPlan) -> None:
-    """A stated `state` must be the drawn one."""
+    """Refuse a door whose stated `state` is not the drawn one."""
     properties = [feature["properties"] for feature in document["features"]]
     stated = [p.get("state") for p in properties if p["kind"] == "door"]
     for door, state in zip(plan.doors, stated, strict=True):
@@ -102,7 +103,7 @@ def _check_states(document: Document, plan: FloorPlan) -> None:
 def _part(feature: dict[str, Any]) -> Part:
     """What a feature describes, checked."""
     properties, geometry = feature["properties"], feature["geometry"]
-    if properties["kind"] in SOLIDS:
+    if properties["kind"] in SOLID_KINDS:
         return _surface(properties, geometry)
     if properties["kind"] == "door":
         return _door(properties, geometry["coordinates"])

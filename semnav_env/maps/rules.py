@@ -1,4 +1,4 @@
-"""What must hold for every floor plan, whoever made it."""
+"""Rules that every floor plan keeps, whether read, generated or imported."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from shapely.validation import explain_validity
 
 from semnav_env.features.frames import Point
 from semnav_env.maps.doorways import (
+    DRAWING_TOLERANCE,
     NARROWEST_ROBOT,
-    TOUCH,
     DoorState,
     clear_width,
     door_state,
@@ -21,13 +21,13 @@ from semnav_env.maps.doorways import (
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region, Surface
 
 MAX_EXTENT = 1000.0
-"""Metres from the origin to the farthest coordinate."""
+"""Largest absolute value of a coordinate, metres: larger ones are in another unit or frame."""
 
-SHORTEST = 0.001
-"""Metres; shorter segments have no direction worth the name."""
+LEAST_SEGMENT_LENGTH = 0.001
+"""Length of the shortest segment, metres; a shorter one has no certain direction."""
 
-LEAST_AREA = TOUCH**2
-"""Of a polygon, square metres."""
+LEAST_AREA = DRAWING_TOLERANCE**2
+"""Area of the smallest polygon, square metres."""
 
 
 class FloorPlanError(ValueError):
@@ -53,34 +53,34 @@ def check_plan(plan: FloorPlan) -> None:
 
 
 def check_surface(surface: Surface) -> None:
-    """Finite points, none repeated in a row."""
+    """Refuse a surface with points that are not finite or repeated in a row."""
     what = f"the {surface.material}"
     if len(surface.points) < 2:
         raise FloorPlanError(f"{what} has {len(surface.points)} points; it needs at least two")
     _check_points(surface.points, what)
     for a, b in zip(surface.points, surface.points[1:], strict=False):
-        if math.dist(a, b) < SHORTEST:
+        if math.dist(a, b) < LEAST_SEGMENT_LENGTH:
             raise FloorPlanError(f"{what} repeats the point {_at(a)}; leave out one of the two")
 
 
 def check_door(door: PlanDoor) -> None:
-    """A printable name and two distinct, finite jambs."""
+    """Refuse a door without a printable name or without two distinct, finite jambs."""
     check_text(door.name, "the door's name")
     _check_points((door.start, door.end), f"door {door.name!r}")
-    if door.width < 2 * TOUCH:
+    if door.width < 2 * DRAWING_TOLERANCE:
         raise FloorPlanError(
             f"door {door.name!r} is {door.width:.2f} m wide; give the two jambs it spans"
         )
 
 
 def check_region(region: Region) -> None:
-    """A printable name and a valid polygon."""
+    """Refuse a region without a printable name or a valid polygon."""
     check_text(region.name, "the region's name")
     check_polygon(region.polygon, f"region {region.name!r}")
 
 
 def check_polygon(polygon: Polygon, what: str) -> None:
-    """Finite, not empty, not crossing itself."""
+    """Refuse a polygon that is empty, not finite or crosses itself."""
     if polygon.is_empty:
         raise FloorPlanError(f"{what} is empty; give it a ring of at least four positions")
     for ring in (polygon.exterior, *polygon.interiors):
@@ -93,16 +93,16 @@ def check_polygon(polygon: Polygon, what: str) -> None:
 
 
 def check_text(text: str, what: str) -> None:
-    """Not empty, not blank at its ends, nothing invisible."""
+    """Refuse a text that is empty, blank at its ends or holds invisible characters."""
     if not text or text != text.strip() or not text.isprintable():
         raise FloorPlanError(f"{what} is {text!r}; use visible characters, no blanks at the ends")
 
 
 def check_together(plan: FloorPlan) -> None:
-    """What no part can say alone: unique names, doors in walls, everything in the boundary."""
+    """Check the parts against each other: unique names, doors in walls, all in the boundary."""
     _check_unique((door.name for door in plan.doors), "door")
     _check_unique((region.name for region in plan.regions), "region")
-    inside = plan.boundary.buffer(TOUCH)
+    inside = plan.boundary.buffer(DRAWING_TOLERANCE)
     shapely.prepare(inside)
     for region in plan.regions:
         if not inside.covers(region.polygon):
@@ -114,17 +114,17 @@ def check_together(plan: FloorPlan) -> None:
 
 
 def check_doorway(door: PlanDoor, plan: FloorPlan) -> None:
-    """A jamb at either end, and as open as it says."""
+    """Refuse a door without a jamb at either end, or drawn otherwise than it is called."""
     _check_jambs(door, plan)
     _check_state(door, plan)
 
 
 def _check_jambs(door: PlanDoor, plan: FloorPlan) -> None:
     for jamb in (door.start, door.end):
-        if not len(plan.solids.query(shapely.Point(jamb), "dwithin", TOUCH)):
+        if not len(plan.solids.query(shapely.Point(jamb), "dwithin", DRAWING_TOLERANCE)):
             raise FloorPlanError(
                 f"door {door.name!r} ends at {_at(jamb)}, where nothing solid is; "
-                f"each jamb lies within {TOUCH} m of a wall"
+                f"each jamb lies within {DRAWING_TOLERANCE} m of a wall"
             )
 
 

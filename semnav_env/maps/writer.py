@@ -65,7 +65,7 @@ def _feature(geometry: dict[str, Any], **properties: object) -> dict[str, Any]:
 
 
 def _solid(surface: Surface) -> dict[str, Any]:
-    """A closed line is an area if it encloses what the rules call one, any other one a line."""
+    """The geometry of a surface: a polygon if its closed line has an area, else a line."""
     points = list(surface.points)
     if surface.is_closed:
         area = Polygon(points)

@@ -4,13 +4,13 @@ from semnav_env.metrics.measure import measure
 from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
 from semnav_env.metrics.paths import cls, dtw, ndtw, resampled, sdtw, soft_spl, spl
 from semnav_env.metrics.recording import Recorder, Recording
-from semnav_env.metrics.results import COLUMNS, HIGH_IS_BAD, Metrics, means, worst
-from semnav_env.metrics.risk import SHARES, cvar
+from semnav_env.metrics.results import COST_METRICS, METRIC_NAMES, Metrics, means, worst
+from semnav_env.metrics.risk import WORST_SHARES, cvar
 
 __all__ = [
-    "COLUMNS",
-    "HIGH_IS_BAD",
-    "SHARES",
+    "COST_METRICS",
+    "METRIC_NAMES",
+    "WORST_SHARES",
     "Metrics",
     "Recorder",
     "Recording",

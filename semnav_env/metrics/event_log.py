@@ -26,16 +26,21 @@ from semnav_env.metrics.events import (
 from semnav_env.metrics.recording import Recording
 from semnav_env.rules import SuccessRules
 
-STAND = 1.0
-"""Standing for so long is a stop, seconds."""
+STOP_SECONDS = 1.0
+"""Time of standing still from which on it counts as a stop, seconds."""
 
-TURNING, LEAST_TURN = 0.1, math.radians(30.0)
-"""Faster than this is turning, rad/s; less than that in all is no turn, radians."""
+TURNING_RATE = 0.1
+"""Yaw rate above which a robot is turning, rad/s; noise and small corrections stay below."""
 
-PAUSE = 0.5
-"""A turn goes on after a pause of at most this, seconds."""
+LEAST_TURN_ANGLE = math.radians(30.0)
+"""Heading change below which turning is not an event, radians."""
+
+MAX_TURN_PAUSE = 0.5
+"""Longest pause within one turn, seconds."""
 
 ARMS = (Arm.AHEAD, Arm.LEFT, Arm.BACK, Arm.RIGHT)
+"""Arms of a junction by the quarter turns, counter-clockwise, from the way in to the way out."""
+
 
 Mask = NDArray[np.bool_]
 
@@ -127,12 +132,12 @@ def _outward(region: Region, before: FloatArray, after: FloatArray) -> float:
 def _turns(recording: Recording) -> Iterator[Turned]:
     rates, period = recording.velocities[:, 2], recording.period
     headings = np.unwrap(recording.poses[:, 2])
-    pause = round(PAUSE / period)
-    for turning in (rates > TURNING, rates < -TURNING):
+    pause = round(MAX_TURN_PAUSE / period)
+    for turning in (rates > TURNING_RATE, rates < -TURNING_RATE):
         for start, stop in _joined(list(runs(turning)), pause):
             begin = max(start - 1, 0)
             angle = float(headings[stop - 1] - headings[begin])
-            if abs(angle) >= LEAST_TURN:
+            if abs(angle) >= LEAST_TURN_ANGLE:
                 yield Turned(start, start * period, angle, (stop - 1 - begin) * period)
 
 
@@ -142,7 +147,7 @@ def _stops(recording: Recording) -> Iterator[Stopped]:
     still = (recording.speeds < rules.still_speed) & (yaw_rates < rules.still_yaw_rate)
     for start, stop in runs(still):
         duration = (stop - start) * recording.period
-        if start > 0 and duration >= STAND:
+        if start > 0 and duration >= STOP_SECONDS:
             yield Stopped(start, start * recording.period, duration)
 
 

@@ -10,16 +10,16 @@ from semnav_env.features.frames import FloatArray, path_length
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.maps.geodesic import WaysTo
 from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
-from semnav_env.metrics.paths import THRESHOLD, cls, ndtw, resampled, soft_spl, spl
+from semnav_env.metrics.paths import PUBLISHED_GOAL_RADIUS, cls, ndtw, resampled, soft_spl, spl
 from semnav_env.metrics.recording import Recording
 from semnav_env.metrics.results import Metrics
 from semnav_env.robots import RobotSpec
 from semnav_env.rules import SuccessRules
 from semnav_env.verifier import Verdict, Verifier, place
 
-NEAR = 1.0
-"""A goal is reached within this, or within the published `THRESHOLD`, in the looser measures of
-success, metres."""
+GOAL_RADIUS = 1.0
+"""Distance at which a goal counts as reached in the stricter of the two loose measures of success,
+metres."""
 
 
 def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metrics:
@@ -41,11 +41,11 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
     success, verdicts = verifier.success, verifier.verdicts
     return Metrics(
         success=success,
-        within_1m=bool(distances[-1] < NEAR),
-        within_3m=bool(distances[-1] < THRESHOLD),
+        within_1m=bool(distances[-1] < GOAL_RADIUS),
+        within_3m=bool(distances[-1] < PUBLISHED_GOAL_RADIUS),
         oracle_success=success or (bool(goals) and ever_met(goals[-1], recording)),
-        oracle_within_1m=bool(distances.min() < NEAR),
-        oracle_within_3m=bool(distances.min() < THRESHOLD),
+        oracle_within_1m=bool(distances.min() < GOAL_RADIUS),
+        oracle_within_3m=bool(distances.min() < PUBLISHED_GOAL_RADIUS),
         spl=spl(success, driven_length, route_length),
         soft_spl=soft_spl(float(distances[-1]), float(distances[0]), driven_length, route_length),
         ndtw=alike,
@@ -94,9 +94,9 @@ def ever_met(goal: Goal, recording: Recording) -> bool:
 
 
 def stood_there(goal: StopGoal, recording: Recording) -> bool:
-    """Whether the robot stood still within `NEAR` of a goal for as long as the goal says."""
+    """Whether the robot stood still within `GOAL_RADIUS` of a goal for as long as the goal says."""
     away = np.hypot(*(recording.path[1:] - goal.pose[:2]).T)
-    stands = (recording.speeds[1:] < SuccessRules().standstill_speed) & (away < NEAR)
+    stands = (recording.speeds[1:] < SuccessRules().standstill_speed) & (away < GOAL_RADIUS)
     since = steps = 0
     for stood in stands.tolist():
         since = since + 1 if stood else 0

@@ -12,11 +12,12 @@ from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import footprint
 from semnav_env.robots import RobotSpec
 
-FARTHEST = 10.0
-"""A clearance is no more than this, metres: nothing that matters is near."""
+MAX_CLEARANCE = 10.0
+"""Largest clearance that is told, metres; nothing farther away matters."""
 
 LEAST_PATH = 1.0
-"""Collisions are per 100 m of a path at least so long, metres: standing still divides by none."""
+"""Least length of path that collisions are divided by, metres, so that standing still divides by no
+zero."""
 
 
 def rms_jerk(path: FloatArray, period: float) -> float:
@@ -38,7 +39,7 @@ def rms_jerk(path: FloatArray, period: float) -> float:
 def clearances(poses: FloatArray, robot: RobotSpec, floor_plan: FloorPlan) -> FloatArray:
     """Distance of the footprint from the nearest solid segment, Euclidean, metres, shape (n,).
 
-    0 where they touch, and at most `FARTHEST`. Only what the plan holds counts.
+    0 where they touch, and at most `MAX_CLEARANCE`. Only what the plan holds counts.
 
     Args:
         poses: of the robot's centre, shape (n, 3), world frame.
@@ -46,13 +47,13 @@ def clearances(poses: FloatArray, robot: RobotSpec, floor_plan: FloorPlan) -> Fl
         floor_plan: what is solid.
     """
     if len(floor_plan.segments) == 0:
-        return np.full(len(poses), FARTHEST)
+        return np.full(len(poses), MAX_CLEARANCE)
     bodies = footprints(poses, robot)
     (rows, _), distances = floor_plan.solids.query_nearest(
         bodies, return_distance=True, all_matches=False
     )
-    found = np.full(len(poses), FARTHEST)
-    found[rows] = np.minimum(distances, FARTHEST)
+    found = np.full(len(poses), MAX_CLEARANCE)
+    found[rows] = np.minimum(distances, MAX_CLEARANCE)
     return found
 
 

@@ -11,14 +11,15 @@ from scipy.spatial.distance import cdist
 
 from semnav_env.features.frames import FloatArray, path_length
 
-THRESHOLD = 3.0
-"""Distance at which the published measures call a place reached, metres."""
+PUBLISHED_GOAL_RADIUS = 3.0
+"""Distance at which the published measures call a place reached, metres (Anderson et al. 2018b in
+docs/metrics.md)."""
 
-SPACING = 0.25
-"""Of the points of a path and a route that are compared, metres."""
+PATH_SPACING = 0.25
+"""Distance between the points of a path and a route that are compared, metres."""
 
 
-def resampled(path: FloatArray, spacing: float = SPACING) -> FloatArray:
+def resampled(path: FloatArray, spacing: float = PATH_SPACING) -> FloatArray:
     """Points on a path at equal distances along it, at most `spacing` apart; both ends are kept.
 
     Standing still adds none. A path of no length is its first point.
@@ -67,7 +68,7 @@ def dtw(path: FloatArray, route: FloatArray) -> float:
     return float(_warp(np.ascontiguousarray(cdist(path, route))))
 
 
-def ndtw(path: FloatArray, route: FloatArray, threshold: float = THRESHOLD) -> float:
+def ndtw(path: FloatArray, route: FloatArray, threshold: float = PUBLISHED_GOAL_RADIUS) -> float:
     """Normalised dynamic time warping (Ilharco et al. 2019), in [0, 1].
 
     exp(-DTW(R, Q) / (|R| * d_th)): R is the route with |R| points and Q the path. 1 if and only if
@@ -76,12 +77,14 @@ def ndtw(path: FloatArray, route: FloatArray, threshold: float = THRESHOLD) -> f
     return float(np.exp(-dtw(path, route) / (len(route) * threshold)))
 
 
-def sdtw(success: bool, path: FloatArray, route: FloatArray, threshold: float = THRESHOLD) -> float:
+def sdtw(
+    success: bool, path: FloatArray, route: FloatArray, threshold: float = PUBLISHED_GOAL_RADIUS
+) -> float:
     """Success weighted by normalised dynamic time warping (Ilharco et al. 2019): S * nDTW."""
     return float(success) * ndtw(path, route, threshold)
 
 
-def cls(path: FloatArray, route: FloatArray, threshold: float = THRESHOLD) -> float:
+def cls(path: FloatArray, route: FloatArray, threshold: float = PUBLISHED_GOAL_RADIUS) -> float:
     """Coverage weighted by length score (Jain et al. 2019), in [0, 1].
 
     PC * LS with the coverage PC, the mean over the route's points of exp(-d(r, P) / d_th), and the

@@ -24,19 +24,38 @@ from semnav_env.metrics.recording import Recording
 from semnav_env.robots import RobotSpec
 from semnav_env.verifier import place
 
-ROUTE, PATH, CONTACT, GOAL = "#1a7f37", "#1f4fd8", "#d62728", "#8e3bb8"
-PERSON, LEAF = "#e07b00", "saddlebrown"
-BODY_EVERY = 1.0
-"""Seconds between the bodies that are drawn."""
+ROUTE_COLOUR = "#1a7f37"
+"""Colour of the true route."""
 
-TAIL = 3.0
-"""Of the way of each person the last so many metres are shown."""
+PATH_COLOUR = "#1f4fd8"
+"""Colour of the driven path and of the bodies on it."""
 
-AROUND = 2.5
-"""Shown around path and route, metres."""
+CONTACT_COLOUR = "#d62728"
+"""Colour of the marks where something was touched."""
 
-LONGEST_SIDE, LEAST_SIDE = 10.0, 5.0
-"""Of a picture, inches."""
+GOAL_COLOUR = "#8e3bb8"
+"""Colour of the numbered goals."""
+
+PERSON_COLOUR = "#e07b00"
+"""Colour of people and of where they came from."""
+
+LEAF_COLOUR = "saddlebrown"
+"""Colour of the leaves of doors that open and close."""
+
+BODY_INTERVAL = 1.0
+"""Time between the bodies that are drawn, seconds."""
+
+TRAIL_LENGTH = 3.0
+"""Length of the last part of the way of each person that is drawn, metres."""
+
+VIEW_MARGIN = 2.5
+"""Margin around path and route that is shown, metres."""
+
+LONGEST_SIDE = 10.0
+"""Longest side of a picture, inches."""
+
+LEAST_SIDE = 5.0
+"""Shortest side of a picture, inches."""
 
 
 def save_episode(
@@ -89,49 +108,51 @@ def draw_episode(
 ) -> None:
     """Draw the true route, the way driven, bodies, contacts, goals and what moved onto a plan."""
     _draw_moved(ax, recording)
-    ax.plot(*route.T, "--", color=ROUTE, linewidth=1.8, label="true route", zorder=4)
+    ax.plot(*route.T, "--", color=ROUTE_COLOUR, linewidth=1.8, label="true route", zorder=4)
     _draw_bodies(ax, recording, robot)
-    ax.plot(*recording.path.T, color=PATH, linewidth=1.8, label="driven", zorder=5)
+    ax.plot(*recording.path.T, color=PATH_COLOUR, linewidth=1.8, label="driven", zorder=5)
     touched = recording.path[recording.contacts > 0]
     if len(touched):
-        ax.plot(*touched.T, "x", color=CONTACT, markersize=6, label="in contact", zorder=6)
+        ax.plot(*touched.T, "x", color=CONTACT_COLOUR, markersize=6, label="in contact", zorder=6)
     for number, goal in enumerate(goals, start=1):
         x, y = place(goal)
         label = "goals" if number == 1 else None
-        ax.plot(x, y, "o", color=GOAL, markersize=14, alpha=0.8, label=label, zorder=7)
+        ax.plot(x, y, "o", color=GOAL_COLOUR, markersize=14, alpha=0.8, label=label, zorder=7)
         ax.text(x, y, str(number), color="white", size=8, ha="center", va="center", zorder=8)
 
 
 def _draw_moved(ax: Axes, recording: Recording) -> None:
     """The leaves and the people of the end, and where the people came from."""
     for x1, y1, x2, y2 in () if recording.leaves is None else recording.leaves.tolist():
-        ax.plot((x1, x2), (y1, y2), color=LEAF, linewidth=1.5)
+        ax.plot((x1, x2), (y1, y2), color=LEAF_COLOUR, linewidth=1.5)
     if recording.people is None:
         return
     for number, way in enumerate(recording.people.swapaxes(0, 1)):
         tail = _tail(way[:, :2])
-        ax.plot(*tail.T, color=PERSON, linewidth=1.2, alpha=0.7, zorder=5)
+        ax.plot(*tail.T, color=PERSON_COLOUR, linewidth=1.2, alpha=0.7, zorder=5)
         label = "people" if number == 0 else None
-        person = Circle(tail[-1].tolist(), way[-1, 2], color=PERSON, alpha=0.8, label=label)
+        person = Circle(tail[-1].tolist(), way[-1, 2], color=PERSON_COLOUR, alpha=0.8, label=label)
         person.set_zorder(6)
         ax.add_patch(person)
 
 
 def _tail(way: FloatArray) -> FloatArray:
-    """The last part of a way, up to `TAIL` long."""
+    """The last part of a way, up to `TRAIL_LENGTH` long."""
     steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
     left = np.append(np.cumsum(steps[::-1])[::-1], 0.0)
-    return way[left <= TAIL]
+    return way[left <= TRAIL_LENGTH]
 
 
 def _draw_bodies(ax: Axes, recording: Recording, robot: RobotSpec) -> None:
-    every = max(1, round(BODY_EVERY / recording.period))
+    every = max(1, round(BODY_INTERVAL / recording.period))
     rows = sorted({*range(0, len(recording.poses), every), recording.steps})
     bodies = footprints(recording.poses[rows], robot)
     corners = shapely.get_coordinates(bodies).reshape(len(rows), -1, 2)
-    faces = PolyCollection(corners, facecolor="none", edgecolor=PATH, linewidth=0.4, alpha=0.5)
+    faces = PolyCollection(
+        corners, facecolor="none", edgecolor=PATH_COLOUR, linewidth=0.4, alpha=0.5
+    )
     ax.add_collection(faces)
-    ax.fill(*corners[-1].T, color=PATH, alpha=0.4, zorder=5)
+    ax.fill(*corners[-1].T, color=PATH_COLOUR, alpha=0.4, zorder=5)
     x, y, heading = recording.poses[-1]
     nose = robot.length / 2 * np.array((np.cos(heading), np.sin(heading)))
     ax.annotate("", (x + nose[0], y + nose[1]), (x, y), arrowprops={"arrowstyle": "->"}, zorder=6)
@@ -140,8 +161,8 @@ def _draw_bodies(ax: Axes, recording: Recording, robot: RobotSpec) -> None:
 def _extent(floor_plan: FloorPlan, points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The part of a plan to show: around some points, not beyond the plan."""
     west, south, east, north = floor_plan.boundary.bounds
-    low = np.maximum(points.min(axis=0) - AROUND, (west - 0.3, south - 0.3))
-    high = np.minimum(points.max(axis=0) + AROUND, (east + 0.3, north + 0.3))
+    low = np.maximum(points.min(axis=0) - VIEW_MARGIN, (west - 0.3, south - 0.3))
+    high = np.minimum(points.max(axis=0) + VIEW_MARGIN, (east + 0.3, north + 0.3))
     return low, high
 
 

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.world import World
 
-DRIVEN = ("poses", "velocities", "contacts", "impulses")
-"""Arrays of every recording."""
+REQUIRED_ARRAYS = ("poses", "velocities", "contacts", "impulses")
+"""Names of the arrays that every recording has."""
 
-MOVED = ("people", "leaves")
-"""Arrays that only a recording among people or changing doors has."""
+OPTIONAL_ARRAYS = ("people", "leaves")
+"""Names of the arrays that only a recording among people or changing doors has."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +52,9 @@ class Recording:
         rows = len(self.poses)
         driven = (rows, 3), (rows, 3), (rows,), (rows,)
         moved = (rows, None, 3), (None, 4)
-        for name, shape in zip((*DRIVEN, *MOVED), (*driven, *moved), strict=True):
+        for name, shape in zip(
+            (*REQUIRED_ARRAYS, *OPTIONAL_ARRAYS), (*driven, *moved), strict=True
+        ):
             array: NDArray[Any] | None = getattr(self, name)
             if array is not None and not (rows and _fits(array, shape)):
                 told = str(shape).replace("None", "any")
@@ -91,8 +93,8 @@ class Recording:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write an .npz file."""
-        arrays = {name: getattr(self, name) for name in DRIVEN}
-        moved = {name: getattr(self, name) for name in MOVED}
+        arrays = {name: getattr(self, name) for name in REQUIRED_ARRAYS}
+        moved = {name: getattr(self, name) for name in OPTIONAL_ARRAYS}
         arrays |= {name: array for name, array in moved.items() if array is not None}
         np.savez_compressed(path, allow_pickle=False, period=self.period, **arrays)
 
@@ -104,10 +106,10 @@ class Recording:
             ValueError: an array is missing or does not fit.
         """
         with np.load(path, allow_pickle=False) as file:
-            missing = [name for name in (*DRIVEN, "period") if name not in file]
+            missing = [name for name in (*REQUIRED_ARRAYS, "period") if name not in file]
             if missing:
                 raise ValueError(f"{os.fspath(path)!r} is no recording: it lacks {missing[0]!r}")
-            names = [*DRIVEN, *(name for name in MOVED if name in file)]
+            names = [*REQUIRED_ARRAYS, *(name for name in OPTIONAL_ARRAYS if name in file)]
             return cls(**{name: file[name] for name in names}, period=float(file["period"]))
 
 

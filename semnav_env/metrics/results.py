@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from semnav_env.metrics.motion import collisions_per_100m
 from semnav_env.metrics.risk import cvar
 
-HIGH_IS_BAD = frozenset(
+COST_METRICS = frozenset(
     (
         "collisions",
         "collisions_per_100m",
@@ -19,7 +19,7 @@ HIGH_IS_BAD = frozenset(
         "seconds",
     )
 )
-"""Columns whose worst episodes are those with high values."""
+"""Names of the measures of which high values are the bad ones."""
 
 
 @dataclass(frozen=True)
@@ -75,8 +75,8 @@ class Metrics:
     seconds: float
 
 
-COLUMNS = tuple(Metrics.__dataclass_fields__)
-"""The names of all measures."""
+METRIC_NAMES = tuple(Metrics.__dataclass_fields__)
+"""Names of all measures, in the order of the columns of a table."""
 
 
 def means(episodes: Sequence[Metrics]) -> dict[str, float]:
@@ -101,4 +101,7 @@ def worst(episodes: Sequence[Metrics], share: float) -> dict[str, float]:
         ValueError: no episodes, or a share outside (0, 1].
     """
     rows = [asdict(episode) for episode in episodes]
-    return {name: cvar([row[name] for row in rows], share, name in HIGH_IS_BAD) for name in COLUMNS}
+    return {
+        name: cvar([row[name] for row in rows], share, name in COST_METRICS)
+        for name in METRIC_NAMES
+    }

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-SHARES = (0.10, 0.05, 0.01)
-"""Of the episodes, over which the reports take the mean of the worst."""
+WORST_SHARES = (0.10, 0.05, 0.01)
+"""Shares of the episodes over which the reports take the mean of the worst."""
 
 
 def cvar(values: ArrayLike, share: float, high_is_bad: bool = False) -> float:

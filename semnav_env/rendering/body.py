@@ -7,12 +7,12 @@ import numpy as np
 from semnav_env.features.frames import FloatArray, Point, Pose, points_to_parent
 from semnav_env.rendering import palette
 from semnav_env.rendering.camera import Camera
-from semnav_env.rendering.canvas import Sheet
+from semnav_env.rendering.canvas import ShapeCanvas
 from semnav_env.robots import RobotSpec
 
 
 def draw_body(
-    sheet: Sheet, camera: Camera, robot: RobotSpec, pose: Pose, in_contact: bool = False
+    sheet: ShapeCanvas, camera: Camera, robot: RobotSpec, pose: Pose, in_contact: bool = False
 ) -> None:
     """The footprint, what carries it, and an arrow towards its front."""
     pen = _Pen(sheet, camera, pose)
@@ -28,7 +28,7 @@ def draw_body(
 class _Pen:
     """Draws rectangles and arrows given in metres in the robot frame."""
 
-    def __init__(self, sheet: Sheet, camera: Camera, pose: Pose) -> None:
+    def __init__(self, sheet: ShapeCanvas, camera: Camera, pose: Pose) -> None:
         self._sheet, self._camera, self._pose = sheet, camera, pose
 
     def slab(self, centre: Point, size: Point, colour: palette.Colour, grow: float = 0.0) -> None:

@@ -10,14 +10,14 @@ from numpy.typing import ArrayLike
 
 from semnav_env.features.frames import FloatArray, Point
 
-MARGIN = 0.4
-"""Metres left around a plan that is shown whole."""
+PLAN_MARGIN = 0.4
+"""Margin around a plan that is shown whole, metres."""
 
-SPAN = 16.0
-"""Metres across the shorter side of a view that follows the robot."""
+FOLLOW_SPAN = 16.0
+"""Length of the shorter side of a view that follows the robot, metres."""
 
-LARGEST_FIT = 1.35
-"""A plan up to this many times the span is still shown whole."""
+MAX_FIT_FACTOR = 1.35
+"""Largest size of a plan that is still shown whole, as a multiple of `FOLLOW_SPAN`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,13 +63,15 @@ def looking_at(
         grid: the origin is rounded to multiples of this many pixels, so that a plan drawn once
             can be pasted.
     """
-    size = bounds[2] - bounds[0] + 2 * MARGIN, bounds[3] - bounds[1] + 2 * MARGIN
+    size = bounds[2] - bounds[0] + 2 * PLAN_MARGIN, bounds[3] - bounds[1] + 2 * PLAN_MARGIN
     fit = min(view.width / size[0], view.height / size[1])
-    follow = min(view.width, view.height) / SPAN
-    scale = fit if fit * LARGEST_FIT >= follow else follow
+    follow = min(view.width, view.height) / FOLLOW_SPAN
+    scale = fit if fit * MAX_FIT_FACTOR >= follow else follow
     seen = view.width / scale, view.height / scale
     x, y = (
-        _centre(bounds[axis] - MARGIN, bounds[axis + 2] + MARGIN, seen[axis], position[axis])
+        _centre(
+            bounds[axis] - PLAN_MARGIN, bounds[axis + 2] + PLAN_MARGIN, seen[axis], position[axis]
+        )
         for axis in (0, 1)
     )
     return Camera(

@@ -19,17 +19,18 @@ from semnav_env.rendering.camera import Viewport
 from semnav_env.rendering.palette import WHITE, Colour
 from semnav_env.rendering.text import harmless
 
-FAR = 2.0e4
-"""Fine pixels; positions are held within this of the page, where pygame's integers are safe."""
+MAX_COORDINATE = 2.0e4
+"""Largest distance from the page that positions are held within, fine pixels: pygame's integers are
+safe there."""
 
 PAGE_HEIGHT = 720.0
-"""Units from top to bottom of every page, so that all sizes show the same picture."""
+"""Height of every page, units; all sizes show the same picture."""
 
-FINENESS = 2
-"""Fine pixels per final pixel, along each axis."""
+SUPERSAMPLING = 2
+"""Fine pixels per final pixel along each axis."""
 
 
-class Sheet:
+class ShapeCanvas:
     """Shapes without text.
 
     Args:
@@ -65,7 +66,9 @@ class Sheet:
         self, points: ArrayLike, colour: Colour, width: float, dash: float = 7.0, gap: float = 5.0
     ) -> None:
         """A dashed polyline, shape (n, 2)."""
-        within_reach = np.clip(np.asarray(points, dtype=np.float64), -FAR, FAR)
+        within_reach = np.clip(
+            np.asarray(points, dtype=np.float64), -MAX_COORDINATE, MAX_COORDINATE
+        )
         for piece in dashed(within_reach, dash, gap):
             self.stroke(piece, colour, width)
 
@@ -99,9 +102,9 @@ class Sheet:
 
     def text_width(self, text: str, size: float, bold: bool = False) -> float:
         """Units from left to right."""
-        return float(_font(self._font_pixels(size), bold).size(text)[0] * FINENESS / self.zoom)
+        return float(_font(self._font_pixels(size), bold).size(text)[0] * SUPERSAMPLING / self.zoom)
 
-    def paste(self, sheet: Sheet, at: tuple[int, int]) -> None:
+    def paste(self, sheet: ShapeCanvas, at: tuple[int, int]) -> None:
         """Copy a sheet of the same zoom; `at` is in fine pixels."""
         self._surface.blit(sheet._surface, at)
 
@@ -136,14 +139,14 @@ class Sheet:
         array = np.asarray(points, dtype=np.float64).reshape(-1, 2) * self.zoom
         if not np.isfinite(array).all():
             array = array[np.isfinite(array).all(axis=1)]
-        fine: list[Point] = np.minimum(np.maximum(array, -FAR), FAR).tolist()
+        fine: list[Point] = np.minimum(np.maximum(array, -MAX_COORDINATE), MAX_COORDINATE).tolist()
         return fine
 
     def _thickness(self, width: float) -> int:
         return max(1, round(width * self.zoom))
 
     def _font_pixels(self, size: float) -> int:
-        return max(4, round(size * self.zoom / FINENESS))
+        return max(4, round(size * self.zoom / SUPERSAMPLING))
 
     def _rect(self, where: Viewport) -> Any:
         corners = (where.left, where.top), (where.left + where.width, where.top + where.height)
@@ -151,7 +154,7 @@ class Sheet:
         return self._pygame.Rect(x1, y1, x2 - x1, y2 - y1)
 
 
-class Canvas(Sheet):
+class Canvas(ShapeCanvas):
     """A page of shapes and text; text lies above all shapes.
 
     Args:
@@ -159,11 +162,14 @@ class Canvas(Sheet):
     """
 
     def __init__(self, size: tuple[int, int]) -> None:
-        super().__init__((FINENESS * size[0], FINENESS * size[1]), FINENESS * size[1] / PAGE_HEIGHT)
+        super().__init__(
+            (SUPERSAMPLING * size[0], SUPERSAMPLING * size[1]),
+            SUPERSAMPLING * size[1] / PAGE_HEIGHT,
+        )
         self._page = self._pygame.Surface(size, 0, 32)
         self._texts: list[tuple[Any, Point, Any]] = []
         self.width, self.height = PAGE_HEIGHT * size[0] / size[1], PAGE_HEIGHT
-        self.pixel = FINENESS / self.zoom
+        self.pixel = SUPERSAMPLING / self.zoom
         """Units that one final pixel is wide."""
         self._image = functools.lru_cache(512)(self._uncached_image)
 
@@ -178,7 +184,7 @@ class Canvas(Sheet):
     ) -> None:
         """One line of harmless text, `at` its left or its centre, halfway up the line."""
         image = self._image(harmless(text), colour, size, bold)
-        scale = self.zoom / FINENESS
+        scale = self.zoom / SUPERSAMPLING
         x = at[0] * scale - (image.get_width() / 2 if centred else 0)
         place = round(x), round(at[1] * scale - image.get_height() / 2)
         self._texts.append((image, place, self._surface.get_clip()))
@@ -191,7 +197,7 @@ class Canvas(Sheet):
         """The pygame surface with everything drawn since `begin`."""
         self._pygame.transform.smoothscale(self._surface, self._page.get_size(), self._page)
         for image, place, clip in self._texts:
-            self._page.set_clip([value // FINENESS for value in clip])
+            self._page.set_clip([value // SUPERSAMPLING for value in clip])
             self._page.blit(image, place)
         self._page.set_clip(None)
         return self._page

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from PIL import Image
 from scipy.spatial import cKDTree
 
-SIZE = 255
-"""Colours; a GIF holds 256, and one is left to mark unchanged pixels."""
+PALETTE_SIZE = 255
+"""Number of colours of a palette; a GIF holds 256, and one is left to mark unchanged pixels."""
 
-EXACT = 96
-"""The commonest colours, which are kept exactly: drawings have large even areas."""
+EXACT_COLOURS = 96
+"""Number of the commonest colours, which are kept exactly: drawings have large even areas."""
 
 _UNKNOWN = 255
 
@@ -22,7 +22,7 @@ class Palette:
     """Maps colours to the nearest of a few, remembering each answer.
 
     Args:
-        colours: shape (n, 3), at most `SIZE`.
+        colours: shape (n, 3), at most `PALETTE_SIZE`.
     """
 
     def __init__(self, colours: NDArray[np.uint8]) -> None:
@@ -37,11 +37,15 @@ class Palette:
             np.concatenate([_codes(image).ravel() for image in samples]), return_counts=True
         )
         colours = _colours(codes[np.argsort(-counts, kind="stable")])
-        exact, others = colours[:EXACT], colours[EXACT:]
+        exact, others = colours[:EXACT_COLOURS], colours[EXACT_COLOURS:]
         if len(others) == 0:
             return cls(exact)
-        gathered = Image.fromarray(others[None]).quantize(SIZE - EXACT, Image.Quantize.MAXCOVERAGE)
-        rest = np.array(gathered.getpalette(), dtype=np.uint8).reshape(-1, 3)[: SIZE - EXACT]
+        gathered = Image.fromarray(others[None]).quantize(
+            PALETTE_SIZE - EXACT_COLOURS, Image.Quantize.MAXCOVERAGE
+        )
+        rest = np.array(gathered.getpalette(), dtype=np.uint8).reshape(-1, 3)[
+            : PALETTE_SIZE - EXACT_COLOURS
+        ]
         return cls(np.concatenate((exact, rest)))
 
     def indexed(self, image: Image.Image) -> Image.Image:

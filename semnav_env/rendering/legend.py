@@ -16,13 +16,17 @@ from semnav_env.rendering.frame import Frame
 Entry: TypeAlias = tuple[str, Callable[[Canvas, Point], None]]
 """A name, and what draws its symbol."""
 
-ROW = 20.0
-COLUMN = 130.0
-ICON = 13.0
-"""Half the width of a symbol's place."""
+ROW_HEIGHT = 20.0
+"""Height of a row, units of the page."""
+
+COLUMN_WIDTH = 130.0
+"""Width of a column, units of the page."""
+
+ICON_HALF_WIDTH = 13.0
+"""Half the width of a symbol's place, units of the page."""
 
 LEGEND_HEIGHT = 196.0
-"""With its heading and nine rows, up to the end of the page."""
+"""Height of the legend with its heading and nine rows, to the end of the page, units."""
 
 
 def draw_legend(canvas: Canvas, left: float, top: float, frame: Frame) -> None:
@@ -30,9 +34,9 @@ def draw_legend(canvas: Canvas, left: float, top: float, frame: Frame) -> None:
     entries = legend_entries(frame)
     rows = -(-len(entries) // 2)
     for index, (name, draw) in enumerate(entries):
-        x, y = left + COLUMN * (index // rows), top + ROW * (index % rows)
-        draw(canvas, (x + ICON, y))
-        canvas.text((x + 2 * ICON + 7.0, y), name, palette.INK, 11.0)
+        x, y = left + COLUMN_WIDTH * (index // rows), top + ROW_HEIGHT * (index % rows)
+        draw(canvas, (x + ICON_HALF_WIDTH, y))
+        canvas.text((x + 2 * ICON_HALF_WIDTH + 7.0, y), name, palette.INK, 11.0)
 
 
 def legend_entries(frame: Frame) -> tuple[Entry, ...]:
@@ -51,11 +55,13 @@ def legend_entries(frame: Frame) -> tuple[Entry, ...]:
 
 
 def _bar(at: Point) -> list[Point]:
-    return [(at[0] - ICON + 3.0, at[1]), (at[0] + ICON - 3.0, at[1])]
+    return [(at[0] - ICON_HALF_WIDTH + 3.0, at[1]), (at[0] + ICON_HALF_WIDTH - 3.0, at[1])]
 
 
 def _wall_seen(canvas: Canvas, at: Point) -> None:
-    place = Viewport(at[0] - ICON - 3.0, at[1] - ROW / 2, 2 * ICON + 6.0, ROW)
+    place = Viewport(
+        at[0] - ICON_HALF_WIDTH - 3.0, at[1] - ROW_HEIGHT / 2, 2 * ICON_HALF_WIDTH + 6.0, ROW_HEIGHT
+    )
     with canvas.within(place), canvas.highlighter():
         marks.wall_seen(canvas, _bar(at))
     canvas.stroke(_bar(at), palette.WALL, 2.4)

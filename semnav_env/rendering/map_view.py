@@ -15,8 +15,12 @@ from semnav_env.rendering.camera import Camera, Viewport
 from semnav_env.rendering.canvas import Canvas
 from semnav_env.rendering.frame import Frame
 
-DRAWN_BEAMS, DRAWN_HITS = 90, 270
-"""About how many of a dense scan are drawn, evenly spaced: more would blur into one another."""
+DRAWN_BEAMS = 90
+"""Number of beams of a dense scan that are drawn, about, evenly spaced: more would blur into one
+another."""
+
+DRAWN_HITS = 270
+"""Number of hits of a dense scan that are drawn, about."""
 
 
 def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:

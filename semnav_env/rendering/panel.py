@@ -13,11 +13,17 @@ from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.legend import LEGEND_HEIGHT, draw_legend
 from semnav_env.rendering.text import wrap
 
-WIDTH = 284.0
-PAD = 16.0
-LINE = 19.0
-INDENT = 30.0
-"""From the panel's text to the text of a clause, past its mark."""
+PANEL_WIDTH = 284.0
+"""Width of the panel, units of the page."""
+
+PANEL_PADDING = 16.0
+"""Distance from the panel's edge to its text, units."""
+
+LINE_HEIGHT = 19.0
+"""Height of a line of text, units."""
+
+CLAUSE_INDENT = 30.0
+"""Distance from the panel's text to the text of a clause, past its mark, units."""
 
 
 @dataclass(frozen=True)
@@ -54,14 +60,14 @@ class PanelEntry:
     @property
     def height(self) -> float:
         """Units of the page, with the space around it."""
-        return LINE * len(self.lines) + 16.0 * len(self.notes) + 14.0
+        return LINE_HEIGHT * len(self.lines) + 16.0 * len(self.notes) + 14.0
 
 
 def draw_panel(canvas: Canvas, panel: Viewport, frame: Frame) -> None:
     """All of it, on its own ground."""
     canvas.box(panel, palette.PANEL)
     canvas.stroke([(panel.left, 0.0), (panel.left, panel.height)], palette.HAIRLINE, 1.0)
-    column = Column(canvas, panel.left + PAD, panel.width - 2 * PAD)
+    column = Column(canvas, panel.left + PANEL_PADDING, panel.width - 2 * PANEL_PADDING)
     with canvas.within(panel):
         _draw_title(column, frame)
         legend_top = panel.height - LEGEND_HEIGHT
@@ -98,7 +104,7 @@ def _draw_status(column: Column, bottom: float, frame: Frame) -> float:
 
 def _draw_command(column: Column, top: float, bottom: float, frame: Frame) -> None:
     column.heading(top, "COMMAND")
-    inner = column.indented(INDENT)
+    inner = column.indented(CLAUSE_INDENT)
     entries = [_entry(inner, frame, index) for index in _nearby(frame)]
     shown = _fitting(entries, frame.active_clause, bottom - top - 52.0)
     y = top + 18.0
@@ -156,7 +162,7 @@ def _draw_entry(column: Column, inner: Column, y: float, entry: PanelEntry, fram
     y += 15.0
     for line in entry.lines:
         canvas.text((inner.left, y), line, colour, 13.5, bold=entry.index == active)
-        y += LINE
+        y += LINE_HEIGHT
     for note in entry.notes:
         canvas.text((inner.left, y), note, palette.MUTED, 11.0)
         y += 16.0

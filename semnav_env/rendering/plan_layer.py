@@ -11,16 +11,16 @@ from shapely import Polygon
 from semnav_env.maps.floor_plan import FloorPlan, Material, Region, Surface
 from semnav_env.rendering import marks, palette
 from semnav_env.rendering.camera import Camera, Viewport
-from semnav_env.rendering.canvas import Canvas, Sheet
+from semnav_env.rendering.canvas import Canvas, ShapeCanvas
 
-TILE = 512
-"""Fine pixels along one side of the squares that a plan is drawn in."""
+TILE_SIZE = 512
+"""Side of the squares that a plan is drawn in, fine pixels."""
 
-SOLID_AREA = 2.0
-"""Square metres up to which a closed wall is a pillar, not the outline of a room."""
+MAX_PILLAR_AREA = 2.0
+"""Area up to which a closed wall is a pillar and not the outline of a room, square metres."""
 
 WALL_WIDTH = 0.07
-"""Metres that a wall's line is wide, where that is more than two units of the page."""
+"""Width of a wall's line, metres, where that is more than two units of the page."""
 
 
 class PlanLayer:
@@ -42,26 +42,26 @@ class PlanLayer:
         spans = (view.left, view.width), (view.top, view.height)
         columns, rows = (
             range(
-                math.floor((start * self.zoom - offset) / TILE),
-                math.ceil(((start + length) * self.zoom - offset) / TILE),
+                math.floor((start * self.zoom - offset) / TILE_SIZE),
+                math.ceil(((start + length) * self.zoom - offset) / TILE_SIZE),
             )
             for (start, length), offset in zip(spans, origin, strict=True)
         )
         for column in columns:
             for row in rows:
-                at = origin[0] + column * TILE, origin[1] + row * TILE
+                at = origin[0] + column * TILE_SIZE, origin[1] + row * TILE_SIZE
                 canvas.paste(self._tile(column, row), at)
 
-    def _drawn_tile(self, column: int, row: int) -> Sheet:
-        sheet = Sheet((TILE, TILE), self.zoom)
-        side = TILE / self.zoom
+    def _drawn_tile(self, column: int, row: int) -> ShapeCanvas:
+        sheet = ShapeCanvas((TILE_SIZE, TILE_SIZE), self.zoom)
+        side = TILE_SIZE / self.zoom
         camera = Camera(self.scale, (-column * side, -row * side))
         draw_plan(sheet, camera, self.floor_plan)
         draw_names(sheet, camera, self.floor_plan)
         return sheet
 
 
-def draw_plan(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
+def draw_plan(sheet: ShapeCanvas, camera: Camera, plan: FloorPlan) -> None:
     """Regions, doorways and everything solid."""
     sheet.fill(palette.OUTSIDE)
     _draw_area(sheet, camera, plan.boundary, palette.FLOOR)
@@ -83,7 +83,7 @@ def draw_plan(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
         _draw_surface(sheet, camera, surface)
 
 
-def draw_names(sheet: Sheet, camera: Camera, plan: FloorPlan) -> None:
+def draw_names(sheet: ShapeCanvas, camera: Camera, plan: FloorPlan) -> None:
     """The names of the rooms, areas and corridors that are large enough to hold them."""
     for region in (*plan.rooms, *plan.areas, *plan.corridors):
         name = region.name.replace("_", " ")
@@ -97,7 +97,7 @@ def _label_point(region: Region) -> tuple[float, float]:
     return float(point.x), float(point.y)
 
 
-def _draw_area(sheet: Sheet, camera: Camera, area: Polygon, colour: palette.Colour) -> None:
+def _draw_area(sheet: ShapeCanvas, camera: Camera, area: Polygon, colour: palette.Colour) -> None:
     if not area.is_empty:
         sheet.polygon(camera.pixels(np.asarray(area.exterior.coords)[:, :2]), colour)
 
@@ -106,7 +106,7 @@ def _drawing_order(surface: Surface) -> tuple[bool, bool]:
     return surface.material is not Material.FURNITURE, not surface.assumed
 
 
-def _draw_surface(sheet: Sheet, camera: Camera, surface: Surface) -> None:
+def _draw_surface(sheet: ShapeCanvas, camera: Camera, surface: Surface) -> None:
     line = camera.pixels(surface.points)
     thick = max(2.2, WALL_WIDTH * camera.scale)
     match surface.material:
@@ -126,4 +126,4 @@ def _draw_surface(sheet: Sheet, camera: Camera, surface: Surface) -> None:
 
 def _is_solid(surface: Surface) -> bool:
     closed = len(surface.points) >= 4 and surface.points[0] == surface.points[-1]
-    return closed and Polygon(surface.points).area <= SOLID_AREA
+    return closed and Polygon(surface.points).area <= MAX_PILLAR_AREA

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-LONGEST = 400
-"""Characters of one paragraph that are looked at; the rest becomes an ellipsis."""
+MAX_PARAGRAPH_LENGTH = 400
+"""Number of characters of a paragraph that are looked at; the rest becomes an ellipsis."""
 
 
 def harmless(text: str) -> str:
     """On one line, without control, bidirectional and other characters that do not print."""
-    clipped = text[:LONGEST] + ("…" if len(text) > LONGEST else "")
+    clipped = text[:MAX_PARAGRAPH_LENGTH] + ("…" if len(text) > MAX_PARAGRAPH_LENGTH else "")
     spaced = "".join(" " if c.isspace() else c if c.isprintable() else "\ufffd" for c in clipped)
     return " ".join(spaced.split())
 

@@ -15,11 +15,12 @@ from semnav_env.rendering.colours import Palette
 
 Picture = NDArray[np.uint8]
 
-SAMPLES = 12
-"""Frames that the shared palette of a GIF is chosen from."""
+PALETTE_FRAMES = 12
+"""Number of frames that the shared palette of a GIF is chosen from."""
 
-FASTEST_GIF = 50.0
-"""Frames per second; viewers slow down films whose frames last less than 20 ms."""
+MAX_GIF_RATE = 50.0
+"""Frames per second of the fastest GIF; viewers slow down films whose frames last less than 20
+ms."""
 
 
 def save_video(path: str | Path, frames: Sequence[Picture], fps: float, scale: float = 1.0) -> Path:
@@ -74,8 +75,8 @@ def save_gif(path: str | Path, frames: Sequence[Picture], fps: float, scale: flo
 
     Frames that are equal to the one before are stored as a longer duration of it.
     """
-    if fps > FASTEST_GIF:
-        raise ValueError(f"fps is {fps}; a GIF shows at most {FASTEST_GIF:g}")
+    if fps > MAX_GIF_RATE:
+        raise ValueError(f"fps is {fps}; a GIF shows at most {MAX_GIF_RATE:g}")
     target = _prepared(path, frames, fps, scale)
     palette = Palette.of([_image(frame, scale) for frame in _sampled(frames)])
     images = (palette.indexed(_image(frame, scale)) for frame in frames)
@@ -135,7 +136,7 @@ def _image(frame: Picture, scale: float) -> Image.Image:
 
 
 def _sampled(frames: Sequence[Picture]) -> list[Picture]:
-    chosen = np.linspace(0, len(frames) - 1, min(SAMPLES, len(frames))).round().astype(int)
+    chosen = np.linspace(0, len(frames) - 1, min(PALETTE_FRAMES, len(frames))).round().astype(int)
     return [frames[index] for index in chosen]
 
 

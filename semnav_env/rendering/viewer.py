@@ -12,11 +12,12 @@ from semnav_env.rendering.camera import Viewport, looking_at
 from semnav_env.rendering.canvas import Canvas, image_array
 from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.map_view import draw_map, draw_scale_bar
-from semnav_env.rendering.panel import WIDTH, draw_panel
+from semnav_env.rendering.panel import PANEL_WIDTH, draw_panel
 from semnav_env.rendering.plan_layer import PlanLayer
 from semnav_env.rendering.window import Window
 
-SMALLEST = (320, 240)
+LEAST_WINDOW_SIZE = (320, 240)
+"""Smallest width and height of a picture, pixels."""
 
 
 class Viewer:
@@ -41,9 +42,9 @@ class Viewer:
         _check(size, fps)
         self.size, self.fps = size, fps
         self._canvas = Canvas(size)
-        map_width = self._canvas.width - WIDTH
+        map_width = self._canvas.width - PANEL_WIDTH
         self._map = Viewport(0.0, 0.0, map_width, self._canvas.height)
-        self._panel = Viewport(map_width, 0.0, WIDTH, self._canvas.height)
+        self._panel = Viewport(map_width, 0.0, PANEL_WIDTH, self._canvas.height)
         self._plan = PlanLayer(floor_plan, 0.0, self._canvas.zoom)
         self._window: Window | None = None
 
@@ -83,9 +84,10 @@ class Viewer:
 
 
 def _check(size: tuple[int, int], fps: float) -> None:
-    if size[0] < SMALLEST[0] or size[1] < SMALLEST[1] or size[0] < size[1]:
+    if size[0] < LEAST_WINDOW_SIZE[0] or size[1] < LEAST_WINDOW_SIZE[1] or size[0] < size[1]:
         raise ValueError(
-            f"size is {size}; it must be at least {SMALLEST} pixels and no higher than wide"
+            f"size is {size}; it must be at least {LEAST_WINDOW_SIZE} pixels and not higher than "
+            "wide"
         )
     if not fps > 0:
         raise ValueError(f"fps is {fps}; it must be positive")

@@ -29,22 +29,29 @@ from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.situation import Situation
 from semnav_env.routes.naming import names_of_door, names_of_junction
 
-END = PlaceReference(Place.END)
+CORRIDOR_END = PlaceReference(Place.END)
+"""The end of a corridor, as a clause names it."""
 
-LONGEST = 50.0
-"""Of a distance that is told, metres."""
 
-ASIDE = (Turning.LEFT, Turning.RIGHT)
-DEGREES = (45, 135)
+MAX_TOLD_DISTANCE = 50.0
+"""Longest distance that a clause tells in metres."""
 
-LEFT_BY = 0.9
-"""A route leaves the corridor where it points so far away from the corridor's axis, radians."""
+SIDE_TURNINGS = (Turning.LEFT, Turning.RIGHT)
+"""Turns that a junction can be named for."""
 
-BESIDE = 0.3
-"""It leaves the corridor as well where it goes so far beyond its side, metres."""
+SPOT_TURN_DEGREES = (45, 135)
+"""Turns on the spot that are told in degrees; those by 90 and 180 have words."""
 
-NEAR_END = 1.5
-"""A route that ends so near to a door may lead to it, metres."""
+
+LEAVING_ANGLE = 0.9
+"""Angle between a route and the corridor's axis from which on the route has left the corridor,
+radians."""
+
+SIDE_MARGIN = 0.3
+"""Distance beyond the side of a corridor from which on a route has left it, metres."""
+
+MAX_DOOR_DISTANCE = 1.5
+"""Largest distance from the end of a route to a door that it may lead to, metres."""
 
 
 @dataclass(frozen=True)
@@ -87,12 +94,12 @@ class Choices:
 
     def _along(self, seen: Corridor, doors: Sequence[CountedDoor]) -> Iterator[Sequence[Clause]]:
         """As far as the route follows the corridor: to its end, or to or past what is near it."""
-        yield from ([Follow()], [Follow(END)])
+        yield from ([Follow()], [Follow(CORRIDOR_END)])
         stop = self._follows(seen)
         for names in self._near(stop, seen, doors):
             yield [Follow(name) for name in names]
-            yield [Follow(name, past=True) for name in names if name != END]
-        if 0.5 <= stop <= LONGEST:
+            yield [Follow(name, past=True) for name in names if name != CORRIDOR_END]
+        if 0.5 <= stop <= MAX_TOLD_DISTANCE:
             yield [Follow(Distance(round(2.0 * stop) / 2.0))]
 
     def _near(
@@ -109,21 +116,21 @@ class Choices:
     def _follows(self, seen: Corridor) -> float:
         """How far along the corridor the route follows it, metres."""
         local = points_to_local(seen.frame, self.way[:, :2])
-        aside = np.abs(local[:, 1]) > seen.half_width + BESIDE
-        away = np.cos(self.way[:, 2] - seen.frame[2]) < math.cos(LEFT_BY)
-        left = np.flatnonzero((aside | away) & (local[:, 0] > BESIDE))
+        aside = np.abs(local[:, 1]) > seen.half_width + SIDE_MARGIN
+        away = np.cos(self.way[:, 2] - seen.frame[2]) < math.cos(LEAVING_ANGLE)
+        left = np.flatnonzero((aside | away) & (local[:, 0] > SIDE_MARGIN))
         return float(local[left[0] if len(left) else -1, 0])
 
     def _ends_near(self, door: CountedDoor) -> bool:
-        return math.dist(self.way[-1, :2], door.door.midpoint) <= NEAR_END
+        return math.dist(self.way[-1, :2], door.door.midpoint) <= MAX_DOOR_DISTANCE
 
 
 def _turns(seen: Corridor) -> Iterator[Sequence[Clause]]:
     """At every junction that leads aside, and here."""
-    for turning in ASIDE:
+    for turning in SIDE_TURNINGS:
         for junction in junctions_ahead(seen, None, turning):
             yield [Turn(turning, name) for name in names_of_junction(junction, seen, turning)]
-        yield from ([Turn(turning, degrees=degrees)] for degrees in DEGREES)
+        yield from ([Turn(turning, degrees=degrees)] for degrees in SPOT_TURN_DEGREES)
     yield from ([Turn(turning)] for turning in Turning)
 
 

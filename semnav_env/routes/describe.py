@@ -23,21 +23,23 @@ from semnav_env.routes.follow import check_route, crossings, destination, follow
 from semnav_env.routes.route import Route
 from semnav_env.verifier import place
 
-AT_END = 1.0
-"""Another one ends where its command does, within so much, metres."""
+END_TOLERANCE = 1.0
+"""Largest distance from the end of a route to the end of its command, metres, where neither is a
+door."""
 
-REST_OF_WAY = 3.0
-"""So little of a route is left when its command is done, metres."""
+MAX_REST = 3.0
+"""Longest part of a route that may be left when its command is done, metres."""
 
-DETOUR = 2.0
-"""A clause leads along a part of a route that is at most so many times as long as straight on, and
-`REST_OF_WAY` more."""
+MAX_DETOUR_FACTOR = 2.0
+"""Largest ratio of the part of a route that a clause leads along to the straight line; the part may
+be longer by `MAX_REST`."""
 
-FACING = 0.3
-"""And the command ends facing so nearly where a route does that says where, radians."""
+FACING_TOLERANCE = 0.3
+"""Largest angle between the headings at the end of a command and of a route that fixes one,
+radians."""
 
-MOST_STATES = 1000
-"""Places from which the next clause is looked for, before a route is given up."""
+MAX_STATES = 1000
+"""Largest number of partial descriptions that are continued before a route is given up."""
 
 
 class UndescribableError(ValueError):
@@ -73,7 +75,7 @@ def describe(floor_plan: FloorPlan, route: Route) -> Command:
 
     The verifier accepts the route for it. If the route ends behind a door that it has crossed, or
     facing one, the command ends with going through that very door, or to it; else where the route
-    ends, within `AT_END`.
+    ends, within `END_TOLERANCE`.
 
     Args:
         floor_plan: where.
@@ -107,7 +109,7 @@ class _Search:
         order: Iterator[int] = count()
         seen: set[tuple[object, ...]] = set()
         queue = [(0, 0, next(order), self._farthest, False)]
-        while queue and len(seen) < MOST_STATES:
+        while queue and len(seen) < MAX_STATES:
             least, _, _, told, there = heapq.heappop(queue)
             if least > MAX_CLAUSES:
                 break
@@ -158,7 +160,7 @@ class _Search:
 
     def _is_direct(self, goal: Goal, index: int, done: int) -> bool:
         """Whether a clause leads along its part of the route, which wanders nowhere else."""
-        most = DETOUR * math.dist(place(goal), self._poses[index, :2]) + REST_OF_WAY
+        most = MAX_DETOUR_FACTOR * math.dist(place(goal), self._poses[index, :2]) + MAX_REST
         return self._length(index, done) <= most
 
     def _length(self, start: int, stop: int) -> float:
@@ -187,17 +189,17 @@ class _Search:
             door = door_of(goal)
             is_it = isinstance(goal, kind) and door is not None and door.name == name
             return is_it and self._is_late(done)
-        near = math.dist(place(goal), self._poses[-1, :2]) <= AT_END
+        near = math.dist(place(goal), self._poses[-1, :2]) <= END_TOLERANCE
         return near and self._faces(goal) and self._is_late(done)
 
     def _faces(self, goal: Goal) -> bool:
         facing = self._route.facing
-        return facing is None or abs(wrap_angle(goal.pose[2] - facing)) <= FACING
+        return facing is None or abs(wrap_angle(goal.pose[2] - facing)) <= FACING_TOLERANCE
 
     def _is_late(self, done: int) -> bool:
         """Whether next to nothing of the route is left at a pose."""
         crossed = all(k <= done for k, _ in self._crossings)
-        return crossed and self._length(done, len(self._poses)) <= REST_OF_WAY
+        return crossed and self._length(done, len(self._poses)) <= MAX_REST
 
     def _undescribable(self) -> UndescribableError:
         told = self._farthest

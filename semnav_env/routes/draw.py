@@ -16,9 +16,11 @@ from semnav_env.maps.draw import draw_floor_plan, leave_out_overlapping
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.routes.route import Route
 
-COLOURS = ("tab:red", "tab:blue", "tab:purple", "tab:olive", "tab:cyan")
+ROUTE_COLOURS = ("tab:red", "tab:blue", "tab:purple", "tab:olive", "tab:cyan")
+"""Colours of routes, in turn."""
+
 LONGEST_SIDE = 12.0
-"""Of a picture, inches."""
+"""Longest side of a picture, inches."""
 
 
 def draw_routes(
@@ -34,7 +36,7 @@ def draw_routes(
     """
     draw_floor_plan(floor_plan, ax, names)
     for k, (route, text) in enumerate(routes):
-        colour = COLOURS[k % len(COLOURS)]
+        colour = ROUTE_COLOURS[k % len(ROUTE_COLOURS)]
         ax.plot(*route.points.T, color=colour, lw=2.0, label=text)
         _draw_arrow(ax, route.start, colour)
         _draw_arrow(ax, route.poses[-1].tolist(), colour)

@@ -18,20 +18,22 @@ from semnav_env.verifier import Motion, Verifier, plan_mission
 
 _STAND_OFF = GroundingRules().stand_off
 
-BEHIND_DOOR = 2.0
-"""A route that ends so near behind a door leads through that door, metres."""
+MAX_DEPTH_BEHIND_DOOR = 2.0
+"""Largest length of a route behind its last door at which it still leads through that door,
+metres."""
 
-BEFORE_DOOR = 0.2
-"""A route leads up to a door if it ends `stand_off` before its middle, give or take so much."""
+STAND_OFF_TOLERANCE = 0.2
+"""Tolerance of the place `stand_off` before the middle of a door at which a route to that door
+ends, metres."""
 
-SHORTEST = 0.5
-"""A shorter route that turns nowhere leads nowhere, metres."""
+LEAST_ROUTE_LENGTH = 0.5
+"""Length below which a route that turns nowhere leads nowhere, metres."""
 
-REST = 2
-"""Poses at rest, after the end of a route."""
+REST_POSES = 2
+"""Number of poses at rest after the end of a route; some goals count only once the robot stands."""
 
-SECONDS = 0.1
-"""From one pose of a route to the next."""
+STEP_SECONDS = 0.1
+"""Time from one pose of a route to the next, seconds."""
 
 
 def follows(floor_plan: FloorPlan, command: Command, route: Route) -> bool:
@@ -43,14 +45,14 @@ def follows(floor_plan: FloorPlan, command: Command, route: Route) -> bool:
     verifier = Verifier(plan_mission(floor_plan, Geodesic(floor_plan), command, route.start))
     poses = with_rest(route).tolist()
     for k, (x, y, heading) in enumerate(poses[1:], 1):
-        speed = 1.0 if k < len(poses) - REST else 0.0
-        verifier.update(Motion((x, y, heading), speed, 0.0, in_contact=False, seconds=SECONDS))
+        speed = 1.0 if k < len(poses) - REST_POSES else 0.0
+        verifier.update(Motion((x, y, heading), speed, 0.0, in_contact=False, seconds=STEP_SECONDS))
     return verifier.success
 
 
 def with_rest(route: Route) -> FloatArray:
     """The poses of a route and of a short rest at its end, shape (n, 3)."""
-    return np.vstack((route.poses, *(route.poses[-1:],) * REST))
+    return np.vstack((route.poses, *(route.poses[-1:],) * REST_POSES))
 
 
 def crossings(floor_plan: FloorPlan, poses: FloatArray) -> list[tuple[int, str]]:
@@ -67,13 +69,13 @@ def destination(floor_plan: FloorPlan, route: Route) -> tuple[str, Approach] | N
     crossed = crossings(floor_plan, poses)
     if crossed:
         index, name = crossed[-1]
-        if path_length(poses[index:, :2]) <= BEHIND_DOOR:
+        if path_length(poses[index:, :2]) <= MAX_DEPTH_BEHIND_DOOR:
             return name, Approach.THROUGH
     if route.facing is not None:
         x, y, heading = poses[-1].tolist()
         middle = to_parent((x, y, heading), (_STAND_OFF, 0.0))
         for door in floor_plan.doors:
-            if door.open and math.dist(door.midpoint, middle) <= BEFORE_DOOR:
+            if door.open and math.dist(door.midpoint, middle) <= STAND_OFF_TOLERANCE:
                 return door.name, Approach.TO
     return None
 
@@ -93,5 +95,5 @@ def check_route(floor_plan: FloorPlan, route: Route) -> None:
     if len(rows):
         at = floor_plan.solids.geometries[int(rows.min())].intersection(way).centroid
         raise RouteError(f"the route leads through something solid at ({at.x:.2f}, {at.y:.2f})")
-    if route.length < SHORTEST and route.facing is None:
+    if route.length < LEAST_ROUTE_LENGTH and route.facing is None:
         raise RouteError(f"the route is {route.length:.2f} m long; there is nothing to describe")

@@ -16,8 +16,8 @@ from semnav_env.features.corridor import Corridor, Junction
 from semnav_env.grounding.counted_doors import CountedDoor
 from semnav_env.grounding.junctions import junctions_ahead
 
-KINDS = (Place.CORNER, Place.T_JUNCTION, Place.INTERSECTION, Place.TURNING, Place.END)
-"""What a junction may be, the plainest first."""
+JUNCTION_KINDS = (Place.CORNER, Place.T_JUNCTION, Place.INTERSECTION, Place.TURNING, Place.END)
+"""What a junction may be called, the plainest word first."""
 
 
 def names_of_door(target: CountedDoor, doors: Sequence[CountedDoor]) -> Iterator[DoorReference]:
@@ -42,7 +42,7 @@ def names_of_junction(
     target: Junction, corridor: Corridor, turning: Turning | None = None
 ) -> Iterator[PlaceReference]:
     """What a junction of a corridor may be called, for a turn to one side or for none."""
-    for kind in KINDS:
+    for kind in JUNCTION_KINDS:
         junctions = junctions_ahead(corridor, kind, turning)
         if target not in junctions:
             continue

@@ -10,14 +10,15 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Pose, wrap_angle
 
-STEP = 0.1
-"""Between the poses of a route, metres."""
+POSE_SPACING = 0.1
+"""Distance between the poses of a route, metres."""
 
-TURN_STEP = 0.1
-"""Between the poses of a turn on the spot, radians."""
+HEADING_STEP = 0.1
+"""Heading change between the poses of a turn on the spot, radians."""
 
-LOOK = 0.4
-"""A robot faces the way from so far behind it to so far ahead of it, metres."""
+LOOK_DISTANCE = 0.4
+"""Distance behind and ahead of a pose between which a robot faces along the route, metres; it
+smooths the corners."""
 
 
 class RouteError(ValueError):
@@ -47,7 +48,7 @@ class Route:
             raise RouteError(f"a route is at least two points (x, y), not shape {points.shape}")
         if not np.isfinite((*points.ravel(), *self.start, self.facing or 0.0)).all():
             raise RouteError("a route needs finite numbers, metres and radians")
-        if math.dist(points[0], self.start[:2]) > STEP:
+        if math.dist(points[0], self.start[:2]) > POSE_SPACING:
             here, there = (f"({p[0]:.2f}, {p[1]:.2f})" for p in (self.start, points[0]))
             raise RouteError(f"the route starts at {here}, but its first point is {there}")
         points.setflags(write=False)
@@ -60,14 +61,15 @@ class Route:
 
     @cached_property
     def poses(self) -> FloatArray:
-        """Where a robot that follows the route comes by, shape (n, 3), `STEP` apart.
+        """Where a robot that follows the route comes by, shape (n, 3), `POSE_SPACING` apart.
 
-        It faces the way it goes; where that changes faster than `TURN_STEP` it turns on the spot.
+        It faces the way it goes. Where that changes by more than `HEADING_STEP` from pose to pose,
+        the robot turns on the spot.
         """
-        marks = np.linspace(0.0, self.length, math.ceil(self.length / STEP) + 1)
-        ahead = self._at(marks + LOOK) - self._at(marks - LOOK)
+        marks = np.linspace(0.0, self.length, math.ceil(self.length / POSE_SPACING) + 1)
+        ahead = self._at(marks + LOOK_DISTANCE) - self._at(marks - LOOK_DISTANCE)
         headings = np.arctan2(ahead[:, 1], ahead[:, 0]).tolist()
-        moves = np.hypot(ahead[:, 0], ahead[:, 1]) > 0.1 * LOOK
+        moves = np.hypot(ahead[:, 0], ahead[:, 1]) > 0.1 * LOOK_DISTANCE
         poses, heading = [self.start], self.start[2]
         for (x, y), wanted, moving in zip(self._at(marks).tolist(), headings, moves, strict=True):
             if moving:
@@ -95,5 +97,5 @@ def _turned(pose: Pose, wanted: float) -> list[Pose]:
     """The poses of a turn on the spot to a heading, the last with it."""
     x, y, heading = pose
     turn = wrap_angle(wanted - heading)
-    steps = max(1, math.ceil(abs(turn) / TURN_STEP))
+    steps = max(1, math.ceil(abs(turn) / HEADING_STEP))
     return [(x, y, wrap_angle(heading + turn * k / steps)) for k in range(1, steps + 1)]

@@ -18,20 +18,20 @@ from semnav_env.rules import GroundingRules
 
 _STAND_OFF = GroundingRules().stand_off
 
-AT_ROOM = 0.5
-"""A door so near to a room is one of its doors, metres."""
+MAX_ROOM_DISTANCE = 0.5
+"""Largest distance of the middle of a door from a room that it is a door of, metres."""
 
 
-COMFORT = 0.8
-"""Routes would rather keep so far from everything solid, metres."""
+PREFERRED_CLEARANCE = 0.8
+"""Distance from everything solid below which a way counts as longer than it is, metres."""
 
-SMOOTH = 7
-"""Points of a way, 0.1 m apart, that each one is averaged over."""
+SMOOTHING_POINTS = 7
+"""Number of points of a way, 0.1 m apart, over which each one is averaged."""
 
 
 def comfortable(floor_plan: FloorPlan) -> Geodesic:
     """The ways that routes take: short ones in the middle of corridors."""
-    return Geodesic(floor_plan, COMFORT)
+    return Geodesic(floor_plan, PREFERRED_CLEARANCE)
 
 
 def route_to(
@@ -126,7 +126,7 @@ def _way(geodesic: Geodesic, start: Pose, goal: Point, name: str) -> FloatArray:
 
 def _smooth(way: FloatArray) -> FloatArray:
     """A way along a grid without its steps; the ends stay."""
-    reach = min(SMOOTH // 2, (len(way) - 1) // 2)
+    reach = min(SMOOTHING_POINTS // 2, (len(way) - 1) // 2)
     smooth = way.copy()
     for k in range(1, len(way) - 1):
         near = min(reach, k, len(way) - 1 - k)
@@ -155,5 +155,5 @@ def _door_into(floor_plan: FloorPlan, region: Region, way: FloatArray) -> PlanDo
     if not crossed:
         return None
     door = floor_plan.door(crossed[-1][1])
-    near = region.polygon.distance(shapely.Point(door.midpoint)) <= AT_ROOM
+    near = region.polygon.distance(shapely.Point(door.midpoint)) <= MAX_ROOM_DISTANCE
     return door if near else None

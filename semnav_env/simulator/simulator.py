@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.dynamics import OFF, Dynamics
+from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.features.frames import Pose, Twist
 from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.lidar.lidar import Lidar
@@ -85,7 +85,10 @@ class Simulator:
     """
 
     def __init__(
-        self, floor_plan: FloorPlan, setup: RobotSetup = RobotSetup(), dynamics: Dynamics = OFF
+        self,
+        floor_plan: FloorPlan,
+        setup: RobotSetup = RobotSetup(),
+        dynamics: Dynamics = NO_DYNAMICS,
     ) -> None:
         self.floor_plan, self.setup, robot = floor_plan, setup, setup.robot
         self.world = World(floor_plan, robot, setup.control_hz, dynamics=dynamics)

@@ -24,7 +24,7 @@ END_SNAP = 1e-9
 """A point of a segment this close to its end is the end, metres."""
 
 NO_OWNER = -1
-"""The owner of a direction without a return."""
+"""Owner of a direction without a return."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pymunk
 
-from semnav_env.dynamics import OFF, Dynamics
+from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.features.frames import Contact, FloatArray, Pose, wrap_angle
 from semnav_env.lidar.moving import NOTHING
 from semnav_env.maps.floor_plan import FloorPlan
@@ -56,7 +56,7 @@ class World:
         robot: RobotSpec,
         control_hz: float = 15.0,
         substeps: int = 4,
-        dynamics: Dynamics = OFF,
+        dynamics: Dynamics = NO_DYNAMICS,
     ) -> None:
         if not 0 < control_hz < math.inf or substeps < 1:
             raise ValueError(

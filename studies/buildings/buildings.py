@@ -26,7 +26,7 @@ from semnav_env.maps.importers import (
     read_occupancy,
 )
 from semnav_env.maps.importers.gaps import places_beside
-from semnav_env.maps.importers.labels import DOORS, read_door_labels
+from semnav_env.maps.importers.labels import DOORS_FILE, read_door_labels
 from studies.buildings.plan_openings import openings_of
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
 from studies.sheets import Cell, ResultSheet
@@ -118,7 +118,7 @@ def find_buildings(folder: Path) -> dict[str, Callable[[], Building]]:
 def labelled(path: Path) -> Building:
     """A floor of an occupancy map whose open doors are those that people labelled."""
     plan = load_building(path).plan
-    names = {label.name for label in read_door_labels(path.with_name(DOORS))}
+    names = {label.name for label in read_door_labels(path.with_name(DOORS_FILE))}
     doors = tuple([door.as_door() for door in plan.doors if door.open and door.name in names])
     area = shapely.union_all([region.polygon for region in plan.regions])
     return Building(plan, doors, area, read_occupancy(path))

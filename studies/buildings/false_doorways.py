@@ -13,7 +13,7 @@ from semnav_env.features.frames import FloatArray, Point, to_local
 from semnav_env.maps.doorways import NARROWEST_ROBOT
 from semnav_env.maps.floor_plan import PlanDoor
 from semnav_env.maps.importers import OccupancyMap
-from semnav_env.maps.importers.gaps import STEP
+from semnav_env.maps.importers.gaps import CROSSING_DEPTH
 
 SEAL_OVERLAP = 0.1
 """How far the seal of a doorway overlaps its jambs, which are rough, metres."""
@@ -24,7 +24,8 @@ def false_doorways(
 ) -> tuple[PlanDoor, ...]:
     """Those doorways that part nothing.
 
-    With all of them sealed, and some others, the way from `STEP` before a doorway to `STEP` behind
+    With all of them sealed, and some others, the way from `CROSSING_DEPTH` before a doorway to as
+    far behind
     it is barred to a disc as wide as the narrowest robot. If it is not, the doorway is a gap
     beside a piece of furniture, or part of an opening that was not found whole. This looks at the
     free pixels alone, neither at the traced walls nor at the outlines of places.
@@ -45,7 +46,7 @@ def false_doorways(
 def _parts_nothing(door: PlanDoor, spaces: NDArray[np.int32], pixels: OccupancyMap) -> bool:
     (x1, y1), (x2, y2) = door.start, door.end
     x, y = door.midpoint
-    dx, dy = STEP * (y1 - y2) / door.width, STEP * (x2 - x1) / door.width
+    dx, dy = CROSSING_DEPTH * (y1 - y2) / door.width, CROSSING_DEPTH * (x2 - x1) / door.width
     before, behind = _pixel(pixels, (x + dx, y + dy)), _pixel(pixels, (x - dx, y - dy))
     return bool(spaces[before] == spaces[behind] != 0)
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from semnav_env.maps.floor_plan import PlanDoor
 from semnav_env.maps.importers import OccupancyMap, Tracing, trace
 from semnav_env.maps.importers.building_doors import moved_along, without_leaves
-from semnav_env.maps.importers.gaps import APART, find_doorways
+from semnav_env.maps.importers.gaps import LEAST_DOORWAY_DISTANCE, find_doorways
 from studies.buildings.buildings import Building
 from studies.buildings.false_doorways import false_doorways
 from studies.doors.door_sightings import matches
@@ -30,7 +30,10 @@ def map_row(name: str, building: Building, pixels: OccupancyMap) -> tuple[Cell, 
     found = [moved_along(doorway, traced, walls) for doorway in doorways]
     hits = sum(any(matches(f.as_door(), d.start, d.end) for f in found) for d in building.doors)
     middles = [door.midpoint for door in building.doors]
-    further = sum(all(math.dist(f.midpoint, middle) > APART for middle in middles) for f in found)
+    further = sum(
+        all(math.dist(f.midpoint, middle) > LEAST_DOORWAY_DISTANCE for middle in middles)
+        for f in found
+    )
     labelled = [PlanDoor("labelled", door.start, door.end) for door in building.doors]
     false = len(false_doorways(found, labelled, pixels))
     recall, wrong = hits / len(building.doors), false / max(1, len(found))

@@ -12,14 +12,14 @@ from semnav_env.maps.generator.boxes import Box
 from semnav_env.maps.generator.lots import Lot
 from semnav_env.maps.generator.openings import Doorway
 from semnav_env.maps.reach import reach
-from semnav_env.maps.reachability import SEARCHES
+from semnav_env.maps.reachability import SEARCH_GRIDS
 from semnav_env.robots import WHEELCHAIR
 
-NARROW = 0.7
-"""Where less is left beside a leaf, it is found out whether a wheelchair gets around it, metres."""
+NARROW_GAP = 0.7
+"""Gap beside a leaf below which it is checked whether a wheelchair gets around the leaf, metres."""
 
-OUTSIDE = 120
-"""Around the two rooms so much of the building is looked at, cm."""
+SURROUNDINGS_MARGIN = 120
+"""Margin of the building around the two rooms that is looked at, cm."""
 
 
 def without_blocking(
@@ -39,7 +39,9 @@ def _beside(leaf: tuple[Point, Point], surfaces: Sequence[Surface]) -> list[Surf
     """The furniture near the tip of a leaf."""
     tip = shapely.Point(leaf[1])
     furniture = (surface for surface in surfaces if surface.material is Material.FURNITURE)
-    return [piece for piece in furniture if shapely.Polygon(piece.points).distance(tip) < NARROW]
+    return [
+        piece for piece in furniture if shapely.Polygon(piece.points).distance(tip) < NARROW_GAP
+    ]
 
 
 def _is_reached(
@@ -51,11 +53,11 @@ def _is_reached(
     for entry in entries:
         begin = Region("doorway", shapely.LineString(entry.jambs).centroid.buffer(0.01))
         part = FloorPlan("part", tuple(surfaces), (), (), (begin,), (), building)
-        ways = (reach(part, WHEELCHAIR.length, WHEELCHAIR.width, *how) for how in SEARCHES)
+        ways = (reach(part, WHEELCHAIR.length, WHEELCHAIR.width, *how) for how in SEARCH_GRIDS)
         if entry.open and any(way.near(shapely.LineString(door.jambs)) for way in ways):
             return True
     return False
 
 
 def _around(room: Box) -> shapely.Polygon:
-    return shapely.box(*(value / 100 for value in room.grown(OUTSIDE)))
+    return shapely.box(*(value / 100 for value in room.grown(SURROUNDINGS_MARGIN)))

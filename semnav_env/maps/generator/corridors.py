@@ -15,14 +15,14 @@ from semnav_env.maps.generator.settings import OfficeSettings
 Node: TypeAlias = tuple[int, int]
 Edge: TypeAlias = tuple[Node, Node]
 
-LONGEST_STUB = 300
-"""How far a corridor runs on behind the last place for a junction, cm."""
+MAX_STUB_LENGTH = 300
+"""Largest length of a corridor behind the last place for a junction, cm."""
 
-PRUNED = 0.5
-"""At most this share of the edges is cut back to make dead ends and missing wings."""
+MAX_PRUNED_SHARE = 0.5
+"""Largest share of the edges that is cut back to make dead ends and missing wings."""
 
-KINDS = {2: "corner", 3: "T-junction", 4: "crossing"}
-"""What a junction of so many arms is called."""
+JUNCTION_KINDS = {2: "corner", 3: "T-junction", 4: "crossing"}
+"""What a junction is called, by its number of arms."""
 
 
 @dataclass(frozen=True)
@@ -153,7 +153,7 @@ def _network(rng: Generator, columns: int, rows: int, loops: float) -> set[Edge]
             group = {node: second if g == first else g for node, g in group.items()}
         if first != second or chance(rng, loops):
             edges.add((a, b))
-    for _ in range(int(rng.integers(0, int(PRUNED * len(edges)) + 1))):
+    for _ in range(int(rng.integers(0, int(MAX_PRUNED_SHARE * len(edges)) + 1))):
         leaves = sorted(edge for edge in edges if _is_leaf(edge, edges))
         if leaves and len(edges) > 2:
             edges.remove(leaves[int(rng.integers(len(leaves)))])
@@ -208,7 +208,8 @@ def _corridor(
     first, last = (node[not along_x] for node in ends)
     i = ends[0][along_x]
     low, high = (
-        other.widths[index] // 2 + (centimetres(rng, (0.0, LONGEST_STUB / 100)) if is_blind else 0)
+        other.widths[index] // 2
+        + (centimetres(rng, (0.0, MAX_STUB_LENGTH / 100)) if is_blind else 0)
         for index, is_blind in zip((first, last), blind, strict=True)
     )
     half = own.widths[i] // 2

@@ -45,3 +45,4 @@ HARD = OfficeSettings(
 """As many rooms as medium, but narrow doors and corridors, leaves and things in the way, glass."""
 
 DISTRIBUTIONS = {"small": SMALL, "medium": MEDIUM, "large": LARGE, "hard": HARD}
+"""The distributions of offices by their names."""

@@ -11,32 +11,41 @@ from semnav_env.maps.generator.boxes import Box, Span, box_of, is_free
 from semnav_env.maps.generator.chance import centimetres, chance
 from semnav_env.maps.generator.corridors import OfficeCorridor, OfficeJunction
 from semnav_env.maps.generator.lots import Lot, OfficeWall
-from semnav_env.maps.generator.openings import NIB, Doorway, lanes
+from semnav_env.maps.generator.openings import CORNER_DISTANCE, Doorway, lanes
 from semnav_env.maps.generator.settings import OfficeSettings
 
-GAP = 3
-"""Between a wall and what stands along it, cm."""
+WALL_GAP = 3
+"""Gap between a wall and what stands along it, cm."""
 
-AISLE = 90
-"""Between a table in the middle of a room and everything else, cm."""
+AISLE_WIDTH = 90
+"""Gap between a table in the middle of a room and everything else, cm: a wheelchair passes."""
 
-PASSAGE = 130
-"""A corridor stays at least so wide beside what stands in it, cm."""
+FREE_CORRIDOR_WIDTH = 130
+"""Width of a corridor that stays free beside what stands in it, cm."""
 
-DOOR_APART, JUNCTION_APART = 110, 130
-"""From doors and junctions to what stands in a corridor, cm."""
+DOOR_DISTANCE = 110
+"""Least distance from a door to what stands in a corridor, cm."""
 
-CABINET, DESK, TABLE = ((80, 180), (40, 50)), ((140, 180), (70, 80)), ((160, 320), (90, 120))
-"""Least and most along a wall, and out from it, cm."""
+JUNCTION_DISTANCE = 130
+"""Least distance from a junction to what stands in a corridor, cm."""
 
-LEAST_FOR_TABLE = 18.0
-"""A room with a table in its middle is larger, square metres."""
+CABINET_SIZES = ((80, 180), (40, 50))
+"""Least and largest side of a cabinet along the wall, and the same out from it, cm."""
 
-COLUMN = (30, 45)
-"""Least and most side of a column, cm."""
+DESK_SIZES = ((140, 180), (70, 80))
+"""Least and largest side of a desk along the wall, and the same out from it, cm."""
 
-COLUMN_GRID = 540
-"""Between the columns of a big room, cm."""
+TABLE_SIZES = ((160, 320), (90, 120))
+"""Least and largest length and width of a table, cm."""
+
+LEAST_TABLE_ROOM = 18.0
+"""Area of the smallest room with a table in its middle, square metres."""
+
+COLUMN_SIDES = (30, 45)
+"""Least and largest side of a column, cm."""
+
+COLUMN_SPACING = 540
+"""Distance between the columns of a big room, cm."""
 
 
 def furnish(
@@ -66,19 +75,19 @@ def _columns(
     rng: Generator, settings: OfficeSettings, lot: Lot, kept: Sequence[Box]
 ) -> Iterator[Box]:
     """On a grid in big rooms, all of one size."""
-    side = int(rng.integers(*COLUMN, endpoint=True))
-    if min(lot.box.size) < COLUMN_GRID or not chance(rng, settings.columns):
+    side = int(rng.integers(*COLUMN_SIDES, endpoint=True))
+    if min(lot.box.size) < COLUMN_SPACING or not chance(rng, settings.columns):
         return
     for x in _places(lot.box.span(True)):
         for y in _places(lot.box.span(False)):
             box = Box(x - side // 2, y - side // 2, x + side - side // 2, y + side - side // 2)
-            if is_free(box.grown(AISLE), kept):
+            if is_free(box.grown(AISLE_WIDTH), kept):
                 yield box
 
 
 def _places(span: Span) -> list[int]:
     """Evenly spaced, neither at the ends."""
-    count = (span[1] - span[0]) // COLUMN_GRID
+    count = (span[1] - span[0]) // COLUMN_SPACING
     return [span[0] + (i + 1) * (span[1] - span[0]) // (count + 1) for i in range(count)]
 
 
@@ -90,11 +99,11 @@ def _pieces(
     for wall in _inner_walls(lot):
         for box in _along(rng, settings, wall):
             if is_free(box, placed):
-                placed.append(box.grown(GAP))
+                placed.append(box.grown(WALL_GAP))
                 yield box
     table = _table(rng, lot.box)
-    around = table.grown(AISLE)
-    fits = lot.area > LEAST_FOR_TABLE and is_free(around, placed) and _inside(around, lot.box)
+    around = table.grown(AISLE_WIDTH)
+    fits = lot.area > LEAST_TABLE_ROOM and is_free(around, placed) and _inside(around, lot.box)
     if fits and chance(rng, settings.furniture):
         yield table
 
@@ -111,24 +120,24 @@ def _inner_walls(lot: Lot) -> Iterator[OfficeWall]:
 
 def _along(rng: Generator, settings: OfficeSettings, wall: OfficeWall) -> Iterator[Box]:
     """Pieces in a row along a wall, with gaps between them."""
-    along = wall.span[0] + GAP
+    along = wall.span[0] + WALL_GAP
     while along < wall.span[1]:
-        kind = DESK if chance(rng, 0.5) else CABINET
+        kind = DESK_SIZES if chance(rng, 0.5) else CABINET_SIZES
         length, depth = (5 * int(rng.integers(a // 5, b // 5 + 1)) for a, b in kind)
-        if kind is DESK and chance(rng, 0.5):
+        if kind is DESK_SIZES and chance(rng, 0.5):
             length, depth = depth, length
         end = along + length
-        if end > wall.span[1] - GAP:
+        if end > wall.span[1] - WALL_GAP:
             return
         if chance(rng, settings.furniture):
-            at = wall.at + wall.inward * GAP
+            at = wall.at + wall.inward * WALL_GAP
             yield box_of(wall.along_x, (along, end), (at, at + wall.inward * depth))
-        along = end + GAP + (5 * int(rng.integers(0, 21)) if chance(rng, 0.6) else 0)
+        along = end + WALL_GAP + (5 * int(rng.integers(0, 21)) if chance(rng, 0.6) else 0)
 
 
 def _table(rng: Generator, room: Box) -> Box:
     """In the middle, along the longer side."""
-    length, width = (int(rng.integers(a, b + 1)) for a, b in TABLE)
+    length, width = (int(rng.integers(a, b + 1)) for a, b in TABLE_SIZES)
     x, y = room.size
     size = (length, width) if x > y else (width, length)
     west, south = room.west + (x - size[0]) // 2, room.south + (y - size[1]) // 2
@@ -153,12 +162,14 @@ def line_corridors(
     doors: Sequence[Doorway],
 ) -> Iterator[Surface]:
     """Columns and cabinets along the walls of corridors, away from doors and junctions."""
-    kept = [junction.box.grown(JUNCTION_APART) for junction in junctions]
+    kept = [junction.box.grown(JUNCTION_DISTANCE) for junction in junctions]
     for door in doors:
-        span = door.span[0] - DOOR_APART, door.span[1] + DOOR_APART
+        span = door.span[0] - DOOR_DISTANCE, door.span[1] + DOOR_DISTANCE
         kept += [door.wall.box(span, -400)]
     kept += [
-        lot.front.box((lot.front.span[0] - NIB, lot.front.span[1] + NIB), -400)
+        lot.front.box(
+            (lot.front.span[0] - CORNER_DISTANCE, lot.front.span[1] + CORNER_DISTANCE), -400
+        )
         for lot in lots
         if lot.open
     ]
@@ -169,7 +180,7 @@ def line_corridors(
             box, material = _beside(rng, corridor, along + int(rng.integers(0, 100)), width)
             share = settings.columns if material is Material.WALL else settings.furniture / 4
             if box and chance(rng, share) and is_free(box, kept):
-                kept.append(box.grown(PASSAGE))
+                kept.append(box.grown(FREE_CORRIDOR_WIDTH))
                 yield _surface(box, material)
 
 
@@ -179,14 +190,14 @@ def _beside(
     """A column, or in a wide corridor a cabinet, at one of the walls."""
     low, high = corridor.box.span(not corridor.along_x)
     at, inward = ((low, 1), (high, -1))[int(rng.integers(2))]
-    side = int(rng.integers(*COLUMN, endpoint=True))
+    side = int(rng.integers(*COLUMN_SIDES, endpoint=True))
     length, depth = centimetres(rng, (0.8, 1.2)), 40
     is_column = chance(rng, 0.5)
-    length, depth = (side, min(side, width - PASSAGE)) if is_column else (length, depth)
+    length, depth = (side, min(side, width - FREE_CORRIDOR_WIDTH)) if is_column else (length, depth)
     material = Material.WALL if is_column else Material.FURNITURE
-    if depth < 15 or width - depth < PASSAGE:
+    if depth < 15 or width - depth < FREE_CORRIDOR_WIDTH:
         return None, material
-    start = at + inward * (0 if is_column else GAP)
+    start = at + inward * (0 if is_column else WALL_GAP)
     span = along, along + length
     return box_of(corridor.along_x, span, (start, at + inward * depth)), material
 

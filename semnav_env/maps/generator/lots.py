@@ -13,26 +13,38 @@ from semnav_env.maps.generator.chance import centimetres, chance
 from semnav_env.maps.generator.corridors import OfficeCorridor
 from semnav_env.maps.generator.settings import OfficeSettings
 
-SHALLOWEST = 280
-"""No room is less deep, cm."""
+LEAST_DEPTH = 280
+"""Depth of the shallowest room, cm."""
 
-ABSORBED = 220
-"""A strip behind a room that is no deeper than this belongs to it, cm."""
+MAX_ABSORBED_DEPTH = 220
+"""Depth of the deepest strip behind a room that becomes part of it, cm."""
 
 LEAST_FRONT = 150
-"""A room borders on its corridor for at least so long, for its door, cm."""
+"""Shortest border of a room on its corridor, cm: there must be place for a door."""
 
-NARROWEST = 180
-"""No room is narrower, cm."""
+LEAST_WIDTH = 180
+"""Width of the narrowest room, cm."""
 
-SMALL_ROOMS, BIG_ROOMS = 0.14, 0.12
-"""Chances of a room for storage or the like, and of a meeting room or an office of many desks."""
+SMALL_ROOM_CHANCE = 0.14
+"""Probability of a room for storage or the like."""
 
-SMALL_WIDTH, BIG_WIDTH, CAP_DEPTH, AREA_WIDTH = (1.8, 2.4), (5.6, 9.5), (3.6, 6.0), (3.4, 6.0)
-"""Of those, of rooms at the end of a corridor, and of areas without a front wall, metres."""
+BIG_ROOM_CHANCE = 0.12
+"""Probability of a meeting room or an office of many desks."""
 
-CAPPED = 0.6
-"""Chance of a dead end to lead to a room."""
+SMALL_WIDTHS = (1.8, 2.4)
+"""Least and largest width of a small room, metres."""
+
+BIG_WIDTHS = (5.6, 9.5)
+"""Least and largest width of a big room, metres."""
+
+CAP_DEPTHS = (3.6, 6.0)
+"""Least and largest depth of a room at the end of a corridor, metres."""
+
+AREA_WIDTHS = (3.4, 6.0)
+"""Least and largest width of an area without a front wall, metres."""
+
+CAP_CHANCE = 0.6
+"""Probability that a dead end leads to a room."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +118,7 @@ def lay_rooms(
             lots += laid
     for index, corridor in enumerate(corridors):
         for end in (-1, 1):
-            if corridor.blind[end > 0] and chance(rng, CAPPED):
+            if corridor.blind[end > 0] and chance(rng, CAP_CHANCE):
                 cap = _cap(rng, corridor, index, end, taken)
                 taken += [cap.box] if cap else []
                 lots += [cap] if cap else []
@@ -129,18 +141,18 @@ def _row(
     low, high = corridor.box.span(corridor.along_x)
     at = corridor.box.span(not corridor.along_x)[side > 0]
     band = OfficeWall(corridor.along_x, at, _with_corners(corridors, index), side)
-    near = band.box(band.span, SHALLOWEST)
+    near = band.box(band.span, LEAST_DEPTH)
     holes = [box.span(corridor.along_x) for box in taken if box.overlaps(near)]
     for gap in without([band.span], holes):
         front = max(gap[0], low), min(gap[1], high)
-        if front[1] - front[0] < max(LEAST_FRONT, NARROWEST):
+        if front[1] - front[0] < max(LEAST_FRONT, LEAST_WIDTH):
             continue
         cuts = _cuts(rng, settings, gap, front)
         area = int(rng.integers(len(cuts) - 1)) if chance(rng, settings.open_areas) else -1
         for i, span in enumerate(pairwise(cuts)):
             wall = replace(band, span=(max(span[0], low), min(span[1], high)))
             box = band.box(span, _depth(band, span, depth, taken))
-            is_area = i == area and span[1] - span[0] >= 100 * AREA_WIDTH[0]
+            is_area = i == area and span[1] - span[0] >= 100 * AREA_WIDTHS[0]
             yield Lot(box, wall, index, is_area)
 
 
@@ -166,26 +178,26 @@ def _cuts(rng: Generator, settings: OfficeSettings, gap: Span, front: Span) -> l
     cuts = [gap[0]]
     while gap[1] - cuts[-1] > 100 * settings.room_width[0]:
         cuts.append(max(cuts[-1] + _width(rng, settings), front[0] + LEAST_FRONT))
-    cuts = [cut for cut in cuts if cut <= min(gap[1] - NARROWEST, front[1] - LEAST_FRONT)]
+    cuts = [cut for cut in cuts if cut <= min(gap[1] - LEAST_WIDTH, front[1] - LEAST_FRONT)]
     return [*(cuts or [gap[0]]), gap[1]]
 
 
 def _width(rng: Generator, settings: OfficeSettings) -> int:
     draw = float(rng.random())
-    if draw < SMALL_ROOMS:
-        return centimetres(rng, SMALL_WIDTH)
-    return centimetres(rng, BIG_WIDTH if draw > 1.0 - BIG_ROOMS else settings.room_width)
+    if draw < SMALL_ROOM_CHANCE:
+        return centimetres(rng, SMALL_WIDTHS)
+    return centimetres(rng, BIG_WIDTHS if draw > 1.0 - BIG_ROOM_CHANCE else settings.room_width)
 
 
 def _depth(band: OfficeWall, span: Span, depth: int, taken: list[Box]) -> int:
     """How deep a room is: as planned, but no narrow strip stays behind it."""
-    behind = band.box(span, depth + ABSORBED)
-    clear = depth + ABSORBED + 1
+    behind = band.box(span, depth + MAX_ABSORBED_DEPTH)
+    clear = depth + MAX_ABSORBED_DEPTH + 1
     for box in taken:
         if box.overlaps(behind):
             low, high = box.span(not band.along_x)
             clear = min(clear, low - band.at if band.inward > 0 else band.at - high)
-    return clear if clear <= depth + ABSORBED else depth
+    return clear if clear <= depth + MAX_ABSORBED_DEPTH else depth
 
 
 def _cap(
@@ -195,7 +207,7 @@ def _cap(
     low, high = corridor.box.span(not corridor.along_x)
     at = corridor.box.span(corridor.along_x)[end > 0]
     front = OfficeWall(not corridor.along_x, at, (low, high), end)
-    depth = centimetres(rng, CAP_DEPTH)
+    depth = centimetres(rng, CAP_DEPTHS)
     left, right = corridor.depths
     for span in ((low - left, high + right), (low - left, high), (low, high + right)):
         box = front.box(span, depth)

@@ -9,21 +9,49 @@ from numpy.random import Generator
 from semnav_env.maps.generator.chance import chance
 from semnav_env.maps.generator.lots import Lot
 
-SMALL = ("printer room", "storage room", "server room", "toilets", "first aid room", "copy room")
-USUAL = ("kitchen", "library", "archive", "laboratory", "workshop", "phone room", "mail room")
-BIG = ("meeting room", "conference room", "canteen", "seminar room", "training room", "studio")
-REPEATED = frozenset(("meeting room", "toilets", "storage room", "printer room", "laboratory"))
-"""Of these a storey may have several, as of areas: "toilets 2"."""
+SMALL_ROOM_NAMES = (
+    "printer room",
+    "storage room",
+    "server room",
+    "toilets",
+    "first aid room",
+    "copy room",
+)
+"""Names of small rooms."""
 
-AREAS = ("lounge", "reception", "coffee corner", "waiting area", "print corner")
+ROOM_NAMES = ("kitchen", "library", "archive", "laboratory", "workshop", "phone room", "mail room")
+"""Names of rooms of a usual size."""
 
-SMALL_AREA, BIG_AREA = 10.5, 26.0
-"""Square metres."""
+BIG_ROOM_NAMES = (
+    "meeting room",
+    "conference room",
+    "canteen",
+    "seminar room",
+    "training room",
+    "studio",
+)
+"""Names of big rooms."""
 
-NAMED = 0.35
-"""Chance of a room to be called by what it is for."""
+REPEATED_NAMES = frozenset(
+    ("meeting room", "toilets", "storage room", "printer room", "laboratory")
+)
+"""Names that several rooms of a storey may have, numbered as in "toilets 2"."""
+
+AREA_NAMES = ("lounge", "reception", "coffee corner", "waiting area", "print corner")
+"""Names of open areas."""
+
+
+SMALL_AREA = 10.5
+"""Floor area below which a room is small, square metres."""
+
+BIG_AREA = 26.0
+"""Floor area above which a room is big, square metres."""
+
+NAMED_CHANCE = 0.35
+"""Probability that a room is called by what it is for and not by a number."""
 
 NUMBERED_STOREYS = 4
+"""Number of storeys that room numbers come from: 101 to 4xx."""
 
 
 def name_rooms(rng: Generator, lots: Sequence[Lot]) -> tuple[str, ...]:
@@ -39,7 +67,7 @@ def name_rooms(rng: Generator, lots: Sequence[Lot]) -> tuple[str, ...]:
     for index in order:
         lot, word = lots[index], _function(rng, lots[index])
         number += not lot.open
-        suits = chance(rng, NAMED) and (word not in used or word in REPEATED)
+        suits = chance(rng, NAMED_CHANCE) and (word not in used or word in REPEATED_NAMES)
         if lot.open or suits:
             names[index] = _numbered(word, used)
         else:
@@ -48,9 +76,15 @@ def name_rooms(rng: Generator, lots: Sequence[Lot]) -> tuple[str, ...]:
 
 
 def _function(rng: Generator, lot: Lot) -> str:
-    words: tuple[str, ...] = AREAS
+    words: tuple[str, ...] = AREA_NAMES
     if not lot.open:
-        words = SMALL if lot.area < SMALL_AREA else BIG if lot.area > BIG_AREA else USUAL
+        words = (
+            SMALL_ROOM_NAMES
+            if lot.area < SMALL_AREA
+            else BIG_ROOM_NAMES
+            if lot.area > BIG_AREA
+            else ROOM_NAMES
+        )
     return words[int(rng.integers(len(words)))]
 
 

@@ -15,13 +15,14 @@ from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.generator.distributions import DISTRIBUTIONS
 from semnav_env.maps.generator.settings import OfficeSettings
 
-PREFIX = "office"
-"""The first part of the names."""
+OFFICE_PREFIX = "office"
+"""First part of the names of generated offices."""
 
-CUSTOM = "custom"
-"""Stands for settings that are those of no fixed distribution."""
+CUSTOM_DISTRIBUTION = "custom"
+"""Name that stands for settings which are those of no fixed distribution."""
 
-MOST_SEED = 2**63 - 1
+MAX_SEED = 2**63 - 1
+"""Largest seed."""
 
 
 def generate_office(seed: int, settings: str | OfficeSettings = "medium") -> FloorPlan:
@@ -38,18 +39,20 @@ def generate_office(seed: int, settings: str | OfficeSettings = "medium") -> Flo
     Raises:
         ValueError: no such distribution, a seed that is none, or settings that no office meets.
     """
-    if isinstance(seed, bool) or not isinstance(seed, Integral) or not 0 <= seed <= MOST_SEED:
-        raise ValueError(f"the seed is {seed!r}; give a whole number from 0 to {MOST_SEED}")
+    if isinstance(seed, bool) or not isinstance(seed, Integral) or not 0 <= seed <= MAX_SEED:
+        raise ValueError(f"the seed is {seed!r}; give a whole number from 0 to {MAX_SEED}")
     from semnav_env.maps.generator.office import draw_office  # most environments need no office
 
     ranges = distribution(settings) if isinstance(settings, str) else settings
     names = [name for name, fixed in DISTRIBUTIONS.items() if fixed == ranges]
-    return draw_office(int(seed), ranges, office_name(names[0] if names else CUSTOM, seed))
+    return draw_office(
+        int(seed), ranges, office_name(names[0] if names else CUSTOM_DISTRIBUTION, seed)
+    )
 
 
 def office_name(distribution: str, seed: int) -> str:
     """As "office:medium:17"."""
-    return f"{PREFIX}:{distribution}:{seed}"
+    return f"{OFFICE_PREFIX}:{distribution}:{seed}"
 
 
 def office_named(name: str) -> FloorPlan:
@@ -58,11 +61,11 @@ def office_named(name: str) -> FloorPlan:
     Raises:
         ValueError: not of the form "office:medium:17", or no such distribution.
     """
-    match = re.fullmatch(rf"{PREFIX}:([a-z]+):(0|[1-9][0-9]{{0,18}})", name)
+    match = re.fullmatch(rf"{OFFICE_PREFIX}:([a-z]+):(0|[1-9][0-9]{{0,18}})", name)
     if match is None:
         raise ValueError(
-            f"{name[:80]!r} names no generated office; write {PREFIX}:DISTRIBUTION:SEED, as in "
-            f"{office_name('medium', 17)}"
+            f"{name[:80]!r} names no generated office; write "
+            f"{OFFICE_PREFIX}:DISTRIBUTION:SEED, as in {office_name('medium', 17)}"
         )
     return generate_office(int(match[2]), match[1])
 

@@ -14,7 +14,7 @@ from semnav_env.maps.generator.blocked import without_blocking
 from semnav_env.maps.generator.boxes import Box
 from semnav_env.maps.generator.chance import chance
 from semnav_env.maps.generator.corridors import (
-    KINDS,
+    JUNCTION_KINDS,
     OfficeCorridor,
     OfficeJunction,
     draw_corridors,
@@ -26,21 +26,21 @@ from semnav_env.maps.generator.openings import Doorway, hang_doors
 from semnav_env.maps.generator.settings import OfficeSettings
 from semnav_env.maps.generator.walls import build_walls, outline
 
-MOST_TRIES = 1000
-"""Layouts drawn before settings are found to contradict each other."""
+MAX_LAYOUTS = 1000
+"""Number of layouts drawn before the settings are said to contradict each other."""
 
 
 @dataclass(frozen=True)
-class Layout:
+class OfficeLayout:
     """Where corridors and rooms lie."""
 
     corridors: tuple[OfficeCorridor, ...]
     junctions: tuple[OfficeJunction, ...]
     lots: tuple[Lot, ...]
 
-    def transposed(self) -> Layout:
+    def transposed(self) -> OfficeLayout:
         """With x and y exchanged."""
-        return Layout(
+        return OfficeLayout(
             tuple(corridor.transposed() for corridor in self.corridors),
             tuple(replace(j, box=j.box.transposed()) for j in self.junctions),
             tuple(lot.transposed() for lot in self.lots),
@@ -82,14 +82,14 @@ def draw_office(seed: int, settings: OfficeSettings, name: str) -> FloorPlan:
     )
 
 
-def _layout(rng: Generator, settings: OfficeSettings) -> Layout:
+def _layout(rng: Generator, settings: OfficeSettings) -> OfficeLayout:
     """Drawn until it has as many rooms as asked for."""
     fewest, most = settings.rooms
-    for _ in range(MOST_TRIES):
+    for _ in range(MAX_LAYOUTS):
         corridors, junctions = draw_corridors(rng, settings)
         lots = lay_rooms(rng, settings, corridors)
         if fewest <= sum(not lot.open for lot in lots) <= most:
-            layout = Layout(corridors, junctions, lots)
+            layout = OfficeLayout(corridors, junctions, lots)
             return layout.transposed() if chance(rng, 0.5) else layout
     raise ValueError(
         f"no office of {fewest} to {most} rooms came up; change rooms, crossings, bay or room_width"
@@ -115,7 +115,7 @@ def _crossings(junctions: Sequence[OfficeJunction]) -> Iterator[Region]:
     """Named after what they are: "corner 1", "T-junction 1", "crossing 1"."""
     used: Counter[str] = Counter()
     for junction in junctions:
-        kind = KINDS[junction.arms]
+        kind = JUNCTION_KINDS[junction.arms]
         used[kind] += 1
         yield _region(f"{kind} {used[kind]}", junction.box)
 

@@ -14,32 +14,33 @@ from semnav_env.maps.generator.chance import centimetres, chance
 from semnav_env.maps.generator.lots import Lot, OfficeWall
 from semnav_env.maps.generator.settings import OfficeSettings
 
-NIB = 15
-"""From a door to the nearest corner, at least, cm."""
+CORNER_DISTANCE = 15
+"""Least distance from a door to the nearest corner, cm."""
 
-CLEAR = 0.87
-"""Metres that a half-open door leaves: a wheelchair passes."""
+HALF_OPEN_CLEARANCE = 0.87
+"""Clear width that a half-open door leaves, metres: a wheelchair passes."""
 
-STEEPEST_HALF = 72.0
-"""Degrees: a leaf that narrows its door stands at most so far open."""
+MAX_HALF_OPEN_DEGREES = 72.0
+"""Largest angle of a leaf that narrows its door, degrees."""
 
-WITH_LEAF = 0.7
-"""Chance of an open door to have a leaf that the scanner sees; others fold back to the wall."""
+LEAF_CHANCE = 0.7
+"""Probability that an open door has a leaf which the lidar sees; the others fold back to the
+wall."""
 
-LANDING = 170
-"""Behind a door nothing stands nearer than this, cm."""
+LANDING_DEPTH = 170
+"""Distance behind a door within which nothing stands, cm."""
 
-LEAST_HALF = 0.92
-"""A door is half open only if it is at least so wide, metres."""
+LEAST_HALF_OPEN_WIDTH = 0.92
+"""Width of the narrowest door that may be half open, metres."""
 
-BESIDE = 110
-"""Beside a half-open door one needs so much more, away from its hinge, cm."""
+HALF_OPEN_SIDE_SPACE = 110
+"""Extra space beside a half-open door, away from its hinge, cm: a robot comes in at an angle."""
 
-INNER = 200
-"""A door between two rooms is at least so far from the corridor, cm."""
+INNER_DOOR_DISTANCE = 200
+"""Least distance of a door between two rooms from the corridor, cm."""
 
-TWO_DOORS = 750
-"""Rooms wider than this may have two doors, cm."""
+TWO_DOOR_WIDTH = 750
+"""Width above which a room may have two doors, cm."""
 
 
 @dataclass(frozen=True)
@@ -71,8 +72,10 @@ class Doorway:
     @property
     def landings(self) -> tuple[Box, Box]:
         """What stays free behind it and before it."""
-        span, way = ((low - NIB, high + NIB) for low, high in (self.span, self.way))
-        return self.wall.box(way, LANDING), self.wall.box(span, -LANDING)
+        span, way = (
+            (low - CORNER_DISTANCE, high + CORNER_DISTANCE) for low, high in (self.span, self.way)
+        )
+        return self.wall.box(way, LANDING_DEPTH), self.wall.box(span, -LANDING_DEPTH)
 
 
 def hang_doors(
@@ -95,17 +98,17 @@ def lanes(door: Doorway, lots: Sequence[Lot]) -> Iterator[Box]:
         low, high = lot.box.span(lot.front.along_x)
         beside = (low, low + 150) if low == door.wall.at else (high - 150, high)
         deepest = max(abs(end - lot.front.at) for end in door.span)
-        yield lot.front.box(beside, deepest + NIB)
-        yield lot.front.box((low, high), LANDING)
+        yield lot.front.box(beside, deepest + CORNER_DISTANCE)
+        yield lot.front.box((low, high), LANDING_DEPTH)
 
 
 def _fronts(rng: Generator, lot: Lot) -> list[OfficeWall]:
     """The stretches of a room's front that get a door each."""
     wall, (low, high) = lot.front, lot.front.span
-    if high - low < TWO_DOORS or chance(rng, 0.4):
+    if high - low < TWO_DOOR_WIDTH or chance(rng, 0.4):
         return [wall]
     middle = (low + high) // 2
-    halves = (low, middle - NIB), (middle + NIB, high)
+    halves = (low, middle - CORNER_DISTANCE), (middle + CORNER_DISTANCE, high)
     return [OfficeWall(wall.along_x, wall.at, half, wall.inward) for half in halves]
 
 
@@ -118,19 +121,27 @@ def _door(
     if draw < settings.closed:
         return Doorway(wall, span, False, _leaf(wall, span, True, 0.0), span, lots)
     at_low = span[0] - wall.span[0] < wall.span[1] - span[1]
-    beside = (span[0], span[1] + BESIDE) if at_low else (span[0] - BESIDE, span[1])
-    fits = room[0] <= beside[0] and beside[1] <= room[1] and span[1] - span[0] >= 100 * LEAST_HALF
+    beside = (
+        (span[0], span[1] + HALF_OPEN_SIDE_SPACE)
+        if at_low
+        else (span[0] - HALF_OPEN_SIDE_SPACE, span[1])
+    )
+    fits = (
+        room[0] <= beside[0]
+        and beside[1] <= room[1]
+        and span[1] - span[0] >= 100 * LEAST_HALF_OPEN_WIDTH
+    )
     if fits and draw < settings.closed + settings.half_open:
         leaf = _leaf(wall, span, at_low, _half_open(rng, span[1] - span[0]))
         return Doorway(wall, span, True, leaf, beside, lots)
-    seen = chance(rng, WITH_LEAF)
+    seen = chance(rng, LEAF_CHANCE)
     leaf = _leaf(wall, span, at_low, float(rng.uniform(80.0, 96.0)))
     return Doorway(wall, span, True, leaf if seen else None, span, lots)
 
 
 def _place(rng: Generator, settings: OfficeSettings, wall: OfficeWall) -> Span:
     """From jamb to jamb: near one of the wall's ends, or anywhere."""
-    low, high = wall.span[0] + NIB, wall.span[1] - NIB
+    low, high = wall.span[0] + CORNER_DISTANCE, wall.span[1] - CORNER_DISTANCE
     width = min(centimetres(rng, settings.door_width), high - low)
     spare = high - low - width
     near = min(centimetres(rng, (0.0, 0.3)), spare)
@@ -140,9 +151,9 @@ def _place(rng: Generator, settings: OfficeSettings, wall: OfficeWall) -> Span:
 
 
 def _half_open(rng: Generator, width: int) -> float:
-    """An angle in degrees at which a leaf leaves `CLEAR`."""
-    least = math.degrees(math.asin(CLEAR * 100 / width))
-    return float(rng.uniform(max(least, 45.0), STEEPEST_HALF))
+    """An angle in degrees at which a leaf leaves `HALF_OPEN_CLEARANCE`."""
+    least = math.degrees(math.asin(HALF_OPEN_CLEARANCE * 100 / width))
+    return float(rng.uniform(max(least, 45.0), MAX_HALF_OPEN_DEGREES))
 
 
 def _leaf(wall: OfficeWall, span: Span, at_low: bool, degrees: float) -> tuple[Point, Point]:
@@ -190,8 +201,11 @@ def _shared(first: Lot, second: Lot) -> OfficeWall | None:
     ) or first.box.span(along)[1] != second.box.span(along)[0]:
         return None
     depth = min(lot.box.size[along] for lot in (first, second))
-    ends = front.at + front.inward * INNER, front.at + front.inward * (depth - NIB)
+    ends = (
+        front.at + front.inward * INNER_DOOR_DISTANCE,
+        front.at + front.inward * (depth - CORNER_DISTANCE),
+    )
     low, high = min(ends), max(ends)
-    if depth - NIB - INNER < 130 or min(first.width, second.width) < 240:
+    if depth - CORNER_DISTANCE - INNER_DOOR_DISTANCE < 130 or min(first.width, second.width) < 240:
         return None
     return OfficeWall(not along, first.box.span(along)[1], (low, high), 1)

@@ -65,20 +65,20 @@ class OfficeSettings:
             elif field.name != "crossings":
                 _check_range(field.name, value)
         for fewest, many in self.crossings:
-            if not 1 <= fewest <= many <= MOST_CROSSINGS:
+            if not 1 <= fewest <= many <= MAX_CROSSINGS:
                 raise ValueError(
-                    f"crossings are {self.crossings}; each must lie within 1 and {MOST_CROSSINGS}"
+                    f"crossings are {self.crossings}; each must lie within 1 and {MAX_CROSSINGS}"
                 )
-        for name, least, most in LIMITS:
+        for name, least, most in SETTING_LIMITS:
             low, high = getattr(self, name)
             if not least <= low <= high <= most:
                 raise ValueError(f"{name} is {(low, high)}; it must lie within {least} and {most}")
 
 
-MOST_CROSSINGS = 8
-"""Lines of corridors one way, at most."""
+MAX_CROSSINGS = 8
+"""Largest number of parallel lines of corridors."""
 
-LIMITS: tuple[tuple[str, float, float], ...] = (
+SETTING_LIMITS: tuple[tuple[str, float, float], ...] = (
     ("rooms", 2, 100),
     ("bay", 6.0, 40.0),
     ("wing", 4.0, 40.0),
@@ -87,8 +87,8 @@ LIMITS: tuple[tuple[str, float, float], ...] = (
     ("room_width", 2.4, 9.0),
     ("door_width", 0.8, 1.2),
 )
-"""What every office keeps to: (setting, least, most). Narrower corridors and doors would not let
-every robot through."""
+"""Least and largest value of each setting: narrower corridors and doors would not let every robot
+through."""
 
 
 def _check_chance(name: str, value: float) -> None:

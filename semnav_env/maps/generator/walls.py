@@ -23,15 +23,18 @@ from semnav_env.maps.generator.settings import OfficeSettings
 Line: TypeAlias = tuple[bool, int]
 """Whether it runs along x, and its place across that, cm."""
 
-NIB = 30
-"""Of wall beside the open front of an area, and between glass and the next wall or door, cm."""
+FRONT_WALL_LENGTH = 30
+"""Length of wall beside the open front of an area, and between glass and the next wall or door,
+cm."""
 
-LEAST_GLASS = 60
-"""No frameless pane is narrower, cm."""
+LEAST_PANE_WIDTH = 60
+"""Width of the narrowest frameless pane, cm."""
 
-WINDOW, PIER = 45, 30
-"""Framed glass is a row of windows so wide, which no robot takes for a way, with at least so much
-wall between them, cm."""
+WINDOW_WIDTH = 45
+"""Width of a window in a framed glass front, cm: too narrow for a robot to take it for a way."""
+
+PIER_WIDTH = 30
+"""Least width of the wall between two windows, cm."""
 
 
 def build_walls(
@@ -52,7 +55,9 @@ def build_walls(
     for door in doors:
         gaps[door.wall.along_x, door.wall.at].append(door.span)
     for wall in (lot.front for lot in lots if lot.open):
-        gaps[wall.along_x, wall.at].append((wall.span[0] + NIB, wall.span[1] - NIB))
+        gaps[wall.along_x, wall.at].append(
+            (wall.span[0] + FRONT_WALL_LENGTH, wall.span[1] - FRONT_WALL_LENGTH)
+        )
     panes = _panes(rng, settings, corridors, lots)
     for line in sorted(solid):
         stretches = without(solid[line], gaps[line])
@@ -100,7 +105,9 @@ def _panes(
 
     def add(wall: OfficeWall) -> None:
         framed = not chance(rng, settings.frameless)
-        panes[wall.along_x, wall.at].append(Pane(wall.span[0] + NIB, wall.span[1] - NIB, framed))
+        panes[wall.along_x, wall.at].append(
+            Pane(wall.span[0] + FRONT_WALL_LENGTH, wall.span[1] - FRONT_WALL_LENGTH, framed)
+        )
 
     for lot in lots:
         if not lot.open and chance(rng, settings.glass):
@@ -116,15 +123,15 @@ def _panes(
 
 def _glazed(stretch: Span, pane: Pane) -> Iterator[Span]:
     """The parts of a stretch of wall that a pane replaces."""
-    nib = NIB if pane.framed else 0
+    nib = FRONT_WALL_LENGTH if pane.framed else 0
     low, high = max(stretch[0] + nib, pane.low), min(stretch[1] - nib, pane.high)
     if not pane.framed:
-        yield from [(low, high)] if high - low >= LEAST_GLASS else []
+        yield from [(low, high)] if high - low >= LEAST_PANE_WIDTH else []
         return
-    count = max(0, high - low) // (WINDOW + PIER)
+    count = max(0, high - low) // (WINDOW_WIDTH + PIER_WIDTH)
     for k in range(count):
         middle = low + (2 * k + 1) * (high - low) // (2 * count)
-        yield middle - WINDOW // 2, middle - WINDOW // 2 + WINDOW
+        yield middle - WINDOW_WIDTH // 2, middle - WINDOW_WIDTH // 2 + WINDOW_WIDTH
 
 
 def _surface(line: Line, span: Span, material: Material) -> Surface:

@@ -3,7 +3,7 @@
 from semnav_env.maps.importers.building import load_building
 from semnav_env.maps.importers.drawing import Drawing
 from semnav_env.maps.importers.dxf import load_dxf
-from semnav_env.maps.importers.imported import Imported, ImportReport
+from semnav_env.maps.importers.imported import ImportedPlan, ImportReport
 from semnav_env.maps.importers.occupancy import OccupancyMap, OccupancySpec, read_occupancy
 from semnav_env.maps.importers.opening import import_map
 from semnav_env.maps.importers.segments import load_csv, load_vector_map
@@ -13,7 +13,7 @@ from semnav_env.maps.importers.tracing import Tracing, trace
 __all__ = [
     "Drawing",
     "ImportReport",
-    "Imported",
+    "ImportedPlan",
     "OccupancyMap",
     "OccupancySpec",
     "Tracing",

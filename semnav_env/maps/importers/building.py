@@ -12,11 +12,11 @@ from shapely import Polygon
 
 from semnav_env.maps.floor_plan import FloorPlan, Region
 from semnav_env.maps.importers.building_doors import with_doors, with_walls
-from semnav_env.maps.importers.imported import MARGIN, Imported, ImportReport
+from semnav_env.maps.importers.imported import BOUNDARY_MARGIN, ImportedPlan, ImportReport
 from semnav_env.maps.importers.labels import (
-    DOORS,
-    KINDS,
-    PLACES,
+    DOORS_FILE,
+    PLACE_KINDS,
+    PLACES_FILE,
     PlaceLabel,
     has_all_doors,
     read_door_labels,
@@ -26,19 +26,20 @@ from semnav_env.maps.importers.occupancy import OccupancyMap, read_occupancy
 from semnav_env.maps.importers.tracing import Tracing, trace
 from semnav_env.maps.rules import FloorPlanError, check_region
 
-LONG = 4.0
-"""A place so many times as long as it is wide is taken for a corridor."""
+CORRIDOR_ASPECT_RATIO = 4.0
+"""Ratio of length to width from which on a place is taken for a corridor."""
 
 
-def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
+def load_building(path: str | Path, tracing: Tracing | None = None) -> ImportedPlan:
     """The floor plan of an occupancy map, with what `doors.yaml` and `locations.yaml` name.
 
     Either file may be missing beside the map. A labelled door gets the jambs that the map shows
     (`fit_door`), and is open if the map shows a way through; a closed one gets a leaf. Further
     doorways between two places (`find_doorways`) are named after these, unless the labels say that
-    they have all doors. A place is a room, or a corridor if it is at least `LONG` times as long as
-    wide, where its label does not say what it is. Doors are looked for in the walls as traced, and
-    put on the straightened walls then (`with_walls`), so straightening opens and closes none.
+    they have all doors. Where its label does not say what a place is, it is a room, or a corridor
+    if it is at least `CORRIDOR_ASPECT_RATIO` times as long as wide. Doors are looked
+    for in the walls as traced and then put on the straightened walls (`with_walls`), so that
+    straightening opens and closes none.
 
     Args:
         path: the map's YAML file.
@@ -50,7 +51,7 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
     where, tracing = Path(path), tracing or Tracing()
     pixels = read_occupancy(where)
     plan, report = trace(pixels, replace(tracing, straighten=0.0))
-    doors, places = where.with_name(DOORS), where.with_name(PLACES)
+    doors, places = where.with_name(DOORS_FILE), where.with_name(PLACES_FILE)
     place_labels = read_place_labels(places)
     plan, lost_places = _with_places(plan, place_labels, pixels)
     labels = read_door_labels(doors)
@@ -67,7 +68,9 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
         "intersections": len(plan.intersections),
         "open areas": len(plan.areas),
     }
-    halls = f"places at least {LONG:g} times as long as wide are taken for corridors"
+    halls = (
+        f"places at least {CORRIDOR_ASPECT_RATIO:g} times as long as wide are taken for corridors"
+    )
     report = replace(
         report,
         source=(*report.source, *(str(file) for file in (doors, places) if file.is_file())),
@@ -76,16 +79,16 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> Imported:
         notes=report.notes
         + ((halls,) if any(label.kind is None for label in place_labels) else ()),
     )
-    return Imported(plan, report)
+    return ImportedPlan(plan, report)
 
 
-def _straightened(plan: FloorPlan, report: ImportReport, straight: Imported) -> Imported:
+def _straightened(plan: FloorPlan, report: ImportReport, straight: ImportedPlan) -> ImportedPlan:
     """A plan on straightened walls; as it was, with a note, if they leave a door too narrow."""
     try:
-        return Imported(with_walls(plan, straight.plan), straight.report)
+        return ImportedPlan(with_walls(plan, straight.plan), straight.report)
     except FloorPlanError as error:
         note = f"walls are left as traced, because of straight ones {error}"
-        return Imported(plan, replace(report, notes=(*report.notes, note)))
+        return ImportedPlan(plan, replace(report, notes=(*report.notes, note)))
 
 
 def _with_places(
@@ -108,20 +111,21 @@ def _with_places(
         else:
             regions[label.name] = region
             kinds[label.name] = label.kind or ("corridor" if is_long(region.polygon) else "room")
-    wide = [plan.boundary, *(region.polygon.buffer(MARGIN) for region in regions.values())]
+    wide = [plan.boundary, *(region.polygon.buffer(BOUNDARY_MARGIN) for region in regions.values())]
     boundary = shapely.box(*shapely.total_bounds(wide))
     rooms, halls, crossings, areas = (
-        tuple([region for name, region in regions.items() if kinds[name] == kind]) for kind in KINDS
+        tuple([region for name, region in regions.items() if kinds[name] == kind])
+        for kind in PLACE_KINDS
     )
     found = replace(plan, rooms=rooms, corridors=halls, intersections=crossings, areas=areas)
     return replace(found, boundary=boundary), tuple(lost)
 
 
 def is_long(polygon: Polygon) -> bool:
-    """Whether a rectangle of the same area and perimeter is `LONG` times as long as wide.
+    """Whether a rectangle of the same area and perimeter has the sides of a corridor.
 
     So an L or a T of corridors is long too.
     """
     half = float(polygon.length) / 4.0
     spread = math.sqrt(max(0.0, half**2 - float(polygon.area)))
-    return half + spread >= LONG * (half - spread)
+    return half + spread >= CORRIDOR_ASPECT_RATIO * (half - spread)

@@ -12,7 +12,7 @@ import shapely
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 from semnav_env.maps.importers.fitting import fit_door
-from semnav_env.maps.importers.gaps import APART, find_doorways
+from semnav_env.maps.importers.gaps import LEAST_DOORWAY_DISTANCE, find_doorways
 from semnav_env.maps.importers.labels import DoorLabel
 from semnav_env.maps.rules import FloorPlanError, check_door, check_doorway
 
@@ -121,7 +121,7 @@ def _further(
     taken = [(door.start, door.end) for door in doors.values()]
     middles = [_middle(*ends) for ends in (*taken, *((each.start, each.end) for each in labels))]
     for doorway in find_doorways(plan.regions, plan.solids, is_free):
-        if any(math.dist(doorway.midpoint, middle) <= APART for middle in middles):
+        if any(math.dist(doorway.midpoint, middle) <= LEAST_DOORWAY_DISTANCE for middle in middles):
             continue
         name, number = doorway.name, 2
         while name in doors:

@@ -11,19 +11,22 @@ import shapely
 
 from semnav_env.features.frames import FloatArray
 
-COARSE = 2.0
-"""A straight piece of an outline lies within so many pixels of the line between its ends."""
+PIECE_TOLERANCE = 2.0
+"""Distance within which a straight piece of an outline lies from the line between its ends,
+pixels."""
 
-LEAST = 5.0
-"""Pixels; shorter pieces have no direction worth the name."""
+LEAST_PIECE_LENGTH = 5.0
+"""Length of the shortest piece that counts, pixels; a shorter one has no certain direction."""
 
-BIN = math.radians(0.5)
-"""Of the histogram of directions."""
+BIN_WIDTH = math.radians(0.5)
+"""Width of a bin of the histogram of directions, radians."""
 
-NEAR = (math.radians(2.0), math.radians(1.0))
-"""Pieces so near to the histogram's peak count for the mean, and then those so near to the mean."""
+MEAN_WINDOWS = (math.radians(2.0), math.radians(1.0))
+"""Largest angles of a piece from the histogram's peak, and then from the first mean, at which it
+counts for the mean direction, radians."""
 
-QUARTER = math.pi / 2
+QUARTER_TURN = math.pi / 2
+"""A right angle, radians."""
 
 
 def dominant_direction(rings: Sequence[FloatArray]) -> float:
@@ -46,9 +49,9 @@ def dominant_direction(rings: Sequence[FloatArray]) -> float:
         return 0.0
     steps = np.array(pieces)
     lengths = np.linalg.norm(steps, axis=1)
-    turns = np.arctan2(steps[:, 1], steps[:, 0]) % QUARTER
+    turns = np.arctan2(steps[:, 1], steps[:, 0]) % QUARTER_TURN
     peak = _peak(turns, lengths**2)
-    for near in NEAR:
+    for near in MEAN_WINDOWS:
         away = _wrapped(turns - peak)
         weights = np.where(np.abs(away) <= near, lengths**2, 0.0)
         total = max(float(weights.sum()), 1e-9)
@@ -61,13 +64,15 @@ def dominant_direction(rings: Sequence[FloatArray]) -> float:
 
 def _pieces(ring: FloatArray) -> Iterator[FloatArray]:
     """Where the straight pieces of an outline lead, each as long as it is."""
-    if np.ptp(ring, axis=0).max() < LEAST:
+    if np.ptp(ring, axis=0).max() < LEAST_PIECE_LENGTH:
         return
-    ends = shapely.get_coordinates(shapely.simplify(shapely.linearrings(ring), COARSE)).tolist()
+    ends = shapely.get_coordinates(
+        shapely.simplify(shapely.linearrings(ring), PIECE_TOLERANCE)
+    ).tolist()
     corners = ring[:-1]
     number = {(x, y): k for k, (x, y) in enumerate(corners.tolist())}
     for (x1, y1), (x2, y2) in pairwise(ends):
-        if math.dist((x1, y1), (x2, y2)) < LEAST:
+        if math.dist((x1, y1), (x2, y2)) < LEAST_PIECE_LENGTH:
             continue
         first, last = number[x1, y1], number[x2, y2]
         between = (last - first) % len(corners)
@@ -101,11 +106,11 @@ def spread_out(points: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def _peak(turns: FloatArray, weights: FloatArray) -> float:
     """The middle of the two neighbouring bins that hold most."""
-    bins = round(QUARTER / BIN)
-    votes = np.bincount((turns / BIN).astype(np.intp) % bins, weights, bins)
-    return BIN * (1.0 + float(np.argmax(votes + np.roll(votes, -1))))
+    bins = round(QUARTER_TURN / BIN_WIDTH)
+    votes = np.bincount((turns / BIN_WIDTH).astype(np.intp) % bins, weights, bins)
+    return BIN_WIDTH * (1.0 + float(np.argmax(votes + np.roll(votes, -1))))
 
 
 def _wrapped(turns: FloatArray) -> FloatArray:
     """The same directions modulo 90 degrees, from -45 to 45 degrees."""
-    return np.asarray((turns + QUARTER / 2) % QUARTER - QUARTER / 2)
+    return np.asarray((turns + QUARTER_TURN / 2) % QUARTER_TURN - QUARTER_TURN / 2)

@@ -11,7 +11,10 @@ import yaml
 from semnav_env.maps.rules import FloorPlanError
 
 MAX_YAML_BYTES = 200_000
+"""Size of the largest YAML file that is read, bytes."""
+
 MAX_BYTES = 20_000_000
+"""Size of the largest other document that is read, bytes."""
 
 
 def read_text(path: Path, most: int = MAX_BYTES) -> str:

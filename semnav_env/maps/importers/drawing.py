@@ -15,22 +15,22 @@ from shapely import STRtree
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.importers.building_doors import with_doors
 from semnav_env.maps.importers.fitting import fit_door
-from semnav_env.maps.importers.imported import Imported
+from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.importers.labels import DoorLabel
 from semnav_env.maps.importers.segments import Row, plan_of_segments
 from semnav_env.maps.rules import FloorPlanError
 
-FLAT = 0.01
-"""Curves become lines that lie at most this far beside them, metres."""
+CURVE_TOLERANCE = 0.01
+"""Largest distance of the lines that stand for a curve from the curve, metres."""
 
-LARGEST = 1000.0
+MAX_DRAWING_EXTENT = 1000.0
 """Extent of a drawing beyond which its scale must be wrong, metres."""
 
-MOST = 49_000
-"""More segments are not read; a floor plan file holds 50,000 positions."""
+MAX_SEGMENTS = 49_000
+"""Largest number of segments that are read; a floor plan file holds 50,000 positions."""
 
-LEAVES = (0.5, 2.2)
-"""Narrowest and widest leaf of a door, metres."""
+LEAF_WIDTHS = (0.5, 2.2)
+"""Width of the narrowest and of the widest leaf of a door, metres."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class Stroke:
 
 def plan_of_strokes(
     strokes: Sequence[Stroke], drawing: Drawing, path: Path, kind: str, notes: tuple[str, ...] = ()
-) -> Imported:
+) -> ImportedPlan:
     """The walls and doors of a drawing; its lower left corner becomes the origin.
 
     Raises:
@@ -91,10 +91,10 @@ def plan_of_strokes(
         raise FloorPlanError(f"{path}: no line that could be a wall; layers: {there or 'none'}")
     corner = _corner(walls, path)
     rows = [row for stroke in walls for row in _rows(stroke.points - corner)]
-    if len(rows) > MOST:
+    if len(rows) > MAX_SEGMENTS:
         raise FloorPlanError(
-            f"{path}: {len(rows):,} segments; at most {MOST:,} are read: name the layers with "
-            f"walls; there are: {there}"
+            f"{path}: {len(rows):,} segments; at most {MAX_SEGMENTS:,} are read: "
+            f"name the layers with walls; there are: {there}"
         )
     plan, report = plan_of_segments(rows, path, kind)
     drawn = [stroke for stroke in strokes if stroke.layer in drawing.doors]
@@ -103,7 +103,7 @@ def plan_of_strokes(
     left = tuple(f"layer {name}: {layers[name]} lines" for name in sorted(unused))
     taken = report.taken | ({"doors": len(plan.doors)} if drawing.doors else {})
     told = (f"lower left corner, now the origin, at {corner[0]:g}, {corner[1]:g} m", *notes)
-    return Imported(
+    return ImportedPlan(
         plan, replace(report, taken=taken, left_out=report.left_out + left + lost, notes=told)
     )
 
@@ -124,7 +124,7 @@ def door_labels(
         pairs.append([(first, last)] if hinge is None else [(hinge, first), (hinge, last)])
     labels = []
     for number, ways in enumerate(pairs, 1):
-        right = [way for way in ways if LEAVES[0] <= math.dist(*way) <= LEAVES[1]]
+        right = [way for way in ways if LEAF_WIDTHS[0] <= math.dist(*way) <= LEAF_WIDTHS[1]]
         doors = [DoorLabel(f"door {number}", *way) for way in right]
         labels += sorted(doors, key=lambda door: not _is_open(door, walls))[:1]
     return tuple(labels)
@@ -140,11 +140,11 @@ def _corner(strokes: Sequence[Stroke], path: Path) -> FloatArray:
     low, high = points.min(axis=0), points.max(axis=0)
     if not np.isfinite(points).all():
         raise FloorPlanError(f"{path}: has coordinates that are not finite")
-    if (high - low).max() > LARGEST:
+    if (high - low).max() > MAX_DRAWING_EXTENT:
         width, height = high - low
         raise FloorPlanError(
-            f"{path}: {width:,.0f} x {height:,.0f} m; at most {LARGEST:,.0f} m are read: give the "
-            "scale, metres a unit, such as 0.001 for millimetres"
+            f"{path}: {width:,.0f} x {height:,.0f} m; at most {MAX_DRAWING_EXTENT:,.0f} m are "
+            "read: give the scale, metres a unit, such as 0.001 for millimetres"
         )
     return np.asarray(low)
 

@@ -10,17 +10,22 @@ from typing import Any
 import numpy as np
 
 from semnav_env.maps.importers.documents import MAX_BYTES
-from semnav_env.maps.importers.drawing import FLAT, Drawing, Stroke, plan_of_strokes
-from semnav_env.maps.importers.imported import Imported
+from semnav_env.maps.importers.drawing import CURVE_TOLERANCE, Drawing, Stroke, plan_of_strokes
+from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.rules import FloorPlanError
 
-CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
-
-DEEPEST, MOST = 8, 60_000
-"""Blocks within blocks, and entities, beyond which a drawing is refused."""
+CURVE_TYPES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
+"""Types of DXF entities that are read as lines and curves."""
 
 
-def load_dxf(path: str | Path, drawing: Drawing | None = None) -> Imported:
+MAX_BLOCK_DEPTH = 8
+"""Depth of blocks within blocks beyond which a drawing is refused."""
+
+MAX_ENTITIES = 60_000
+"""Number of entities beyond which a drawing is refused."""
+
+
+def load_dxf(path: str | Path, drawing: Drawing | None = None) -> ImportedPlan:
     """The floor plan of a DXF drawing: lines, polylines and curves of its model space.
 
     Blocks are resolved; what a block draws on layer 0 belongs to the layer it is inserted on.
@@ -41,7 +46,7 @@ def load_dxf(path: str | Path, drawing: Drawing | None = None) -> Imported:
     notes = (f"{scale:g} m a unit of the drawing", *([f"{mended} errors mended"] if mended else ()))
     plan, report = plan_of_strokes(strokes, drawing, where, "DXF drawing", notes)
     lost = tuple(f"{count} {what}" for what, count in sorted(left.items()))
-    return Imported(plan, report.with_left_out(lost))
+    return ImportedPlan(plan, report.with_left_out(lost))
 
 
 def _strokes(
@@ -53,11 +58,13 @@ def _strokes(
     strokes: list[Stroke] = []
     left: Counter[str] = Counter()
     for count, (layer, entity) in enumerate(_entities(document.modelspace(), None, path)):
-        if count >= MOST:
-            raise FloorPlanError(f"{path}: more than {MOST:,} entities; export the walls alone")
+        if count >= MAX_ENTITIES:
+            raise FloorPlanError(
+                f"{path}: more than {MAX_ENTITIES:,} entities; export the walls alone"
+            )
         if layer in off.difference(named):
             left[f"lines on layer {layer}, which is off"] += 1
-        elif entity.dxftype() in CURVES and (stroke := _stroke(entity, layer, scale)):
+        elif entity.dxftype() in CURVE_TYPES and (stroke := _stroke(entity, layer, scale)):
             strokes.append(stroke)
         else:
             left[entity.dxftype()] += 1
@@ -106,8 +113,10 @@ def _entities(
     layout: Iterable[Any], within: str | None, path: Path, depth: int = 0
 ) -> Iterator[tuple[str, Any]]:
     """Layer and entity, those of blocks included."""
-    if depth > DEEPEST:
-        raise FloorPlanError(f"{path}: blocks within blocks more than {DEEPEST} deep; explode them")
+    if depth > MAX_BLOCK_DEPTH:
+        raise FloorPlanError(
+            f"{path}: blocks within blocks more than {MAX_BLOCK_DEPTH} deep; explode them"
+        )
     for entity in layout:
         own = entity.dxf.get("layer", "0")
         layer = within if own == "0" and within is not None else own
@@ -123,7 +132,7 @@ def _stroke(entity: Any, layer: str, scale: float) -> Stroke | None:
     from ezdxf.path import make_path
 
     try:
-        corners = [(v.x, v.y) for v in make_path(entity).flattening(FLAT / scale)]
+        corners = [(v.x, v.y) for v in make_path(entity).flattening(CURVE_TOLERANCE / scale)]
     except TypeError:
         return None
     if len(corners) < 2:

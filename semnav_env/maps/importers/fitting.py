@@ -13,17 +13,17 @@ from semnav_env.features.frames import FloatArray, Point, Pose, points_to_local,
 from semnav_env.maps.doorways import NARROWEST_ROBOT
 from semnav_env.maps.importers.labels import DoorLabel
 
-ALONG = 0.6
-"""A jamb lies at most this far beyond the marked one, metres."""
+MAX_JAMB_SHIFT = 0.6
+"""Largest distance of a jamb beyond the marked one, metres."""
 
-ACROSS = 0.25
-"""What is this near to the marked line stands in the doorway, metres."""
+DOORWAY_HALF_DEPTH = 0.25
+"""Distance from the marked line within which something stands in the doorway, metres."""
 
-JAMB = 0.1
-"""How rough the face of a jamb is, metres."""
+JAMB_ROUGHNESS = 0.1
+"""Unevenness of the face of a jamb, metres."""
 
-EXACT = 1e-6
-"""Points whose distances differ by less are equally near, metres."""
+DISTANCE_TOLERANCE = 1e-6
+"""Difference below which two distances are equal, metres: rounding errors."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,9 @@ def fit_door(label: DoorLabel, solids: STRtree) -> Fit | None:
 
 @dataclass(frozen=True, eq=False)
 class Band:
-    """Everything solid within `ACROSS` of a line, which is prolonged by `ALONG` at both ends.
+    """Everything solid within `DOORWAY_HALF_DEPTH` of a line and its two extensions.
+
+    The line is extended by `MAX_JAMB_SHIFT` at both ends.
 
     It casts its shadow square onto the line; the stretches without shadow are gaps.
 
@@ -101,25 +103,27 @@ class Band:
 
     def is_closed(self, gap: FloatArray) -> bool:
         """Whether a gap ends at something solid on both sides."""
-        return bool(gap[0] > -ALONG and gap[1] < self.length + ALONG)
+        return bool(gap[0] > -MAX_JAMB_SHIFT and gap[1] < self.length + MAX_JAMB_SHIFT)
 
     def jambs(self, gap: FloatArray) -> tuple[Point, Point]:
-        """On both sides of a gap the solid point nearest to the line within `JAMB`.
+        """On both sides of a gap the solid point nearest to the line within `JAMB_ROUGHNESS`.
 
         Of several as near, as those of a wall that runs along the line, that at the gap.
         """
         first, last = gap.tolist()
-        start = _jamb(self.pieces, first, first - JAMB)
-        end = _jamb(self.pieces, last, last + JAMB)
+        start = _jamb(self.pieces, first, first - JAMB_ROUGHNESS)
+        end = _jamb(self.pieces, last, last + JAMB_ROUGHNESS)
         return to_parent(self.frame, start), to_parent(self.frame, end)
 
 
 def _pieces(frame: Pose, width: float, solids: STRtree) -> FloatArray:
     """Ends of what of the walls is near the label, in its frame, shape (n, 2, 2)."""
-    reach = ALONG + width
-    near = solids.geometries[solids.query(shapely.Point(frame[:2]), "dwithin", reach + ACROSS)]
+    reach = MAX_JAMB_SHIFT + width
+    near = solids.geometries[
+        solids.query(shapely.Point(frame[:2]), "dwithin", reach + DOORWAY_HALF_DEPTH)
+    ]
     ends = points_to_local(frame, shapely.get_coordinates(near)).reshape(-1, 2, 2)
-    band = shapely.box(-ALONG, -ACROSS, reach, ACROSS)
+    band = shapely.box(-MAX_JAMB_SHIFT, -DOORWAY_HALF_DEPTH, reach, DOORWAY_HALF_DEPTH)
     inside = shapely.intersection(shapely.linestrings(ends), band)
     lines = inside[shapely.get_type_id(inside) == shapely.GeometryType.LINESTRING]
     lines = lines[~shapely.is_empty(lines)]
@@ -140,8 +144,8 @@ def _jamb(pieces: FloatArray, edge: float, far: float) -> Point:
     """The solid point nearest to the marked line between the edge of a gap and a place beyond."""
     first, last = sorted((edge, far))
     solid = shapely.multilinestrings(shapely.linestrings(pieces))
-    there = solid.intersection(shapely.box(first, -ACROSS, last, ACROSS))
-    away = there.distance(shapely.LineString(((first, 0.0), (last, 0.0)))) + EXACT
+    there = solid.intersection(shapely.box(first, -DOORWAY_HALF_DEPTH, last, DOORWAY_HALF_DEPTH))
+    away = there.distance(shapely.LineString(((first, 0.0), (last, 0.0)))) + DISTANCE_TOLERANCE
     nearest = there.intersection(shapely.box(first, -away, last, away))
     x, y = min(shapely.get_coordinates(nearest).tolist(), key=lambda point: abs(point[0] - edge))
     return x, y

@@ -14,17 +14,18 @@ from semnav_env.maps.doorways import NARROWEST_ROBOT
 from semnav_env.maps.floor_plan import PlanDoor, Region
 from semnav_env.maps.importers.fitting import Band
 
-WIDTHS = (0.6, 2.2)
-"""Narrowest and widest doorway, metres."""
+DOORWAY_WIDTHS = (0.6, 2.2)
+"""Width of the narrowest and of the widest doorway, metres."""
 
-STEP = 0.6
-"""A doorway leads to another place if that lies so far before or behind it, metres."""
+CROSSING_DEPTH = 0.6
+"""Distance before and behind a doorway at which there must be two different places, metres."""
 
-APART = 0.6
-"""Doorways whose middles are nearer to each other are one, metres."""
+LEAST_DOORWAY_DISTANCE = 0.6
+"""Distance between the middles of two doorways below which they are one, metres."""
 
-SHORTEST = 0.3
-"""Borders are simplified by half of this, and shorter pieces are left out, metres."""
+LEAST_BORDER_LENGTH = 0.3
+"""Length below which pieces of a border are left out, metres; borders are simplified by half of
+it."""
 
 
 def find_doorways(
@@ -34,7 +35,8 @@ def find_doorways(
 
     Borders are drawn by hand and lie some decimetres beside the walls; a `Band` along each straight
     piece of them finds the gaps nevertheless. A robot must be able to go straight through, from
-    `STEP` before to `STEP` behind. Of several within `APART` the narrowest is kept.
+    `CROSSING_DEPTH` before to as far behind. Of several within `LEAST_DOORWAY_DISTANCE` the
+    narrowest is kept.
 
     Args:
         places: rooms and corridors.
@@ -51,7 +53,9 @@ def find_doorways(
             continue
         if not all(is_free((x, y)) for x, y in way.segmentize(0.05).coords):
             continue
-        if all(math.dist(door.midpoint, other.midpoint) > APART for other in doors):
+        if all(
+            math.dist(door.midpoint, other.midpoint) > LEAST_DOORWAY_DISTANCE for other in doors
+        ):
             doors.append(door)
     return tuple(doors)
 
@@ -59,9 +63,12 @@ def find_doorways(
 def places_beside(
     start: Point, end: Point, places: Sequence[Region]
 ) -> tuple[str | None, str | None]:
-    """The places to the left and to the right of an opening, `STEP` from its middle."""
+    """The places to the left and to the right of an opening, `CROSSING_DEPTH` from its middle."""
     width = max(math.dist(start, end), 1e-9)
-    side = STEP * (start[1] - end[1]) / width, STEP * (end[0] - start[0]) / width
+    side = (
+        CROSSING_DEPTH * (start[1] - end[1]) / width,
+        CROSSING_DEPTH * (end[0] - start[0]) / width,
+    )
     x, y = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
     left, right = (_place_at((x + s * side[0], y + s * side[1]), places) for s in (1.0, -1.0))
     return left, right
@@ -69,10 +76,10 @@ def places_beside(
 
 def _doorways(places: Sequence[Region], solids: STRtree) -> Iterator[PlanDoor]:
     for place in places:
-        ring = shapely.simplify(place.polygon.exterior, SHORTEST / 2)
+        ring = shapely.simplify(place.polygon.exterior, LEAST_BORDER_LENGTH / 2)
         corners = [(float(x), float(y)) for x, y in ring.coords]
         for start, end in pairwise(corners):
-            if math.dist(start, end) < SHORTEST:
+            if math.dist(start, end) < LEAST_BORDER_LENGTH:
                 continue
             band = Band.along(start, end, solids)
             for gap in band.gaps[1:-1]:
@@ -80,16 +87,16 @@ def _doorways(places: Sequence[Region], solids: STRtree) -> Iterator[PlanDoor]:
                     continue
                 jambs = band.jambs(gap)
                 sides = places_beside(*jambs, places)
-                wide = WIDTHS[0] <= math.dist(*jambs) <= WIDTHS[1]
+                wide = DOORWAY_WIDTHS[0] <= math.dist(*jambs) <= DOORWAY_WIDTHS[1]
                 if wide and None not in sides and sides[0] != sides[1]:
                     yield PlanDoor(" - ".join(sorted(map(str, sides))), *jambs)
 
 
 def _way(door: PlanDoor) -> LineString:
-    """Straight through a door, from `STEP` before to `STEP` behind it."""
+    """Straight through a door, from `CROSSING_DEPTH` before to `CROSSING_DEPTH` behind it."""
     (x1, y1), (x2, y2) = door.start, door.end
     x, y = door.midpoint
-    dx, dy = STEP * (y1 - y2) / door.width, STEP * (x2 - x1) / door.width
+    dx, dy = CROSSING_DEPTH * (y1 - y2) / door.width, CROSSING_DEPTH * (x2 - x1) / door.width
     return LineString(((x + dx, y + dy), (x - dx, y - dy)))
 
 

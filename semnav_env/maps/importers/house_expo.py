@@ -12,12 +12,13 @@ import shapely
 
 from semnav_env.maps.floor_plan import Region
 from semnav_env.maps.importers.documents import finite
-from semnav_env.maps.importers.drawing import LARGEST
-from semnav_env.maps.importers.imported import MARGIN, Imported
+from semnav_env.maps.importers.drawing import MAX_DRAWING_EXTENT
+from semnav_env.maps.importers.imported import BOUNDARY_MARGIN, ImportedPlan
 from semnav_env.maps.importers.segments import Row, plan_of_segments
 from semnav_env.maps.rules import FloorPlanError, check_region
 
-HALLS = ("hallway", "corridor", "passage", "entryway")
+CORRIDOR_TYPES = ("hallway", "corridor", "passage", "entryway")
+"""Types of rooms of HouseExpo that are corridors."""
 
 
 def is_house(content: Any) -> bool:
@@ -25,7 +26,7 @@ def is_house(content: Any) -> bool:
     return isinstance(content, dict) and "verts" in content
 
 
-def plan_of_house(content: dict[str, Any], path: Path, scale: float | None = None) -> Imported:
+def plan_of_house(content: dict[str, Any], path: Path, scale: float | None = None) -> ImportedPlan:
     """The floor plan of a house: `verts`, its outline in metres, and boxes in `room_category`.
 
     The boxes are named by category and number; a hallway becomes a corridor. The data set has
@@ -43,12 +44,12 @@ def plan_of_house(content: dict[str, Any], path: Path, scale: float | None = Non
     rows = _outline(content.get("verts"), path, unit)
     plan, report = plan_of_segments(rows, path, "house of HouseExpo")
     rooms, halls, lost = _regions(content.get("room_category", {}), path, unit)
-    around = [plan.boundary, *(room.polygon.buffer(MARGIN) for room in (*rooms, *halls))]
+    around = [plan.boundary, *(room.polygon.buffer(BOUNDARY_MARGIN) for room in (*rooms, *halls))]
     boundary = shapely.box(*shapely.total_bounds(around))
     plan = replace(plan, rooms=rooms, corridors=halls, boundary=boundary)
     taken = report.taken | {"rooms": len(rooms), "corridors": len(halls)}
     notes = (f"{unit:g} m a unit", "rooms are boxes, which may overlap; there are no doors")
-    return Imported(plan, replace(report, taken=taken, notes=notes).with_left_out(lost))
+    return ImportedPlan(plan, replace(report, taken=taken, notes=notes).with_left_out(lost))
 
 
 def _outline(verts: Any, path: Path, unit: float) -> list[Row]:
@@ -59,10 +60,10 @@ def _outline(verts: Any, path: Path, unit: float) -> list[Row]:
     if len(points) < 3:
         raise FloorPlanError(f"{path}: verts: {len(points)} points; an outline has at least three")
     for low, high in ((min(values), max(values)) for values in zip(*points, strict=True)):
-        if max(high - low, abs(low), abs(high)) > LARGEST:
+        if max(high - low, abs(low), abs(high)) > MAX_DRAWING_EXTENT:
             raise FloorPlanError(
-                f"{path}: reaches from {low:,.0f} to {high:,.0f} m; at most {LARGEST:,.0f} m are "
-                "read: give the scale, metres a unit"
+                f"{path}: reaches from {low:,.0f} to {high:,.0f} m; "
+                f"at most {MAX_DRAWING_EXTENT:,.0f} m are read: give the scale, metres a unit"
             )
     return [(*a, *b) for a, b in pairwise([*points, points[0]])]
 
@@ -95,5 +96,5 @@ def _regions(
         except FloorPlanError as error:
             lost.append(str(error))
         else:
-            (halls if name in HALLS else rooms).append(region)
+            (halls if name in CORRIDOR_TYPES else rooms).append(region)
     return tuple(rooms), tuple(halls), tuple(lost)

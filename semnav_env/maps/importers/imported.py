@@ -10,8 +10,8 @@ from shapely import Polygon, box
 
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 
-MARGIN = 1.0
-"""From the outermost wall to the boundary, metres."""
+BOUNDARY_MARGIN = 1.0
+"""Distance from the outermost wall to the boundary, metres."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def counted(number: int, things: str) -> str:
     return f"{number} {things.removesuffix('s') if number == 1 else things}"
 
 
-class Imported(NamedTuple):
+class ImportedPlan(NamedTuple):
     """A plan and the report of how it was read; unpack it as `plan, report = ...`."""
 
     plan: FloorPlan
@@ -60,4 +60,9 @@ def boundary_of(surfaces: Sequence[Surface]) -> Polygon:
     """A rectangle around everything solid, with a margin."""
     points = [point for surface in surfaces for point in surface.points]
     xs, ys = [x for x, _ in points], [y for _, y in points]
-    return box(min(xs) - MARGIN, min(ys) - MARGIN, max(xs) + MARGIN, max(ys) + MARGIN)
+    return box(
+        min(xs) - BOUNDARY_MARGIN,
+        min(ys) - BOUNDARY_MARGIN,
+        max(xs) + BOUNDARY_MARGIN,
+        max(ys) + BOUNDARY_MARGIN,
+    )

@@ -14,12 +14,17 @@ from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.importers.documents import finite, read_yaml
 from semnav_env.maps.rules import FloorPlanError
 
-DOORS, PLACES = "doors.yaml", "locations.yaml"
+DOORS_FILE = "doors.yaml"
+"""Name of the file with the labels of doors, beside the YAML file of the map."""
+
+PLACES_FILE = "locations.yaml"
+"""Name of the file with the labels of places, beside the YAML file of the map."""
+
 
 ALL_DOORS = "all_doors"
 """Entry of `locations.yaml`: whether `doors.yaml` has every door there is."""
 
-KINDS = ("room", "corridor", "intersection", "area")
+PLACE_KINDS = ("room", "corridor", "intersection", "area")
 """What a place may be, in the list `kinds` of `locations.yaml`."""
 
 T = TypeVar("T")
@@ -47,7 +52,7 @@ class PlaceLabel:
     Attributes:
         name: of the place.
         ring: its corners (column, row) in pixels of the map, shape (n, 2); row 0 is at the top.
-        kind: one of `KINDS`, if the file says so.
+        kind: one of `PLACE_KINDS`, if the file says so.
     """
 
     name: str
@@ -74,7 +79,8 @@ def read_door_labels(path: Path) -> tuple[DoorLabel, ...]:
 def read_place_labels(path: Path) -> tuple[PlaceLabel, ...]:
     """The places of a `locations.yaml`: names in `locations`, as many rings in `polygons`.
 
-    And, which is this project's own, as many `KINDS` in `kinds`. Empty if there is no such file.
+    An extension of this project is the list `kinds`, one of `PLACE_KINDS` for each place. The
+    result is empty if there is no such file.
 
     Raises:
         FloorPlanError: not such a file; names what is wrong with which place.
@@ -104,7 +110,7 @@ def has_all_doors(path: Path) -> bool:
 
 _DOOR = ("name", "door_corner_pt_1: [x, y]", "door_corner_pt_2: [x, y]")
 _PLACES = ("locations", "polygons")
-_KINDS = ", ".join(KINDS)
+_KINDS = ", ".join(PLACE_KINDS)
 _RING = (
     "a name",
     "at least three corners: [column, row, column, row, ...] in pixels",
@@ -138,6 +144,6 @@ def _place(row: Any) -> PlaceLabel:
     ring = np.array([finite(value) for value in values]).reshape(-1, 2)
     if len(ring) < 3:
         raise ValueError(f"{len(ring)} corners")
-    if kind is not None and kind not in KINDS:
+    if kind is not None and kind not in PLACE_KINDS:
         raise ValueError(f"kind {kind!r}")
     return PlaceLabel(str(name).strip(), ring, kind)

@@ -15,7 +15,8 @@ from semnav_env.maps.importers.documents import finite, read_yaml
 from semnav_env.maps.importers.raster import free_pixels, read_grey, solid_pixels
 from semnav_env.maps.rules import FloorPlanError
 
-IMAGES = (".pgm", ".png", ".ppm", ".bmp", ".tif", ".tiff", ".gif")
+IMAGE_SUFFIXES = (".pgm", ".png", ".ppm", ".bmp", ".tif", ".tiff", ".gif")
+"""Endings of the names of images that may be maps."""
 
 
 @dataclass(frozen=True)
@@ -152,7 +153,7 @@ def read_spec(path: Path) -> OccupancySpec:
 
 
 def _spec(path: Path, resolution: float | None) -> OccupancySpec:
-    if path.suffix.lower() in IMAGES:
+    if path.suffix.lower() in IMAGE_SUFFIXES:
         if resolution is None:
             raise FloorPlanError(
                 f"{path}: an image alone has no scale; give the resolution in metres a pixel, "

@@ -10,19 +10,20 @@ from semnav_env.maps.importers.documents import read_text
 from semnav_env.maps.importers.drawing import Drawing
 from semnav_env.maps.importers.dxf import load_dxf
 from semnav_env.maps.importers.house_expo import is_house, plan_of_house
-from semnav_env.maps.importers.imported import Imported
-from semnav_env.maps.importers.occupancy import IMAGES, read_occupancy
+from semnav_env.maps.importers.imported import ImportedPlan
+from semnav_env.maps.importers.occupancy import IMAGE_SUFFIXES, read_occupancy
 from semnav_env.maps.importers.segments import load_csv, load_vector_map
 from semnav_env.maps.importers.svg import load_svg
 from semnav_env.maps.importers.tracing import Tracing, trace
 from semnav_env.maps.rules import FloorPlanError
 
-KINDS = (
+IMPORTED_FORMATS = (
     "a map_server map (.yaml, or its image with a resolution)",
     "a vector map or a house of HouseExpo (.json)",
     "a list of segments (.csv)",
     "a drawing (.dxf, .svg)",
 )
+"""Formats that can be imported, as an error lists them."""
 
 
 def import_map(
@@ -30,7 +31,7 @@ def import_map(
     resolution: float | None = None,
     tracing: Tracing | None = None,
     drawing: Drawing | None = None,
-) -> Imported:
+) -> ImportedPlan:
     """A floor plan from somebody else's map, by the suffix of its file.
 
     Args:
@@ -49,7 +50,7 @@ def import_map(
     """
     where = Path(path)
     suffix = where.suffix.lower()
-    if suffix in IMAGES:
+    if suffix in IMAGE_SUFFIXES:
         return trace(read_occupancy(where, resolution), tracing)
     if resolution is not None:
         raise FloorPlanError(f"{where}: only an image alone needs a resolution; leave it out")
@@ -61,10 +62,10 @@ def import_map(
         return _load_json(where, drawing.scale if drawing else None)
     if suffix in (".csv", ".txt"):
         return load_csv(where)
-    raise FloorPlanError(f"{where}: no map of a known kind; give {', '.join(KINDS)}")
+    raise FloorPlanError(f"{where}: no map of a known kind; give {', '.join(IMPORTED_FORMATS)}")
 
 
-def _load_json(path: Path, scale: float | None) -> Imported:
+def _load_json(path: Path, scale: float | None) -> ImportedPlan:
     """A house of HouseExpo or a vector map, by what the file holds."""
     text = read_text(path)
     try:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray
 
 EAST, NORTH, WEST, SOUTH = range(4)
-STEPS = np.array(((1, 0), (0, -1), (-1, 0), (0, 1)))
-"""Columns and rows that an edge goes, by its direction."""
+EDGE_STEPS = np.array(((1, 0), (0, -1), (-1, 0), (0, 1)))
+"""Columns and rows that an edge goes, by its direction, shape (4, 2)."""
 
 
 def outlines(solid: NDArray[np.bool_], tolerance: float = 0.0) -> list[FloatArray]:
@@ -56,7 +56,7 @@ def _walks(solid: NDArray[np.bool_]) -> list[tuple[FloatArray, FloatArray]]:
             walk.append(edge)
             edge = following[edge]
         if walk:
-            walks.append((starts[walk].astype(np.float64), STEPS[directions[walk]]))
+            walks.append((starts[walk].astype(np.float64), EDGE_STEPS[directions[walk]]))
     return walks
 
 
@@ -80,7 +80,7 @@ def _following(
     """Which edge follows each; where two pixels touch at a corner, the one of the other pixel."""
     keys = 4 * (starts[:, 1] * width + starts[:, 0]) + directions
     order = np.argsort(keys)
-    ends = starts + STEPS[directions]
+    ends = starts + EDGE_STEPS[directions]
     corner = 4 * (ends[:, 1] * width + ends[:, 0])
     following = np.full(len(starts), -1)
     for turn in (1, 0, -1):  # left, straight on, right: the last that there is counts

@@ -14,9 +14,10 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.maps.rules import FloorPlanError
 
 MAX_PIXELS = 25_000_000
-"""Larger images are refused before they are decoded."""
+"""Number of pixels beyond which an image is refused before it is decoded."""
 
-FORMATS = ("PPM", "PNG", "BMP", "TIFF", "GIF")
+IMAGE_FORMATS = ("PPM", "PNG", "BMP", "TIFF", "GIF")
+"""Formats of images that Pillow may read."""
 
 
 def read_grey(path: Path) -> FloatArray:
@@ -30,12 +31,12 @@ def read_grey(path: Path) -> FloatArray:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
-            with Image.open(path, formats=FORMATS) as image:
+            with Image.open(path, formats=IMAGE_FORMATS) as image:
                 _check_size(path, image.width, image.height)
                 return _brightness(image)
     except UnidentifiedImageError:
         raise FloorPlanError(
-            f"{path}: no image that can be read; give a {', '.join(FORMATS)} file"
+            f"{path}: no image that can be read; give a {', '.join(IMAGE_FORMATS)} file"
         ) from None
     except Image.DecompressionBombError:
         raise FloorPlanError(_too_large(path, "far more")) from None
@@ -70,12 +71,12 @@ def _brightness(image: Image.Image) -> FloatArray:
         return np.asarray(image.convert("L"), dtype=np.float64)
     rgba = np.asarray(image.convert("RGBA"), dtype=np.float64)
     grey: FloatArray = rgba[:, :, :3].mean(axis=2)
-    grey[rgba[:, :, 3] == 0.0] = UNKNOWN
+    grey[rgba[:, :, 3] == 0.0] = UNKNOWN_GREY
     return grey
 
 
-UNKNOWN = 205.0
-"""What map_saver writes where nothing is known."""
+UNKNOWN_GREY = 205.0
+"""Brightness that map_saver writes where nothing is known."""
 
 
 def solid_pixels(grey: FloatArray, threshold: float, negate: bool) -> NDArray[np.bool_]:

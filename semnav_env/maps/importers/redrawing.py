@@ -14,7 +14,7 @@ from semnav_env.maps.importers.runs import PixelRun
 
 
 @dataclass(frozen=True, eq=False)
-class Drawn:
+class RedrawnOutline:
     """An outline with its runs on lines.
 
     Attributes:
@@ -30,7 +30,7 @@ class Drawn:
     turned: bool
 
 
-def redrawn(points: FloatArray, runs: Collection[PixelRun]) -> Drawn:
+def redrawn(points: FloatArray, runs: Collection[PixelRun]) -> RedrawnOutline:
     """An outline with runs on their lines; of each only the ends are left as vertices.
 
     Where two runs meet at the tip of a thin wall, it gets an end as thick as they are apart.
@@ -58,7 +58,7 @@ def redrawn(points: FloatArray, runs: Collection[PixelRun]) -> Drawn:
     drawn = new.reshape(-1, 2)[left]
     moved = {run: _moved(points, new, run) for run in runs}
     turned = bool(runs) and _area(points) * _area(drawn) <= 0.0
-    return Drawn(drawn, [makers[k] for k in left], moved, turned)
+    return RedrawnOutline(drawn, [makers[k] for k in left], moved, turned)
 
 
 def _tips(runs: Collection[PixelRun], count: int) -> set[int]:
@@ -68,7 +68,7 @@ def _tips(runs: Collection[PixelRun], count: int) -> set[int]:
     return {vertex for _, vertex in begun & ended}
 
 
-def clashing(drawn: Sequence[Drawn]) -> set[PixelRun]:
+def clashing(drawn: Sequence[RedrawnOutline]) -> set[PixelRun]:
     """Runs that must be given up, since on their lines two outlines, or parts of one, meet.
 
     Of the runs that drew two segments which meet, the shortest is, of several the first one on the

@@ -10,25 +10,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.maps.importers.directions import LEAST, spread_out
+from semnav_env.maps.importers.directions import LEAST_PIECE_LENGTH, spread_out
 
-SHORTEST = LEAST
-"""Of a run, pixels,"""
+LEAST_RUN_LENGTH = LEAST_PIECE_LENGTH
+"""Length of the shortest run, pixels."""
 
-CAP = 1.0
-"""unless two others end there: so long is the end of a thin wall or a step in one at least."""
+LEAST_CAP_LENGTH = 1.0
+"""Length of the shortest run between the ends of two others, pixels: the end of a thin wall or a
+step in one."""
 
-BACK = 0.5
-"""By so many pixels an outline may go back on its way along a run."""
+MAX_BACKTRACK = 0.5
+"""Distance by which an outline may go back on its way along a run, pixels."""
 
-TREND = 0.7
-"""Pixels by which a run slopes or bends from its middle to its ends, if not by noise."""
+TREND_THRESHOLD = 0.7
+"""Offset from the middle of a run to its ends from which on it slopes or bends by more than noise,
+pixels."""
 
-WHOLE = 15.0
-"""Pixels; a shorter run may have no trend."""
+LEAST_TREND_LENGTH = 15.0
+"""Length below which a run may have no trend at all, pixels."""
 
-ON = 1.2
-"""An outline goes on if it stays so much longer within twice the limit of a line."""
+EXTENSION_FACTOR = 1.2
+"""Ratio by which an outline must stay longer within twice the limit of a line to go on."""
 
 
 class Span(NamedTuple):
@@ -80,15 +82,15 @@ def runs_of(ring: int, points: FloatArray, limit: float) -> list[PixelRun]:
     """The runs of an outline, the longest first; they share no segment.
 
     A run is as long as it may be while its vertices lie within `limit` of a line along an axis. If
-    it then slopes or bends (`TREND`) and the outline goes on so, it is part of an oblique or round
-    wall, and no shorter piece of that is a run either.
+    it then slopes or bends by more than `TREND_THRESHOLD` and the outline goes on so, it is part of
+    an oblique or round wall, and no shorter piece of that is a run either.
 
     Args:
         ring: the outline's number.
         points: its vertices, each once, shape (n, 2), in pixels.
         limit: pixels.
     """
-    if np.ptp(points, axis=0).max() < SHORTEST:
+    if np.ptp(points, axis=0).max() < LEAST_RUN_LENGTH:
         return []
     wide = list(_spans(points, 2.0 * limit))
     spans = [span for span in _spans(points, limit) if not _is_oblique(points, span, wide, limit)]
@@ -98,7 +100,7 @@ def runs_of(ring: int, points: FloatArray, limit: float) -> list[PixelRun]:
         free = _free_part(span, taken, points)
         beside = taken[(free.first - 1) % len(points)], taken[free.last % len(points)]
         between_two = all(run is not None and run.span.axis != free.axis for run in beside)
-        if free.length < (CAP if between_two else SHORTEST):
+        if free.length < (LEAST_CAP_LENGTH if between_two else LEAST_RUN_LENGTH):
             continue
         run = _run(ring, points, free, limit)
         for k in range(free.first, free.last):
@@ -118,7 +120,7 @@ def _spans(points: FloatArray, limit: float) -> Iterator[Span]:
             for first in range(count):
                 last = _reach(along, across, first, limit)
                 length = along[last % count] - along[first]
-                if last > before and length >= CAP:
+                if last > before and length >= LEAST_CAP_LENGTH:
                     yield Span(first, last, axis, length)
                 before = last
 
@@ -131,7 +133,7 @@ def _reach(along: list[float], across: list[float], first: int, limit: float) ->
     for last in range(first + 1, first + count):
         here = across[last % count]
         low, high, far = min(low, here), max(high, here), max(far, along[last % count])
-        if high - low > 2.0 * limit or far - along[last % count] > BACK:
+        if high - low > 2.0 * limit or far - along[last % count] > MAX_BACKTRACK:
             return last - 1
     return first + count - 1
 
@@ -142,10 +144,12 @@ def _is_oblique(points: FloatArray, span: Span, wide: Sequence[Span], limit: flo
     if not _trends(whole, span.axis):
         return False
     length = abs(float(whole[-1, span.axis] - whole[0, span.axis]))
-    if length < WHOLE:
+    if length < LEAST_TREND_LENGTH:
         return True
     wider = (_prolonged(points, each, 2.0 * limit) for each in wide if _holds(each, span, points))
-    return any(abs(each[-1, span.axis] - each[0, span.axis]) > ON * length for each in wider)
+    return any(
+        abs(each[-1, span.axis] - each[0, span.axis]) > EXTENSION_FACTOR * length for each in wider
+    )
 
 
 def _holds(wide: Span, span: Span, points: FloatArray) -> bool:
@@ -162,7 +166,7 @@ def _trends(stretch: FloatArray, axis: int) -> bool:
     basis = np.stack((np.ones_like(t), t, 1.5 * t**2 - 0.5), axis=1)
     root = np.sqrt(weights)
     _, *trends = np.linalg.lstsq(root[:, None] * basis, root * spread[:, 1 - axis])[0]
-    return bool(np.abs(trends).max() > TREND)
+    return bool(np.abs(trends).max() > TREND_THRESHOLD)
 
 
 def _prolonged(points: FloatArray, span: Span, limit: float) -> FloatArray:

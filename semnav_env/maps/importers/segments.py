@@ -13,13 +13,13 @@ import numpy as np
 from semnav_env.features.frames import FloatArray
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.importers.documents import finite, read_text
-from semnav_env.maps.importers.imported import Imported, ImportReport, boundary_of
-from semnav_env.maps.rules import SHORTEST, FloorPlanError
+from semnav_env.maps.importers.imported import ImportedPlan, ImportReport, boundary_of
+from semnav_env.maps.rules import LEAST_SEGMENT_LENGTH, FloorPlanError
 
 Row: TypeAlias = tuple[float, float, float, float]
 
 
-def load_vector_map(path: str | Path) -> Imported:
+def load_vector_map(path: str | Path) -> ImportedPlan:
     """The floor plan of a `.vectormap.json` file: walls only, no doors and no rooms.
 
     The file is a list of segments {"p0": {"x": ..., "y": ...}, "p1": {...}} in metres (the maps
@@ -46,7 +46,7 @@ def load_vector_map(path: str | Path) -> Imported:
     return plan_of_segments(ends, where, "vector map")
 
 
-def load_csv(path: str | Path) -> Imported:
+def load_csv(path: str | Path) -> ImportedPlan:
     """The floor plan of a CSV file: x1, y1, x2, y2 of one wall in each line, metres.
 
     A first line without numbers is a heading; empty lines and those that begin with # are skipped.
@@ -63,7 +63,7 @@ def load_csv(path: str | Path) -> Imported:
     return plan_of_segments([_row(where, *row) for row in rows], where, "list of segments")
 
 
-def plan_of_segments(rows: Sequence[Row], path: Path, kind: str) -> Imported:
+def plan_of_segments(rows: Sequence[Row], path: Path, kind: str) -> ImportedPlan:
     """A plan whose walls are the given segments; those of no length and repeated ones are left out.
 
     Args:
@@ -75,7 +75,7 @@ def plan_of_segments(rows: Sequence[Row], path: Path, kind: str) -> Imported:
         FloorPlanError: no wall is left.
     """
     ends = np.array(rows, dtype=np.float64).reshape(-1, 4)
-    long = np.hypot(*(ends[:, 2:] - ends[:, :2]).T) >= SHORTEST
+    long = np.hypot(*(ends[:, 2:] - ends[:, :2]).T) >= LEAST_SEGMENT_LENGTH
     kept = _without_repetition(ends[long])
     if not len(kept):
         raise FloorPlanError(f"{path}: holds no wall; a {kind} has at least one segment")
@@ -84,12 +84,12 @@ def plan_of_segments(rows: Sequence[Row], path: Path, kind: str) -> Imported:
     source = f"{kind} {path.name}"
     plan = FloorPlan(name, surfaces, (), (), (), (), boundary_of(surfaces), source)
     left = (
-        _left_out(int((~long).sum()), f"shorter than {1000 * SHORTEST:g} mm"),
+        _left_out(int((~long).sum()), f"shorter than {1000 * LEAST_SEGMENT_LENGTH:g} mm"),
         _left_out(int(long.sum()) - len(kept), "repeated"),
     )
     taken = {"segments": len(kept)}
     report = ImportReport((str(path),), kind, taken, tuple(filter(None, left)))
-    return Imported(plan, report)
+    return ImportedPlan(plan, report)
 
 
 def _without_repetition(ends: FloatArray) -> FloatArray:

@@ -12,8 +12,8 @@ from semnav_env.maps.importers.outlines import closed_ring
 from semnav_env.maps.importers.redrawing import clashing, redrawn
 from semnav_env.maps.importers.runs import PixelRun, runs_of
 
-ALIGNED = 1.0
-"""Runs whose lines lie at most so many pixels beside each other may be of one wall."""
+ALIGNMENT_TOLERANCE = 1.0
+"""Largest distance between the lines of two runs of one wall, pixels."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +75,8 @@ def _aligned(runs: Sequence[PixelRun]) -> list[PixelRun]:
     """The runs, the longest first, with one line for those that continue each other.
 
     A run takes over the line of a longer one that looks the same way, if its vertices allow, the
-    two lie within `ALIGNED` and no farther from each other along the line than the longer is long.
+    two lie within `ALIGNMENT_TOLERANCE` and the gap between them along the line is no longer than
+    the longer one.
     """
     leaders: defaultdict[tuple[int, bool, int], list[PixelRun]] = defaultdict(list)
     placed = []
@@ -83,14 +84,16 @@ def _aligned(runs: Sequence[PixelRun]) -> list[PixelRun]:
         near = [
             leader
             for cell in (-1, 0, 1)
-            for leader in leaders[run.span.axis, run.forward, int(run.level // ALIGNED) + cell]
-            if abs(leader.level - run.level) <= ALIGNED
+            for leader in leaders[
+                run.span.axis, run.forward, int(run.level // ALIGNMENT_TOLERANCE) + cell
+            ]
+            if abs(leader.level - run.level) <= ALIGNMENT_TOLERANCE
             and run.least <= leader.level <= run.most
             and max(run.begin - leader.end, leader.begin - run.end) <= leader.span.length
         ]
         if near:
             level = min(near, key=lambda leader: abs(leader.level - run.level)).level
             run = replace(run, level=level)
-        leaders[run.span.axis, run.forward, int(run.level // ALIGNED)].append(run)
+        leaders[run.span.axis, run.forward, int(run.level // ALIGNMENT_TOLERANCE)].append(run)
         placed.append(run)
     return placed

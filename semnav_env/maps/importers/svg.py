@@ -14,14 +14,15 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.importers.documents import read_text
-from semnav_env.maps.importers.drawing import FLAT, Drawing, Stroke, plan_of_strokes
-from semnav_env.maps.importers.imported import Imported
+from semnav_env.maps.importers.drawing import CURVE_TOLERANCE, Drawing, Stroke, plan_of_strokes
+from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.rules import FloorPlanError
 
-LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
+LABEL_ATTRIBUTE = "{http://www.inkscape.org/namespaces/inkscape}label"
+"""Attribute in which Inkscape keeps the name of a layer."""
 
 
-def load_svg(path: str | Path, drawing: Drawing | None = None) -> Imported:
+def load_svg(path: str | Path, drawing: Drawing | None = None) -> ImportedPlan:
     """The floor plan of an SVG drawing: the outlines of all its shapes.
 
     A layer is an outermost group, by its Inkscape label or its id. What is not displayed, text
@@ -52,7 +53,7 @@ def load_svg(path: str | Path, drawing: Drawing | None = None) -> Imported:
     notes = (f"{drawing.scale:g} m a unit of the drawing",)
     plan, report = plan_of_strokes(strokes, drawing, where, "SVG drawing", notes)
     lost = tuple(f"{count} {what}" for what, count in sorted(left.items()))
-    return Imported(plan, report.with_left_out(lost))
+    return ImportedPlan(plan, report.with_left_out(lost))
 
 
 def _read(path: Path) -> Any:
@@ -86,7 +87,7 @@ def _shapes(group: Any, layer: str | None) -> Iterator[tuple[str, Any]]:
     for child in group:
         if isinstance(child, Group):
             told = child.values.get("attributes", {})
-            yield from _shapes(child, layer or told.get(LABEL) or child.id or None)
+            yield from _shapes(child, layer or told.get(LABEL_ATTRIBUTE) or child.id or None)
         else:
             yield layer or "", child
 
@@ -122,7 +123,7 @@ def _flat(piece: Any, unit: float) -> FloatArray:
     if isinstance(piece, Line | Close):
         return np.array([_placed(piece.start, unit), _placed(piece.end, unit)])
     length = unit * float(piece.length(error=1e-3))
-    steps = min(200, max(2, math.ceil(length / math.sqrt(8.0 * FLAT))))
+    steps = min(200, max(2, math.ceil(length / math.sqrt(8.0 * CURVE_TOLERANCE))))
     return np.array([_placed(piece.point(k / steps), unit) for k in range(steps + 1)])
 
 

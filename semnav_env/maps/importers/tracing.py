@@ -11,12 +11,12 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.maps.floor_plan import FloorPlan, Surface
-from semnav_env.maps.importers.imported import Imported, ImportReport, boundary_of
+from semnav_env.maps.importers.imported import ImportedPlan, ImportReport, boundary_of
 from semnav_env.maps.importers.occupancy import OccupancyMap, OccupancySpec
 from semnav_env.maps.importers.outlines import outlines
 from semnav_env.maps.importers.raster import mended
 from semnav_env.maps.importers.straighten import Straightened, straighten
-from semnav_env.maps.rules import SHORTEST, FloorPlanError
+from semnav_env.maps.rules import LEAST_SEGMENT_LENGTH, FloorPlanError
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Tracing:
             raise FloorPlanError(f"straighten is {self.straighten}; it must be 0 to 5 pixels")
 
 
-def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> Imported:
+def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> ImportedPlan:
     """The floor plan of an occupancy map: the outlines of what is solid, along the pixels' edges.
 
     Args:
@@ -83,7 +83,7 @@ def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> Imported:
         *([_report(straight, rings, spec)] if straight else ()),
     )
     taken = {"outlines": len(surfaces), "segments": len(plan.segments)}
-    return Imported(plan, ImportReport(pixels.files, "occupancy map", taken, notes=notes))
+    return ImportedPlan(plan, ImportReport(pixels.files, "occupancy map", taken, notes=notes))
 
 
 def _report(straight: Straightened, rings: Sequence[FloatArray], spec: OccupancySpec) -> str:
@@ -99,6 +99,6 @@ def _report(straight: Straightened, rings: Sequence[FloatArray], spec: Occupancy
 
 def _surface(points: FloatArray) -> Surface | None:
     """A surface through these points without repeated ones; None if there is but one."""
-    far = np.linalg.norm(np.diff(points, axis=0), axis=1) >= SHORTEST
+    far = np.linalg.norm(np.diff(points, axis=0), axis=1) >= LEAST_SEGMENT_LENGTH
     kept = points[np.append(True, far)]
     return Surface(tuple([(x, y) for x, y in kept.tolist()])) if len(kept) > 1 else None

@@ -12,19 +12,21 @@ from numba import njit
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.kernels.grid_search import lowest_around
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.geodesic import SPACING, Geodesic, WaysTo
+from semnav_env.maps.geodesic import GRID_SPACING, Geodesic, WaysTo
 
-KEPT_OFF = 0.3
-"""Ways of people keep this far from everything solid, metres."""
+PEOPLE_CLEARANCE = 0.3
+"""Least distance of the ways of people from everything solid, metres: a little more than the radius
+of a body."""
 
-LOOK_AHEAD = 8
-"""Cells of the grid down the way that somebody walks towards."""
+LOOKAHEAD_CELLS = 8
+"""Cells of the grid, 0.1 m each, from a person down the way to the point that they walk towards."""
 
-LOOK_AROUND = 4
-"""Cells around somebody in which the way is looked for."""
+SEARCH_CELLS = 4
+"""Cells to each side of a person among which the nearest one with a way is looked for; people are
+pushed off the ways by others."""
 
 
-class Routes:
+class Destinations:
     """Shortest ways of people to the rooms, corridors and intersections of a plan.
 
     Each is worked out when somebody first wants to go there, and kept.
@@ -43,7 +45,7 @@ class Routes:
 
     @cached_property
     def _geodesic(self) -> Geodesic:
-        return Geodesic(self._floor_plan, clearance=KEPT_OFF)
+        return Geodesic(self._floor_plan, clearance=PEOPLE_CLEARANCE)
 
     def __getstate__(self) -> dict[str, Any]:
         """Ways are large and worked out anew after unpickling."""
@@ -77,13 +79,13 @@ def look_ahead(
         A unit vector, or zeros at the goal and where no way is near; the way left, metres, which
         is then infinite.
     """
-    row, column = _nearest_cell(field, (y - south) / SPACING, (x - west) / SPACING)
+    row, column = _nearest_cell(field, (y - south) / GRID_SPACING, (x - west) / GRID_SPACING)
     if row < 0:
         return 0.0, 0.0, np.inf
     left = field[row, column]
-    for _ in range(LOOK_AHEAD):
+    for _ in range(LOOKAHEAD_CELLS):
         row, column = lowest_around(field, row, column)
-    dx, dy = west + SPACING * column - x, south + SPACING * row - y
+    dx, dy = west + GRID_SPACING * column - x, south + GRID_SPACING * row - y
     length = math.hypot(dx, dy)
     return (dx / length, dy / length, left) if length > 1e-6 else (0.0, 0.0, left)
 
@@ -94,8 +96,8 @@ def _nearest_cell(field: FloatArray, row: float, column: float) -> tuple[int, in
     best, found = np.inf, (-1, -1)
     rows, columns = field.shape
     middle_row, middle_column = round(row), round(column)
-    for r in range(middle_row - LOOK_AROUND, middle_row + LOOK_AROUND + 1):
-        for c in range(middle_column - LOOK_AROUND, middle_column + LOOK_AROUND + 1):
+    for r in range(middle_row - SEARCH_CELLS, middle_row + SEARCH_CELLS + 1):
+        for c in range(middle_column - SEARCH_CELLS, middle_column + SEARCH_CELLS + 1):
             if 0 <= r < rows and 0 <= c < columns and field[r, c] < np.inf:
                 gap = (r - row) ** 2 + (c - column) ** 2
                 if gap < best:
