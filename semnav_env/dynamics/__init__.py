@@ -1,4 +1,4 @@
-"""What changes while the robot drives, or between episodes: people, doors, furniture."""
+"""Changes during and between episodes: people, doors that open and close, moved furniture."""
 
 from semnav_env.dynamics.plan_source import PlanSource
 from semnav_env.dynamics.settings import NO_DYNAMICS, Dynamics, Swinging, Walking

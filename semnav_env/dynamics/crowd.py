@@ -34,16 +34,16 @@ LEAST_PROGRESS = 0.2
 
 
 class Crowd:
-    """People, each on the way to some room, corridor or crossing, and then to another.
+    """People, each on the way to a room, corridor or intersection, and then to another.
 
     Args:
-        plan: as drawn: ways lead through the doors that are open there.
-        still: what of it never moves.
-        dynamics: how many people and how they walk.
+        plan: the plan as drawn; ways lead through the doors that are open there.
+        still: the plan without what can move.
+        dynamics: number of people and how they walk.
 
     Attributes:
-        places: metres, shape (n, 2); always the same array.
-        velocities: as they really move, m/s, shape (n, 2).
+        places: positions, metres, shape (n, 2); always the same array.
+        velocities: velocities after collisions, m/s, shape (n, 2).
     """
 
     def __init__(self, plan: FloorPlan, still: FloorPlan, dynamics: Dynamics) -> None:
@@ -56,11 +56,11 @@ class Crowd:
         self._routes = Destinations(plan)
 
     def begin(self, start: Pose, rng: np.random.Generator) -> None:
-        """Put everybody somewhere, with somewhere to go.
+        """Put everybody at a free place and choose where each goes first.
 
         Args:
-            start: of the robot, whom nobody stands near.
-            rng: of everything that is drawn during the episode.
+            start: pose of the robot; nobody begins near it.
+            rng: source of randomness for the whole episode.
 
         Raises:
             ValueError: there is no room for so many.
@@ -83,16 +83,16 @@ class Crowd:
         """Let everybody walk for a time step.
 
         Args:
-            body: of the robot, see `nearest_on_body`.
+            body: the robot, see `nearest_on_body`.
             leaves: segments that move, shape (m, 4).
-            guard: see `walk`.
-            touch: see `walk`.
-            seconds: of the step.
+            guard: distance of `walk`, metres.
+            touch: distance of `walk`, metres.
+            seconds: length of the step.
         """
         if len(self.places) == 0:
             return
         walking = self._dynamics.walking
-        self._wish(seconds)
+        self._update_wishes(seconds)
         wanted = np.empty_like(self.velocities)
         around = walking.radius, self._walls, leaves, body
         self._model(
@@ -105,8 +105,8 @@ class Crowd:
         """Without the ways, which are large; `begin` finds them again."""
         return {key: value for key, value in self.__dict__.items() if key != "_ways"}
 
-    def _wish(self, seconds: float) -> None:
-        """Where everybody would go next if nothing were in the way."""
+    def _update_wishes(self, seconds: float) -> None:
+        """Update the desired velocities; who has arrived or is stuck chooses another place."""
         for i, ways in enumerate(self._ways):
             x, y = self.places[i]
             ahead, aside, left = look_ahead(ways.distances, *ways.geodesic.origin, x, y)
@@ -115,10 +115,10 @@ class Crowd:
             self._best[i] = left if nearer else self._best[i]
             self._waited[i] = 0.0 if nearer else self._waited[i] + seconds
             if left < ARRIVAL_DISTANCE or self._waited[i] > self._dynamics.walking.patience:
-                self._ways[i] = self._somewhere((x, y)) or ways
+                self._ways[i] = self._ways_to_another_place((x, y)) or ways
                 self._best[i], self._waited[i] = math.inf, 0.0
 
-    def _somewhere(self, place: Point) -> WaysTo | None:
+    def _ways_to_another_place(self, place: Point) -> WaysTo | None:
         """The ways to a place that can be reached from there; None if none was found."""
         for index in self._rng.permutation(len(self._routes.places))[:8]:
             ways = self._routes.to(int(index))
@@ -132,9 +132,9 @@ class Crowd:
 
     def _free_place(self, i: int, start: Pose) -> tuple[Point, WaysTo]:
         for _ in range(MAX_PLACEMENT_DRAWS):
-            place = self._anywhere()
+            place = self._random_place()
             if self._is_free(place, i, start):
-                ways = self._somewhere(place)
+                ways = self._ways_to_another_place(place)
                 if ways is not None:
                     return place, ways
         raise ValueError(
@@ -142,7 +142,7 @@ class Crowd:
             f"{len(self.places)}; ask for fewer pedestrians"
         )
 
-    def _anywhere(self) -> Point:
+    def _random_place(self) -> Point:
         """Uniform over the rectangle around a random region, or around the boundary."""
         regions = self._plan.regions
         area = regions[self._rng.integers(len(regions))].polygon if regions else self._plan.boundary

@@ -1,4 +1,4 @@
-"""Where people want to go, and the way there."""
+"""Destinations of people and the shortest ways there."""
 
 from __future__ import annotations
 

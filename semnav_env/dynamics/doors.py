@@ -1,4 +1,4 @@
-"""Doors that open and close: when, and how far they get."""
+"""Doors that open and close at random times and stop before what is in their way."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def _has_way(
     body: FloatArray,
     guard: float,
 ) -> bool:
-    """Whether a leaf there leaves everybody their room."""
+    """Whether a leaf in some position keeps its distance from people and the robot."""
     for k in range(len(places)):
         x, y = places[k]
         near_x, near_y = nearest_on_segment(x, y, hinge[0], hinge[1], tip[0], tip[1])

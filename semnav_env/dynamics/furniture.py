@@ -1,4 +1,4 @@
-"""Furniture that is found elsewhere than the plan says, and boxes that it does not know of."""
+"""Moves furniture away from where the plan draws it, and adds boxes that the plan does not have."""
 
 from __future__ import annotations
 
@@ -56,14 +56,14 @@ def with_moved_furniture(
     rng: np.random.Generator,
     keep: Point | None,
 ) -> FloorPlan:
-    """The plan as somebody left it: pieces moved and boxes added, no way blocked.
+    """The plan with some pieces of furniture moved and boxes added, and no way blocked.
 
     Args:
         plan: as drawn.
-        dynamics: what share of the furniture moves, and how many boxes come.
-        robot: which must still get everywhere.
-        rng: of what is drawn.
-        keep: where the robot will stand; nothing is put near it.
+        dynamics: share of the furniture that moves, and number of boxes.
+        robot: everything stays reachable for it.
+        rng: source of randomness.
+        keep: where the robot will stand; nothing is put near it. None if that is not known.
     """
     room = FurnitureMover(plan, robot, keep)
     for index, surface in enumerate(plan.surfaces):
@@ -75,12 +75,12 @@ def with_moved_furniture(
 
 
 class FurnitureMover:
-    """A plan whose furniture is being moved.
+    """Moves and adds furniture in a plan, one piece after the other.
 
     Args:
         plan: as drawn.
-        robot: which must still get everywhere.
-        keep: where nothing is put.
+        robot: everything stays reachable for it.
+        keep: place near which nothing is put.
 
     Attributes:
         plan: as it is now.
@@ -95,7 +95,7 @@ class FurnitureMover:
         self._lanes = LANE_WIDTH, robot.width + LANE_MARGIN
 
     def move(self, index: int, rng: np.random.Generator) -> None:
-        """Put a piece elsewhere, if it finds a place."""
+        """Move a piece, if a free place is found."""
         surfaces = self.plan.surfaces
         others = (*surfaces[:index], *surfaces[index + 1 :])
         outline = Polygon(surfaces[index].points)
@@ -109,7 +109,7 @@ class FurnitureMover:
             self.plan = replace(self.plan, surfaces=(*others[:index], piece, *others[index:]))
 
     def add(self, rng: np.random.Generator) -> None:
-        """Put a new box somewhere, if it finds a place."""
+        """Add a box, if a free place is found."""
         west, south, east, north = self.plan.boundary.bounds
 
         def draw() -> Polygon:
@@ -140,13 +140,13 @@ class FurnitureMover:
 
 
 def _free_ways(plan: FloorPlan, half: float) -> list[Polygon]:
-    """Where the middle of a lane of that half width may lie, in connected parts."""
+    """Connected regions in which the middle of a lane of some half width may lie."""
     lines = shapely.multilinestrings(plan.segments.reshape(-1, 2, 2))
     return list(shapely.get_parts(plan.boundary.difference(lines.buffer(half))))
 
 
 def _stay_whole(parts: list[Polygon], piece: Polygon) -> bool:
-    """Whether each part is still one after a piece was put there."""
+    """Whether no part falls into two when a piece is taken out of it."""
     for part in parts:
         if part.area > LEAST_WAY_AREA and part.intersects(piece):
             rest = shapely.get_parts(part.difference(piece))

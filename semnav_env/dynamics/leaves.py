@@ -1,4 +1,4 @@
-"""The leaves of the doors that can open and close, and the room that they need."""
+"""Leaves of doors that can open and close, and the space that they need."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class PlanLeaf:
     swing: float
 
     def tip(self, angle: float) -> Point:
-        """Where it ends after opening by `angle`, of the sign of `swing`."""
+        """Its free end after opening by `angle` (of the sign of `swing`), metres."""
         direction = self.closed + angle
         x, y = self.hinge
         return x + self.length * math.cos(direction), y + self.length * math.sin(direction)
@@ -118,7 +118,7 @@ def _as_leaf(surface: Surface, door: PlanDoor) -> PlanLeaf | None:
 
 
 def _new_leaves(door: PlanDoor, plan: FloorPlan) -> list[PlanLeaf]:
-    """On either jamb and to either side, those that open into a corridor last."""
+    """The four leaves that a door could get, those that open into a corridor last."""
     leaves = []
     for jamb, other in ((door.start, door.end), (door.end, door.start)):
         closed = math.atan2(other[1] - jamb[1], other[0] - jamb[0])
@@ -135,7 +135,7 @@ def _in_corridor(leaf: PlanLeaf, plan: FloorPlan) -> bool:
 
 
 def _swept(leaf: PlanLeaf) -> Polygon:
-    """What the leaf sweeps, a little less at the hinge and at both ends of the way."""
+    """The area that a leaf sweeps, less a margin at the hinge and at both ends of the swing."""
     sign = math.copysign(1.0, leaf.swing)
     angles = np.linspace(sign * ANGLE_MARGIN, leaf.swing - sign * ANGLE_MARGIN, 16)
     x, y = leaf.hinge
@@ -146,7 +146,7 @@ def _swept(leaf: PlanLeaf) -> Polygon:
 
 
 def _meets(leaf: PlanLeaf, taken: Sequence[Polygon]) -> bool:
-    """Whether a leaf sweeps something that another one sweeps as well."""
+    """Whether a leaf sweeps an area that another leaf sweeps too."""
     swept = _swept(leaf)
     return any(swept.intersects(other) for other in taken)
 

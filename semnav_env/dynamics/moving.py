@@ -1,4 +1,4 @@
-"""All that moves beside the robot."""
+"""Everything that moves besides the robot."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ class Moving:
 
     Args:
         plan: with its doors as they stand at first.
-        robot: which they keep away from.
+        robot: the body that they keep away from.
         dynamics: what moves.
-        seconds: of a time step.
+        seconds: length of a time step.
 
     Attributes:
         still: the plan without what can move.
         crowd: the people.
         doors: the leaves.
-        discs: x, y and radius of everybody, metres, shape (n, 3); always the same array.
-        record: how near people and robot came.
+        discs: x, y and radius of each person, metres, shape (n, 3); always the same array.
+        record: gaps and times to collision between people and robot.
     """
 
     def __init__(
@@ -77,7 +77,7 @@ class Moving:
         self.discs[:, :2] = self.crowd.places
 
     def note(self, pose: Pose, velocity: Pose) -> None:
-        """Write down how near people and robot are now."""
+        """Record how near people and robot are now."""
         body = as_body(self._robot, pose, velocity)
         self.record.note(body, self.discs, self.crowd.velocities, self._seconds)
 
@@ -94,7 +94,7 @@ class Moving:
 
 
 def as_body(robot: RobotSpec, pose: Pose, velocity: Pose) -> FloatArray:
-    """The robot as kernels take it, see `nearest_on_body`."""
+    """The robot as an array for kernels, see `nearest_on_body`."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
     forward, left, turn = velocity
     moved = c * forward - s * left, s * forward + c * left
@@ -102,18 +102,18 @@ def as_body(robot: RobotSpec, pose: Pose, velocity: Pose) -> FloatArray:
 
 
 def _turning_radius(robot: RobotSpec) -> float:
-    """From the axle to the farthest corner, metres."""
+    """Distance from the axle to the farthest corner, metres."""
     return math.hypot(robot.length / 2 + abs(robot.axle), robot.width / 2)
 
 
 def _max_point_speed(robot: RobotSpec) -> float:
-    """No point of the body moves faster than this, m/s."""
+    """Upper bound of the speed of any point of the body, m/s."""
     straight = math.hypot(robot.max_speed, robot.max_sideways_speed)
     return straight + robot.max_turn_rate * _turning_radius(robot)
 
 
 def _step_length(robot: RobotSpec, velocity: Pose, seconds: float) -> float:
-    """No point of the body gets farther than this in the next step, but for a bit, metres."""
+    """Upper bound of how far any point of the body gets in the next step, metres."""
     forward, left, turn = velocity
     gain = seconds * (robot.max_acceleration + robot.max_turn_acceleration * _turning_radius(robot))
     return seconds * (math.hypot(forward, left) + abs(turn) * _turning_radius(robot) + gain) + 0.01

@@ -1,4 +1,4 @@
-"""Nearest points: what people and leaves need to know of what stands around them."""
+"""Nearest points of walls, leaves and the robot, for people and leaves that move."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def nearest_on_body(x: float, y: float, body: FloatArray) -> tuple[float, float]
     Args:
         x: metres.
         y: metres.
-        body: x, y, heading, half the length, half the width, velocity x, velocity y and turn rate
+        body: x, y, heading, half the length, half the width, velocity x, velocity y and yaw rate
             of the robot in the world, shape (8,).
     """
     c, s = math.cos(body[2]), math.sin(body[2])
@@ -106,6 +106,6 @@ def nearest_wall(x: float, y: float, walls: Any, leaves: FloatArray) -> tuple[fl
 
 
 def culled_walls(segments: FloatArray) -> tuple[np.ndarray, np.ndarray, FloatArray]:
-    """Segments as `walls_near` takes them."""
+    """The culled walls of segments, as `walls_near` takes them."""
     culling = Culling.of(segments, WALL_RANGE)
     return culling.grid, culling.starts, culling.ends

@@ -1,4 +1,4 @@
-"""Optimal reciprocal collision avoidance: each takes half the trouble to miss the other.
+"""Optimal reciprocal collision avoidance (ORCA): each of two people does half of the evasion.
 
 J. van den Berg, S. J. Guy, M. Lin and D. Manocha, Reciprocal n-body collision avoidance, Robotics
 Research, Springer Tracts in Advanced Robotics 70 (2011) 3. A half-plane of velocities is kept as
@@ -44,12 +44,11 @@ def orca(
 ) -> None:
     """Write the velocities for a time step: the allowed ones nearest to those desired (5.1).
 
-    The robot does not take its half of the trouble: people take the whole. A wall allows, at its
-    nearest point, to come no nearer than a radius within `WALL_HORIZON`. Where nothing is left,
-    people's and the robot's half-planes, not the walls', are moved back evenly until something is
-    (5.3).
+    The robot does not evade: people evade it alone. A wall forbids velocities that would bring its
+    nearest point within a radius in `WALL_HORIZON`. Where no velocity is left, the half-planes of
+    people and the robot, not those of walls, are moved back evenly until one is (5.3).
 
-    It takes what `social_force` takes.
+    The arguments are those of `social_force`.
     """
     points = np.empty((MAX_WALL_PIECES, 2))
     planes = np.empty((MAX_WALL_PIECES + len(places) + 1, 3))
@@ -79,7 +78,7 @@ def orca(
 def _static_half_plane(
     dx: float, dy: float, radius: float, horizon: float, plane: FloatArray
 ) -> None:
-    """The half-plane of a thing at rest whose nearest point is at -d."""
+    """Write the half-plane of a thing at rest whose nearest point is at -d from a person."""
     distance = max(math.hypot(dx, dy), 1e-9)
     plane[0], plane[1] = dx / distance, dy / distance
     plane[2] = -max(distance - radius, 0.0) / horizon
@@ -94,7 +93,7 @@ def _reciprocal_half_plane(
     seconds: float,
     plane: FloatArray,
 ) -> None:
-    """The half-plane ORCA of A and B (section 4): half of u, the least change out of VO.
+    """Write the half-plane ORCA of A and B (section 4): half of u, the least change out of VO.
 
     VO is the cone of the disc at x = p_B - p_A with the sum of the radii, cut off by
     the disc shrunk by the horizon; u leads from the relative velocity to the nearest point of its
@@ -126,7 +125,7 @@ def _reciprocal_half_plane(
 def _least_violating(
     planes: FloatArray, hard: int, wish: FloatArray, limit: float, out: FloatArray
 ) -> None:
-    """The allowed velocity nearest to the wish, or the one that breaks the least (5.3)."""
+    """Write the allowed velocity nearest to the wish, or the one that violates the least (5.3)."""
     if nearest_allowed(planes, hard, 0.0, wish, limit, out):
         return
     low, high = 0.0, max(planes[:, 2].max(), 0.0) + limit

@@ -15,12 +15,12 @@ from semnav_env.robots import RobotSpec
 
 
 class PlanSource:
-    """Makes the floor plans of episodes.
+    """Makes the floor plan of each episode.
 
     Args:
         default: the plan where no other is asked for: a name, a path or a plan.
         dynamics: what changes.
-        robot: which must get everywhere.
+        robot: moved furniture leaves every way free for it.
 
     Raises:
         ValueError: `dynamics` is something else.
@@ -59,7 +59,7 @@ class PlanSource:
         return furnished(plan, self.dynamics, self._robot, rng, _point(pose))
 
     def _hung_with_leaves(self, plan: FloorPlan) -> FloorPlan:
-        """The same object for the same plan."""
+        """The plan with leaves; the same object for the same plan."""
         if self._hung is None or plan is not self._hung[0]:
             from semnav_env.dynamics.leaves import with_leaves  # most plans do not change
 
@@ -68,7 +68,7 @@ class PlanSource:
 
 
 def _point(pose: Any) -> Point | None:
-    """The place of a pose that was asked for; others check it."""
+    """The place of a pose that was asked for; None if it is malformed (refused elsewhere)."""
     try:
         x, y, _ = (float(value) for value in pose)
     except (TypeError, ValueError):

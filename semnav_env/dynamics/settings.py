@@ -1,4 +1,4 @@
-"""What changes during an episode or between episodes; all of it is off by default."""
+"""Settings of what changes during and between episodes; everything is off by default."""
 
 from __future__ import annotations
 
@@ -70,10 +70,10 @@ class Dynamics:
     Attributes:
         pedestrians: how many people walk about.
         model: how they avoid each other: "social_force" or "orca".
-        changing_doors: probability that a door that can, changes in an episode. Every such door
-            gets a leaf if the plan draws none.
+        changing_doors: probability that a door with room to swing opens and closes in an episode.
+            Every such door gets a leaf if the plan draws none.
         moved_furniture: probability that a piece of furniture of the plan is found elsewhere.
-        added_boxes: boxes that stand in the way in an episode, and not in the plan.
+        added_boxes: number of boxes that are added to the plan in each episode.
         walking: how people walk.
         swinging: how doors move.
     """

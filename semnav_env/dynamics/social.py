@@ -1,4 +1,4 @@
-"""How near a robot and people come: gaps, intrusions and times to collision."""
+"""Nearness of a robot and people: gaps, intrusions and times to collision."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ T. Hall, The hidden dimension (1966), chapter 10."""
 
 @dataclass
 class SocialRecord:
-    """What an episode was like for the people in it.
+    """Nearness of robot and people over an episode.
 
     Attributes:
         intrusions: how often the robot's gap to somebody fell below `PERSONAL_SPACE`.
-        intruding_seconds: for how long it was so with anybody.
+        intruding_seconds: for how long some gap was below it.
         least_gap: smallest gap between footprint and body, metres.
         least_seconds: smallest time to collision, s.
     """
@@ -44,7 +44,7 @@ class SocialRecord:
     def note(
         self, body: FloatArray, discs: FloatArray, velocities: FloatArray, seconds: float
     ) -> None:
-        """Take in a step.
+        """Record a time step.
 
         Args:
             body: of the robot, see `nearest_on_body`.
@@ -65,7 +65,7 @@ class SocialRecord:
         self._near = near
 
     def outcome(self) -> dict[str, Any]:
-        """As `info` has it at the end of an episode."""
+        """The record as entries of `info` at the end of an episode."""
         return {
             "personal_space_intrusions": self.intrusions,
             "personal_space_seconds": self.intruding_seconds,
@@ -75,7 +75,7 @@ class SocialRecord:
 
 
 def for_json(outcome: dict[str, Any]) -> dict[str, Any]:
-    """An outcome as JSON can hold it: None in place of what is infinite."""
+    """An outcome that JSON can hold: None in place of infinite values."""
     return {name: value if math.isfinite(value) else None for name, value in outcome.items()}
 
 
@@ -99,7 +99,7 @@ def gaps(body: FloatArray, discs: FloatArray) -> FloatArray:
 
 @njit(cache=True, error_model="numpy")
 def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArray) -> FloatArray:
-    """When each person's body would meet the footprint if both went on as they move now, seconds.
+    """Time until each person's body meets the footprint if both keep their velocity, seconds.
 
     Both move straight on; the robot's turning is left out. The footprint grown by the radius of
     the disc is two rectangles and four discs; the first of them that the disc's centre enters
@@ -130,7 +130,7 @@ def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArr
 
 @njit(cache=True, error_model="numpy")
 def _into_box(x: float, y: float, u: float, v: float, half_x: float, half_y: float) -> float:
-    """When a point moving with (u, v) enters |x| <= half_x, |y| <= half_y."""
+    """Time at which a point moving with (u, v) enters |x| <= half_x, |y| <= half_y, seconds."""
     first, last = 0.0, np.inf
     for place, speed, half in ((x, u, half_x), (y, v, half_y)):
         if abs(speed) < 1e-12:
@@ -144,7 +144,7 @@ def _into_box(x: float, y: float, u: float, v: float, half_x: float, half_y: flo
 
 @njit(cache=True, error_model="numpy")
 def _into_disc(x: float, y: float, u: float, v: float, radius: float) -> float:
-    """When a point moving with (u, v) enters the disc of that radius around the origin."""
+    """Time at which a point moving with (u, v) enters a disc around the origin, seconds."""
     outside = x * x + y * y - radius * radius
     if outside <= 0.0:
         return 0.0

@@ -1,4 +1,4 @@
-"""From a velocity that somebody wants to a step that leads into nobody and nothing."""
+"""Turns desired velocities into steps that lead into nobody and nothing."""
 
 from __future__ import annotations
 
@@ -29,22 +29,22 @@ def walk(
     touch: float,
     seconds: float,
 ) -> None:
-    """Move people, one after the other, and note how fast they really went.
+    """Move people one after the other and write the velocities that they had.
 
     A step that would lead into a wall, a leaf or somebody is bent along it; one that cannot be
-    bent is not taken. Nobody within `guard` of the robot steps towards it. Nobody within `touch`
-    of it steps anywhere but straight away from it: who walks along a robot drags it with them.
+    bent is not taken. Nobody within `guard` of the robot steps towards it. A person within `touch`
+    of it steps only straight away from it: someone walking along a robot in contact would drag it.
 
     Args:
         places: updated; metres, shape (n, 2).
-        velocities: wanted; updated to those had, m/s, shape (n, 2).
+        velocities: the desired ones; updated to the ones had, m/s, shape (n, 2).
         radius: of a person, metres.
-        walls: as `walls_near` takes them.
-        leaves: shape (m, 4).
-        body: of the robot, see `nearest_on_body`.
-        guard: metres; more than what robot and person can come nearer in a step, so that only the
-            robot can make them touch.
-        touch: metres; how far the robot can get in this step.
+        walls: `Culling` as `walls_near` takes it.
+        leaves: segments that move, shape (m, 4).
+        body: the robot, see `nearest_on_body`.
+        guard: distance, metres, larger than robot and person can come nearer in a step, so that
+            only the robot can make them touch.
+        touch: distance that the robot can go in this step, metres.
         seconds: length of the step.
     """
     for i in range(len(places)):

@@ -1,7 +1,8 @@
-"""What people could see otherwise than the rules have it: closed and wide doors, glass, bends.
+"""Finds out whether people could judge a command otherwise than the rules: closed doors, glass.
 
-The rules count what a scan can tell. An episode in which nothing is right but to say that a command
-is impossible, or in which the way hangs on a condition, must not hang on them as well.
+The rules of grounding count what a scan can tell. An episode whose command is impossible, or whose
+route depends on a condition, must be judged alike by people who count closed or wide doors, or who
+do not see a pane of glass.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ LOOKOUT_CLEARANCE = 0.45
 
 
 class AmbiguityFilter:
-    """The scene of a floor plan as people could see it, too.
+    """Judges commands in every scene that people could see in a floor plan.
 
     Args:
         plan: the floor plan.
@@ -48,7 +49,7 @@ class AmbiguityFilter:
 
     @cached_property
     def scenes(self) -> tuple[Scene, ...]:
-        """By the rules; with closed and wide doors that count; without glass."""
+        """The scenes: by the rules, with closed and wide doors that count, and without glass."""
         plan = self._plan
         doors = tuple(door.as_door() for door in plan.doors)
         return (
@@ -58,7 +59,7 @@ class AmbiguityFilter:
         )
 
     def met(self, condition: IfThere, begin: Pose) -> bool | None:
-        """Whether a condition is met; None if some could say otherwise, or not find out."""
+        """Whether a condition is met; None if people could disagree or not find out."""
         answers = {
             is_met(condition, Situation(scene, begin, begin, complete=True))
             for scene in self.scenes
@@ -71,7 +72,7 @@ class AmbiguityFilter:
         return met if there or self._seen_to_end(begin) else None
 
     def impossible(self, clause: Clause, begin: Pose) -> bool:
-        """Whether nobody could do what a clause says, and the robot can find out.
+        """Whether a clause is impossible in every scene, and the robot can find that out.
 
         A turn is impossible if too few junctions of any kind lead to its side; another place, if
         there are too few of any kind.
@@ -84,9 +85,9 @@ class AmbiguityFilter:
         return all(_too_few(clause, view) for view in views)
 
     def _seen_to_end(self, begin: Pose) -> bool:
-        """Whether a corridor ends soon, without a bend around which one could go on.
+        """Whether the end of a corridor can be inspected, and nothing leads on around a corner.
 
-        Nor anything else beside it that is neither a side nor an opening.
+        False too where something beside the corridor is neither a side nor an opening.
         """
         for scene in self.scenes:
             seen = corridor_at(scene, begin)
@@ -99,7 +100,7 @@ class AmbiguityFilter:
         return is_clear(self._plan, before[:2], LOOKOUT_CLEARANCE)
 
     def is_behind_a_closed_one(self, first: GoToDoor, begin: Pose) -> bool:
-        """Whether the first open door comes right after the first door, which is closed."""
+        """Whether the first door is closed and the second one is the first open door."""
         doors = [door_of(goal) for goal in self._first_two(first, begin)]
         shut = {door.name for door in self._plan.doors if not door.open}
         if len(doors) < 2 or doors[0] is None or doors[0].name not in shut:

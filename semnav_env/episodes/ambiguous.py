@@ -1,6 +1,6 @@
-"""Texts that can mean several things, put together from what docs/language.md says of them.
+"""Texts with several meanings, built from the cases in docs/language.md.
 
-What they can mean is written here by hand, not asked of the grammar, so that the grammar can err.
+Their meanings are written by hand and not taken from the grammar, so that they can test it.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ SIDE_WORDS = {"en": ("left", "right"), "de": ("links", "rechts")}
 def ambiguous_text(
     first: Command | None, rng: np.random.Generator, code: str
 ) -> tuple[str, tuple[Command, ...]]:
-    """A text and all that it can mean.
+    """A text and all its meanings.
 
     Args:
-        first: what is said before it, unambiguously.
+        first: an unambiguous command that is said before it; None for none.
         rng: source of randomness.
-        code: of the language.
+        code: code of the language.
     """
     text, readings = RECIPES[int(rng.integers(len(RECIPES)))](rng, code)
     before = () if first is None else first.clauses
@@ -54,7 +54,7 @@ def ambiguous_text(
 
 
 def _bare_door(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
-    """A door without a verb: to it, or through it?"""
+    """Make a door without a verb: to it, or through it?"""
     ordinal, side = _ordinal(rng), int(rng.integers(2))
     door = DoorReference(ordinal, _SIDE[side])
     word = language_of(code).ordinal(ordinal)
@@ -66,20 +66,20 @@ def _bare_door(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
 
 
 def _back(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
-    """To the start, or round and down the corridor?"""
+    """Make "go back": to the start, or around and down the corridor?"""
     text = {"en": "go back", "de": "geh zurück"}[code]
     return text, ((GoBack(),), (Turn(Turning.AROUND), Follow()))
 
 
 def _quarter(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
-    """A turn without a side."""
+    """Make a turn without a side."""
     degrees = (45, 90, 135)[int(rng.integers(3))]
     text = {"en": f"turn {degrees} degrees", "de": f"dreh dich um {degrees} Grad"}[code]
     return text, ((Turn(Turning.LEFT, degrees=degrees),), (Turn(Turning.RIGHT, degrees=degrees),))
 
 
 def _at_door(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
-    """Turning aside at a door: through it, or beside it?"""
+    """Make a turn at a door: through it, or beside it?"""
     ordinal, side = _ordinal(rng), int(rng.integers(2))
     word = language_of(code).ordinal(ordinal)
     text = {
@@ -91,7 +91,7 @@ def _at_door(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
 
 
 def _comma_side(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
-    """A side behind a comma: which door, or where to turn behind it?"""
+    """Make a side behind a comma: which door, or where to turn behind it?"""
     ordinal, side = _ordinal(rng), int(rng.integers(2))
     word = language_of(code).ordinal(ordinal)
     text = {
@@ -103,7 +103,7 @@ def _comma_side(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
 
 
 def _counting(rng: np.random.Generator, code: str) -> tuple[str, Readings]:
-    """Past one door and through a later one: counted from the start, or from there?"""
+    """Make a door after another one: counted from the start, or from that one?"""
     passed = 1 + int(rng.integers(2))
     ordinal = passed + 1 + int(rng.integers(2))
     language = language_of(code)

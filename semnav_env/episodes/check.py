@@ -1,4 +1,4 @@
-"""Whether episodes keep what their split promises, found out anew."""
+"""Checks frozen episodes anew: starts, meanings and feasibility."""
 
 from __future__ import annotations
 

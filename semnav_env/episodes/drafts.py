@@ -1,4 +1,4 @@
-"""Random commands of so many clauses that end as asked for and can be carried out."""
+"""Draws random commands of a given length and topic that can be carried out."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ TURN_AROUND_SHARE = 0.1
 
 
 class Drafter:
-    """Draws commands clause by clause, each of which can be carried out after those before.
+    """Draws commands clause by clause; each clause can be carried out after those before.
 
     Args:
-        plan: where.
+        plan: the floor plan.
         geodesic: its shortest ways.
-        start: from where.
+        start: pose from which commands are carried out.
         rng: source of randomness.
     """
 
@@ -57,7 +57,7 @@ class Drafter:
 
     @cached_property
     def ambiguity_filter(self) -> AmbiguityFilter:
-        """What people could see otherwise there."""
+        """The filter of the floor plan."""
         return AmbiguityFilter(self._plan)
 
     def feasible(self, clauses: int, topic: CommandTopic | None) -> Command | None:
@@ -136,7 +136,7 @@ class Drafter:
         return self.ambiguity_filter.is_behind_a_closed_one(last, self._begin_after(tuple(before)))
 
     def _conditional(self, clauses: int) -> Command | None:
-        """Ends with a condition that nobody would decide otherwise, and what hangs on it."""
+        """A command that ends with a condition on which everybody agrees, and its branches."""
         hanging = 2 if clauses == 2 or self.rng.random() < 0.5 else 3
         before = self.feasible(clauses - hanging, None) if clauses > hanging else None
         if before is None and clauses > hanging:
@@ -161,7 +161,7 @@ class Drafter:
             return 0
 
     def _begin_after(self, clauses: tuple[Clause, ...]) -> Pose:
-        """Where the clause after some others begins."""
+        """Pose at which the clause after some others begins."""
         if not clauses:
             return self.start
         goal = self._followed(clauses).goal
@@ -185,7 +185,7 @@ class Drafter:
         return follower
 
     def _follows(self, said: tuple[Clause, ...], clause: Clause) -> bool:
-        """Whether a clause says something new after the others."""
+        """Whether a clause adds something to the others; two stretches of a corridor may be one."""
         if not said or not isinstance(clause, Follow):
             return True
         before = said[-1]
@@ -206,5 +206,5 @@ class Drafter:
         return self._clauses.underway()
 
     def _faces_a_wall(self, said: tuple[Clause, ...]) -> bool:
-        """Whether one looks across a corridor, so that nobody would count its doors from there."""
+        """Whether the robot looks across a corridor, so that nobody would count its doors."""
         return not looks_along(self._plan, self._begin_after(said))

@@ -1,4 +1,4 @@
-"""An episode that is written down: where, from where, what is said, and what is right."""
+"""A frozen episode: floor plan, start, command and the right answer."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from semnav_env.maps import FloorPlan, load_floor_plan
 
 
 class Expected(StrEnum):
-    """What is right to do: carry the command out, say that it is impossible, or ask which."""
+    """The right answer to a command: carry it out, say that it is impossible, or ask back."""
 
     FEASIBLE = "feasible"
     INFEASIBLE = "infeasible"
@@ -30,16 +30,16 @@ class Episode:
     """One frozen episode; it is the same for every body.
 
     Attributes:
-        id: of the split and a number, as "train-00017".
-        floor_plan: bundled or generated name, or a path.
+        id: name of the split and a number, as "train-00017".
+        floor_plan: name of a bundled or generated plan, or a path.
         plan_hash: `fingerprint` of its geometry.
         start: pose of the robot's centre (x, y, heading), world frame.
         command: what is said.
-        language: in which, "en" or "de".
-        readings: canonical words, in that language, of all that the command can mean.
-        route: the true route as (x, y), simplified to 5 cm; as far as a command can be carried
-            out that is impossible; empty where it is ambiguous.
-        expected: what is right.
+        language: language of the command, "en" or "de".
+        readings: every meaning of the command in canonical words of that language.
+        route: the true route as (x, y), metres, simplified to 5 cm. The route of an impossible
+            command ends where it becomes impossible; that of an ambiguous one is empty.
+        expected: the right answer.
     """
 
     id: str
@@ -54,17 +54,17 @@ class Episode:
 
     @property
     def number(self) -> int:
-        """In its split; the seed of its noise."""
+        """Number in its split, which is also the seed of its noise."""
         return int(self.id.rpartition("-")[2])
 
     @property
     def clauses(self) -> int:
-        """How many there are in the first reading."""
+        """Number of clauses of the first reading."""
         return len(self.meanings()[0].clauses)
 
     @property
     def group(self) -> str:
-        """Under which it is counted: by its clauses, "1 clause" or "2 clauses"."""
+        """Group in tables of results: "1 clause", "2 clauses" and so on."""
         return f"{self.clauses} clause{'s' if self.clauses > 1 else ''}"
 
     def plan(self) -> FloorPlan:

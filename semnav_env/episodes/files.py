@@ -1,4 +1,4 @@
-"""Files of episodes: one JSON object a line, gzip-compressed where the name ends in .gz."""
+"""Reads and writes files of episodes: one JSON object a line, compressed if named .gz."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PLAN_SUFFIX = ".geojson"
 
 
 class EpisodeFileError(ValueError):
-    """A file is none of episodes; names the line, the field and what would be right."""
+    """A file is no file of episodes; the message names line, field and what would be right."""
 
 
 def to_line(episode: Episode) -> str:
@@ -45,7 +45,7 @@ def write_episodes(episodes: Iterable[Episode], path: str | Path) -> None:
 
 
 def read_episodes(path: str | Path) -> tuple[Episode, ...]:
-    """All episodes of a file.
+    """Read the episodes of a file.
 
     Floor plans that are files lie beside it, if their paths are not absolute.
 
@@ -103,7 +103,7 @@ def _read(line: str, place: str) -> Episode:
 
 
 def _problems(row: dict[str, Any]) -> Iterator[str]:
-    """What keeps a row from being an episode, in the order of the fields."""
+    """Everything that is wrong with a row, in the order of the fields."""
     for name in FIELDS:
         if name not in row:
             yield f"has no {name!r}; an episode has {', '.join(FIELDS)}"

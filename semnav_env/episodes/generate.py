@@ -1,4 +1,4 @@
-"""Makes episodes from a seed; each depends on nothing but the seed, its split and its number."""
+"""Generates episodes from a seed; each depends only on the seed, its split and its number."""
 
 from __future__ import annotations
 
@@ -67,16 +67,16 @@ START_CLEARANCE = 0.75
 
 
 class TooBareError(ValueError):
-    """A floor plan offers too little to give a command in."""
+    """No command of the wanted kind was found in a floor plan."""
 
 
 @dataclass(frozen=True)
 class Site:
-    """A floor plan and what is worked out once for all its episodes.
+    """A floor plan with what all its episodes share.
 
     Attributes:
         plan: the floor plan.
-        name: by which it is found again.
+        name: name by which `load_floor_plan` finds it.
     """
 
     plan: FloorPlan
@@ -89,7 +89,7 @@ class Site:
 
     @cached_property
     def reach(self) -> Reach:
-        """Where every body gets to."""
+        """The cells that every body reaches."""
         return reach(self.plan, LARGEST_BODY.length, LARGEST_BODY.width)
 
     @cached_property
@@ -113,8 +113,8 @@ def generate_split(
 def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) -> Episode:
     """One episode of a split.
 
-    Its number says how many clauses it should have and what it should be about; where the floor
-    plan offers no such thing, it is about what comes up.
+    Its number says how many clauses it should have and what its topic should be. Where the floor
+    plan does not allow that, other combinations are tried.
 
     Raises:
         TooBareError: no command was found there.
@@ -137,10 +137,10 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
 def _wanted(
     plan: FloorPlan, split: Split, number: int, seed: int
 ) -> list[tuple[int, CommandTopic]]:
-    """How many clauses an episode should have and about what, and what else would do.
+    """Numbers of clauses and topics for an episode, the wanted one first, then substitutes.
 
-    All take turns, in another order each time: so every tenth episode, say, is not about the same.
-    A room cannot be named where none has a name.
+    All combinations take turns, in another order each time, so that no regular choice of episodes
+    has one topic. Rooms are no topic in a plan without named rooms.
     """
     pairs = [(n, topic) for n in split.clauses for topic in topics_of(n)]
     if not plan.room_names:
@@ -153,7 +153,7 @@ def _wanted(
 
 @dataclass(frozen=True)
 class EpisodeDraft:
-    """What is said, all that it means, and the way that it leads."""
+    """A text, its meanings, its true route and the right answer."""
 
     text: str
     meanings: tuple[Command, ...]
@@ -215,7 +215,7 @@ def _episode(name: str, site: Site, start: Pose, language: str, said: EpisodeDra
 
 
 def _start(site: Site, split: Split, topic: CommandTopic, rng: Generator) -> Pose | None:
-    """Where every body can stand, rounded as it is written; in a room if that is to be left."""
+    """A start at which every body can stand, rounded as in a file; in a room to be left."""
     if topic is CommandTopic.LEAVE and split.expected is Expected.FEASIBLE and site.plan.rooms:
         pose = _start_in_room(site, rng)
     else:
@@ -228,7 +228,7 @@ def _start(site: Site, split: Split, topic: CommandTopic, rng: Generator) -> Pos
 
 
 def _start_in_room(site: Site, rng: Generator) -> Pose | None:
-    """Where a body can turn round in a room with one open door, which can be seen from there."""
+    """A pose in a room with one open door that can be seen and space to turn round; else None."""
     plan = site.plan
     room = plan.rooms[int(rng.integers(len(plan.rooms)))]
     try:
@@ -240,12 +240,12 @@ def _start_in_room(site: Site, rng: Generator) -> Pose | None:
 
 
 def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
-    """How many open doors a room has."""
+    """Number of open doors of a room."""
     return sum(door.open and room.dwithin(shapely.Point(door.midpoint), 0.1) for door in plan.doors)
 
 
 def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | None:
-    """The true route, if bodies get along and the verifier accepts it."""
+    """The true route; None if a body cannot drive it or the verifier does not accept it."""
     verifier = Verifier(plan_mission(site.plan, site.geodesic, command, start))
     if not MIN_ROUTE_LENGTH <= verifier.mission.route_length <= MAX_ROUTE_LENGTH:
         return None
@@ -261,13 +261,13 @@ def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | Non
 def _has_room(plan: FloorPlan, goal: Goal) -> bool:
     """Whether every body can stand at a goal that fixes a heading or a distance down a corridor.
 
-    It may lie so near to a wall, or in a corner, that nobody could turn or stop right there.
+    A goal may lie so near to a wall or a corner that no body could stop or turn there.
     """
     stands = isinstance(goal, ReachGoal) and (goal.fixes_heading or goal.corridor is not None)
     return not stands or placement_error(plan, LARGEST_BODY, goal.pose) is None
 
 
 def _simple(route: FloatArray) -> tuple[Point, ...]:
-    """Fewer points, in whole centimetres."""
+    """A route with fewer points, in whole centimetres."""
     line = shapely.LineString(route).simplify(ROUTE_TOLERANCE, preserve_topology=False)
     return tuple((float(x), float(y)) for x, y in np.round(line.coords, 2).tolist())

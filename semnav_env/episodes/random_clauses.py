@@ -1,4 +1,4 @@
-"""Random clauses, drawn without regard to whether they can be carried out."""
+"""Draws random clauses, whether or not they can be carried out."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ can be carried out their share is larger, for a turn by degrees always can."""
 
 
 class CommandTopic(StrEnum):
-    """What a command is about: its last clause, or leaving a room, its first."""
+    """Topic of a command: the kind of its last clause, or leaving a room as its first."""
 
     ENTER = "enter"
     APPROACH = "approach"
@@ -54,7 +54,7 @@ LATER_TOPICS = (CommandTopic.BACK, CommandTopic.WAIT, CommandTopic.CONDITION)
 
 
 def topics_of(clauses: int) -> tuple[CommandTopic, ...]:
-    """The verbs that a command of so many clauses can have."""
+    """Topics that a command of a number of clauses can have."""
     late = LATER_TOPICS if clauses > 1 else ()
     return tuple(topic for topic in CommandTopic if topic not in LATER_TOPICS) + late
 
@@ -91,7 +91,7 @@ class RandomClauses:
                 return GoToDoor(self.door())
 
     def underway(self) -> Clause:
-        """What is said on the way to something else; more turns, for there are fewer of them."""
+        """A clause before others. Turns are drawn more often, since fewer of them can be done."""
         if self._rng.random() < 0.85:
             return self.turn()
         if self._rng.random() < 0.1:

@@ -1,4 +1,4 @@
-"""The splits: how many episodes each has, in which buildings, of how many clauses."""
+"""Splits of the frozen episodes: numbers of episodes, buildings and clauses."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ SEED = 2026
 
 @dataclass(frozen=True)
 class Split:
-    """Episodes that are used for one thing.
+    """A set of episodes for one purpose.
 
     Attributes:
-        name: its name.
-        about: what it is for.
-        episodes: how many.
-        buildings: how many floor plans, each with the same number of episodes.
-        clauses: how many clauses a command has; each, with each verb, equally often.
+        name: name of the split.
+        about: what it is for, in a few words.
+        episodes: number of episodes.
+        buildings: number of floor plans, each with the same number of episodes.
+        clauses: numbers of clauses of a command; each, with each topic, is equally frequent.
         first: seed of the first office; None for the plan that `plan` names.
         plan: a bundled plan instead of generated ones.
-        expected: what is right.
+        expected: the right answer to its commands.
     """
 
     name: str
@@ -122,7 +122,7 @@ def is_episodes(name: str | Path) -> bool:
 
 
 def evenly(episodes: Sequence[Episode], count: int) -> tuple[Episode, ...]:
-    """So many episodes, all as far apart as whole numbers allow; all if there are no more."""
+    """A number of episodes spread evenly over a split; all of them if there are no more."""
     count = min(count, len(episodes))
     return tuple(episodes[k * len(episodes) // count] for k in range(count))
 

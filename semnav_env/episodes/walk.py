@@ -1,4 +1,4 @@
-"""A walk through a command on the plan itself: proof that the verifier accepts its true route."""
+"""Walks a point through a command: proof that the verifier accepts its true route."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ MAX_LEGS = 20
 def carries_out(verifier: Verifier) -> bool:
     """Whether going to each goal by the shortest way carries the command out.
 
-    A point goes, so this says nothing of bodies. The verifier is used up.
+    A point is moved, so this says nothing about bodies. The verifier cannot be used afterwards.
     """
     pose = verifier.mission.start
     for _ in range(MAX_LEGS):

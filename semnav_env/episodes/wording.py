@@ -1,4 +1,4 @@
-"""How the command of an episode is worded: canonically, otherwise, or corrected on the way."""
+"""Words the command of an episode: canonically, in other words, or with a correction."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ _OPPOSITE = {"left": "right", "right": "left"}
 def worded(
     command: Command, language: str, rng: Generator, rooms: Sequence[str], *, closed: bool = False
 ) -> str | None:
-    """Words that mean a command and nothing else where the rooms are called as they are.
+    """Words that mean a command and nothing else, given the names of the rooms.
 
     Args:
         command: what to say; its last clause may be said wrongly first, and corrected.
@@ -88,7 +88,7 @@ def worded(
 
 
 def _but_for_a_closed_one(command: Command, language: str) -> str | None:
-    """With "if the first door on the left is closed, take the next" for its end."""
+    """The command with "if the first door on the left is closed, take the next" as its end."""
     *before, last = command.clauses
     if not isinstance(last, GoToDoor) or last.approach is not Approach.THROUGH:
         return None

@@ -83,7 +83,7 @@ def validator() -> Draft202012Validator:
 
 
 def label(document: Document, index: int) -> str:
-    """What to call a feature in an error: its number (from 1), kind and name."""
+    """Name of a feature in an error: its number (from 1), kind and name."""
     feature = document["features"][index]
     properties = feature.get("properties") if isinstance(feature, dict) else None
     stated = properties if isinstance(properties, dict) else {}
@@ -139,7 +139,7 @@ def _check_schema(document: Any) -> None:
 
 
 def _explain(error: ValidationError) -> str:
-    """What is wrong and what would be right, in one line."""
+    """Say in one line what is wrong and what would be right."""
     asked, given = error.validator_value, error.instance
     match error.validator:
         case "const":

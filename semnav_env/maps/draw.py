@@ -95,7 +95,7 @@ def leave_out_overlapping(ax: Axes) -> None:
 
 
 def _free_place(text: Text, kept: Sequence[Bbox], figure: Figure) -> Bbox | None:
-    """Where a name lies on no other: at its own place, or moved there by a line."""
+    """Move a name that lies on another by a line; its box, or None if no place is free."""
     box = text.get_window_extent()
     for up in (0.0, box.height, -box.height):
         place = box.translated(0.0, up)
@@ -144,7 +144,7 @@ def save_picture(
 
 
 def _write_names(plan: FloorPlan, ax: Axes) -> None:
-    """What matters most first."""
+    """Write the names of rooms, then of doors, then of other regions: the first ones are kept."""
     for room in plan.rooms:
         _name_region(room, plan, ax)
     for door in plan.doors:
@@ -155,7 +155,7 @@ def _write_names(plan: FloorPlan, ax: Axes) -> None:
 
 
 def _name_region(region: Region, plan: FloorPlan, ax: Axes) -> None:
-    """Written where no other region lies, if there is such a place."""
+    """Write the name of a region where no other region lies, if there is such a place."""
     others = union_all([r.polygon for r in plan.regions if r is not region])
     own = region.polygon.difference(others)
     at = (region.polygon if own.area < DRAWING_TOLERANCE else own).representative_point()
@@ -177,7 +177,7 @@ def _draw_door(door: PlanDoor, ax: Axes) -> None:
 
 
 def _name_door(door: PlanDoor, ax: Axes) -> None:
-    """Behind the door, seen from its corridor."""
+    """Write the name of a door behind it, as seen from its corridor."""
     (x1, y1), (x2, y2) = door.start, door.end
     right = (y2 - y1) / door.width, (x1 - x2) / door.width
     x, y = (m + NAME_OFFSET * r for m, r in zip(door.midpoint, right, strict=True))

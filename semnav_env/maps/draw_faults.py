@@ -1,4 +1,4 @@
-"""What is wrong with a plan, in its picture: numbered circles, and a list of what they mean."""
+"""Faults in the picture of a plan: numbered circles and a list of what they mean."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def columns_of(faults: Sequence[PlanFault], width: float) -> list[list[str]]:
 
 
 def write_columns(columns: Sequence[Sequence[str]], figure: FigureBase) -> None:
-    """The lines of `columns_of`, side by side."""
+    """Write the columns of `columns_of` side by side."""
     for k, lines in enumerate(columns):
         x = 0.02 + 0.98 * k / len(columns)
         figure.text(x, 1.0, "\n".join(lines), va="top", size=9, color="red", linespacing=1.2)

@@ -16,7 +16,7 @@ from semnav_env.features.scene import Door, PlainWalls, Scene
 
 
 class Material(StrEnum):
-    """What a surface is made of: glass stops the body but not the beam."""
+    """Material of a surface; glass stops the body but not the beam."""
 
     WALL = "wall"
     GLASS = "glass"
@@ -165,7 +165,7 @@ class FloorPlan:
 
     @property
     def regions(self) -> tuple[Region, ...]:
-        """All rooms, corridors, intersections and open areas."""
+        """Every room, corridor, intersection and open area."""
         return self.rooms + self.corridors + self.intersections + self.areas
 
     @property

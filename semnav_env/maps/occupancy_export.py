@@ -60,7 +60,7 @@ class PixelPlan:
 
 @dataclass(frozen=True)
 class ExportReport:
-    """What was written.
+    """Report of an export: the files, how much was written, and what the format cannot hold.
 
     Attributes:
         files: their paths.
@@ -73,7 +73,7 @@ class ExportReport:
     left_out: tuple[str, ...]
 
     def __str__(self) -> str:
-        """As lines of text."""
+        """The report as lines of text."""
         written = ", ".join(f"{count} {name}" for name, count in self.written.items())
         lines = [f"written: {written}", *(f"left out: {line}" for line in self.left_out)]
         return "\n".join([*lines, *(f"wrote {file}" for file in self.files)])

@@ -1,4 +1,4 @@
-"""From GeoJSON in local metres to a floor plan; docs/floor_plans.md describes the format."""
+"""Reads floor plans from GeoJSON in local metres; docs/floor_plans.md describes the format."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def _check_states(document: Document, plan: FloorPlan) -> None:
 
 
 def _part(feature: dict[str, Any]) -> Part:
-    """What a feature describes, checked."""
+    """The checked part of a plan that a feature describes."""
     properties, geometry = feature["properties"], feature["geometry"]
     if properties["kind"] in SOLID_KINDS:
         return _surface(properties, geometry)

@@ -1,4 +1,4 @@
-"""From a floor plan to GeoJSON that reads back equal."""
+"""Writes floor plans as GeoJSON that reads back equal."""
 
 from __future__ import annotations
 

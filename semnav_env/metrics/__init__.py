@@ -1,4 +1,4 @@
-"""Measures of driven episodes: plain functions over arrays, and what was recorded to measure."""
+"""Measures of driven episodes: plain functions over recorded arrays."""
 
 from semnav_env.metrics.measure import measure
 from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk

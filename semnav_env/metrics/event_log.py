@@ -1,4 +1,4 @@
-"""From a recording and the true floor plan to the events of the way."""
+"""Finds the events of a recorded drive in the true floor plan."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ Mask = NDArray[np.bool_]
 
 
 def events_of(recording: Recording, floor_plan: FloorPlan) -> tuple[Event, ...]:
-    """All events of a way, in the order of time.
+    """Every event of a recorded drive, in the order of time.
 
     Doors, regions and intersections are those of the plan; one without named intersections gives
     no events of junctions.
@@ -106,7 +106,7 @@ def _junctions(
 def _visit(
     recording: Recording, floor_plan: FloorPlan, region: Region, start: int, stop: int
 ) -> Iterator[JunctionEntered | JunctionLeft]:
-    """Of one stay in an intersection, from row `start` to the one before row `stop`."""
+    """The events of one stay in an intersection, from row `start` to the row before `stop`."""
     path, period, name = recording.path, recording.period, region.name
     inward = float(recording.poses[0, 2])
     if start > 0:

@@ -1,4 +1,4 @@
-"""What can happen on a way, as typed values in the order of time.
+"""Events of a drive as typed values.
 
 `step` is the row of the recording at which it is first true; `seconds` the time since the start.
 """
@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 
 class Arm(StrEnum):
-    """By which arm a junction was left, seen from where it was entered."""
+    """Arm by which a junction was left, as seen from the arm of entry."""
 
     AHEAD = "ahead"
     LEFT = "left"
@@ -27,8 +27,8 @@ class DoorCrossed:
         step: of the recording.
         seconds: since the start.
         door: its name.
-        from_left: came from the left of the way from the door's first jamb to its second, where
-            the corridor lies in the bundled plans.
+        from_left: whether the robot came from the left of the line from the first jamb of the
+            door to its second, where the corridor lies in the bundled plans.
         origin: the region that it came from; empty where the plan names none.
         into: the region that it came into.
     """
@@ -66,7 +66,7 @@ class JunctionLeft:
         step: of the recording.
         seconds: since the start.
         junction: name of the intersection.
-        arm: by which side, seen from the side by which it was entered.
+        arm: side of the exit, as seen from the side of entry.
         into: the region that it came into.
     """
 
@@ -84,7 +84,7 @@ class Turned:
     Attributes:
         step: of the recording, where the turn began.
         seconds: since the start.
-        angle: by how much, radians, positive to the left.
+        angle: heading change, radians, positive to the left.
         duration: seconds.
     """
 

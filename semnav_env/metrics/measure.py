@@ -1,4 +1,4 @@
-"""From a recorded episode to its measures."""
+"""Computes all measures of a recorded episode."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ metres."""
 
 
 def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metrics:
-    """All measures of an episode.
+    """Compute the measures of an episode.
 
     Args:
         recording: of the episode.
@@ -66,9 +66,9 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
 
 
 def geodesic_distances(ways: WaysTo, points: FloatArray) -> FloatArray:
-    """Lengths of the shortest ways from some points, shape (n, 2) to (n,), metres.
+    """Lengths of the shortest ways from points of shape (n, 2), metres, shape (n,).
 
-    From where no way leads, it is that of the nearest place from where one does.
+    A point without a way gets the length of the way from the nearest point that has one.
     """
     known = [ways.length((x, y)) for x, y in points.tolist()]
     return np.array(

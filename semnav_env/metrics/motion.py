@@ -1,4 +1,4 @@
-"""How a robot moved: how smoothly, how near to what is solid, how often it touched it."""
+"""Measures of motion: smoothness, clearance and collisions."""
 
 from __future__ import annotations
 

@@ -122,7 +122,7 @@ def draw_episode(
 
 
 def _draw_moved(ax: Axes, recording: Recording) -> None:
-    """The leaves and the people of the end, and where the people came from."""
+    """Draw leaves and people as they were at the end, with the last part of the people's ways."""
     for x1, y1, x2, y2 in () if recording.leaves is None else recording.leaves.tolist():
         ax.plot((x1, x2), (y1, y2), color=LEAF_COLOUR, linewidth=1.5)
     if recording.people is None:
@@ -137,7 +137,7 @@ def _draw_moved(ax: Axes, recording: Recording) -> None:
 
 
 def _tail(way: FloatArray) -> FloatArray:
-    """The last part of a way, up to `TRAIL_LENGTH` long."""
+    """The last part of a way, at most `TRAIL_LENGTH` long."""
     steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
     left = np.append(np.cumsum(steps[::-1])[::-1], 0.0)
     return way[left <= TRAIL_LENGTH]

@@ -1,4 +1,4 @@
-"""What an episode left behind: poses, velocities and contacts, one row a step."""
+"""A recorded episode: poses, velocities and contacts, one row a step."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Recording:
 
     Attributes:
         poses: true poses of the robot's centre, shape (n + 1, 3), world frame, metres and radians.
-        velocities: of the robot's centre: forward, left (m/s) and turn (rad/s), robot frame,
+        velocities: of the robot's centre: forward, left (m/s) and yaw rate (rad/s), robot frame,
             shape (n + 1, 3).
         contacts: solid segments touched during the step, shape (n + 1,).
         impulses: sum of the magnitudes of the impulses received during the step, N s, shape
@@ -77,12 +77,12 @@ class Recording:
 
     @property
     def path(self) -> FloatArray:
-        """Where the robot's centre was, shape (n + 1, 2), world frame."""
+        """Positions of the robot's centre, shape (n + 1, 2), world frame, metres."""
         return self.poses[:, :2]
 
     @cached_property
     def speeds(self) -> FloatArray:
-        """Of the robot's centre, whatever its direction, shape (n + 1,), m/s."""
+        """Speed of the robot's centre, shape (n + 1,), m/s."""
         return np.asarray(np.hypot(self.velocities[:, 0], self.velocities[:, 1]))
 
     @property
@@ -121,7 +121,7 @@ def _fits(array: NDArray[Any], shape: tuple[int | None, ...]) -> bool:
 
 
 class Recorder:
-    """Writes down what a world does.
+    """Records a world step by step.
 
         recorder = Recorder(env.world)  # after env.reset
         ...                             # env.step(action)
@@ -141,7 +141,7 @@ class Recorder:
         self.note()
 
     def note(self) -> None:
-        """Write down the world as it is now."""
+        """Record the world as it is now."""
         world = self._world
         self._poses.append(world.pose)
         self._velocities.append(world.velocity)
@@ -151,7 +151,7 @@ class Recorder:
             self._people.append(world.moving_shapes[0].copy())
 
     def recording(self) -> Recording:
-        """Everything so far."""
+        """The recording so far."""
         counts, impulses = zip(*self._touched, strict=True)
         return Recording(
             np.array(self._poses),

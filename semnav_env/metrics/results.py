@@ -1,4 +1,4 @@
-"""What is measured of one episode."""
+"""Measures of one episode, and their means over many."""
 
 from __future__ import annotations
 

@@ -12,10 +12,10 @@ from semnav_env.robots import RobotSpec
 
 
 def draw_body(
-    sheet: ShapeCanvas, camera: Camera, robot: RobotSpec, pose: Pose, in_contact: bool = False
+    canvas: ShapeCanvas, camera: Camera, robot: RobotSpec, pose: Pose, in_contact: bool = False
 ) -> None:
-    """The footprint, what carries it, and an arrow towards its front."""
-    pen = _Pen(sheet, camera, pose)
+    """Draw the footprint, the wheels or legs, and an arrow towards the front."""
+    pen = _Pen(canvas, camera, pose)
     length, width = robot.length, robot.width
     halo, edge = palette.CONTACT if in_contact else palette.WHITE, palette.INK
     pen.slab((0.0, 0.0), (length, width), halo, 5.0 if in_contact else 3.0)
@@ -28,20 +28,20 @@ def draw_body(
 class _Pen:
     """Draws rectangles and arrows given in metres in the robot frame."""
 
-    def __init__(self, sheet: ShapeCanvas, camera: Camera, pose: Pose) -> None:
-        self._sheet, self._camera, self._pose = sheet, camera, pose
+    def __init__(self, canvas: ShapeCanvas, camera: Camera, pose: Pose) -> None:
+        self._canvas, self._camera, self._pose = canvas, camera, pose
 
     def slab(self, centre: Point, size: Point, colour: palette.Colour, grow: float = 0.0) -> None:
         """A rectangle with rounded corners; `grow` widens it by units of the page."""
         outline = self._page(rounded_rectangle(centre, size, 0.16 * min(size)))
-        self._sheet.polygon(outline, colour)
+        self._canvas.polygon(outline, colour)
         if grow:
-            self._sheet.stroke([*outline, outline[0]], colour, 2 * grow)
+            self._canvas.stroke([*outline, outline[0]], colour, 2 * grow)
 
     def arrow(self, back: float, front: float, half: float, colour: palette.Colour) -> None:
         """An arrowhead on the x axis."""
         points = np.array([(front, 0.0), (back, half), (back + 0.35 * half, 0.0), (back, -half)])
-        self._sheet.polygon(self._page(points), colour)
+        self._canvas.polygon(self._page(points), colour)
 
     def _page(self, points: FloatArray) -> FloatArray:
         return self._camera.pixels(points_to_parent(self._pose, points))
@@ -50,7 +50,7 @@ class _Pen:
 def _draw_wheeled(
     pen: _Pen, length: float, width: float, axle: float, edge: palette.Colour
 ) -> None:
-    """A seat between two large driven wheels on the axle, castors in front."""
+    """Draw a seat between two large driven wheels on the axle, with castors in front."""
     rim = 0.04
     pen.slab((0.0, 0.0), (length, width), edge)
     pen.slab((0.0, 0.0), (length - rim, width - rim), palette.CHAIR)
@@ -63,7 +63,7 @@ def _draw_wheeled(
 
 
 def _draw_legged(pen: _Pen, length: float, width: float, edge: palette.Colour) -> None:
-    """A narrow yellow trunk with a dark face, between four legs."""
+    """Draw a narrow yellow trunk with a dark face between four legs."""
     rim = 0.04
     pen.slab((0.0, 0.0), (length, 0.62 * width), edge)
     pen.slab((0.0, 0.0), (length - rim, 0.62 * width - rim), palette.SPOT)

@@ -1,4 +1,4 @@
-"""From metres in the world to pixels on the page, and which part of the world to show."""
+"""Maps metres in the world to pixels on the page, and chooses the part of the world to show."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Camera:
 def looking_at(
     bounds: tuple[float, float, float, float], position: Point, view: Viewport, grid: float
 ) -> Camera:
-    """The whole plan where it is small, else the neighbourhood of `position`.
+    """The camera on the whole plan where it is small, else on the surroundings of `position`.
 
     Args:
         bounds: of the plan: least x, least y, greatest x, greatest y, metres.
@@ -84,7 +84,7 @@ def looking_at(
 
 
 def _centre(low: float, high: float, seen: float, wanted: float) -> float:
-    """Nearest to `wanted` without showing what lies beyond the plan."""
+    """The centre of the view nearest to `wanted` that shows nothing beyond the plan."""
     if seen >= high - low:
         return (low + high) / 2
     return min(max(wanted, low + seen / 2), high - seen / 2)

@@ -1,4 +1,4 @@
-"""Antialiased drawing in memory: shapes on a fine sheet, text on the finished page.
+"""Antialiased drawing in memory: shapes on a fine surface, text on the finished page.
 
 Positions and widths are in units of the page, of which `zoom` fine pixels make one.
 """
@@ -31,7 +31,7 @@ SUPERSAMPLING = 2
 
 
 class ShapeCanvas:
-    """Shapes without text.
+    """A surface for shapes.
 
     Args:
         size: fine pixels, (width, height).
@@ -44,7 +44,7 @@ class ShapeCanvas:
         self.zoom = zoom
 
     def fill(self, colour: Colour) -> None:
-        """Paint everything."""
+        """Fill the whole surface with a colour."""
         self._surface.fill(colour)
 
     def polygon(self, points: ArrayLike, colour: Colour) -> None:
@@ -95,18 +95,18 @@ class ShapeCanvas:
         self._pygame.draw.rect(self._surface, colour, self._rect(where), border_radius=round_by)
 
     def engrave(self, at: Point, text: str, colour: Colour, size: float) -> None:
-        """Text centred at `at` that later shapes may cover; softer than that of a canvas."""
+        """Draw text centred at a point; later shapes may cover it. Softer than `Canvas.text`."""
         image = _font(max(4, round(size * self.zoom)), False).render(harmless(text), True, colour)
         left, top = (value * self.zoom for value in at)
         self._surface.blit(image, (left - image.get_width() / 2, top - image.get_height() / 2))
 
     def text_width(self, text: str, size: float, bold: bool = False) -> float:
-        """Units from left to right."""
+        """Width of a text, units of the page."""
         return float(_font(self._font_pixels(size), bold).size(text)[0] * SUPERSAMPLING / self.zoom)
 
-    def paste(self, sheet: ShapeCanvas, at: tuple[int, int]) -> None:
-        """Copy a sheet of the same zoom; `at` is in fine pixels."""
-        self._surface.blit(sheet._surface, at)
+    def paste(self, other: ShapeCanvas, at: tuple[int, int]) -> None:
+        """Copy a surface of the same zoom to a place in fine pixels."""
+        self._surface.blit(other._surface, at)
 
     @contextmanager
     def within(self, where: Viewport) -> Iterator[None]:
@@ -120,7 +120,7 @@ class ShapeCanvas:
 
     @contextmanager
     def highlighter(self) -> Iterator[None]:
-        """Colours multiply with what lies beneath, so dark lines show through."""
+        """Multiply colours with what lies beneath, so that dark lines show through."""
         paper, clip = self._surface, self._surface.get_clip()
         self._surface = self._blank
         self._surface.set_clip(clip)

@@ -1,4 +1,4 @@
-"""Few colours for many frames: the palette of a GIF."""
+"""The palette of a GIF: few colours for many frames."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Everything one picture shows."""
+"""The contents of one picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the symbols mean, drawn with the same marks as on the map."""
+"""The legend of the picture, drawn with the same marks as the map."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from semnav_env.rendering.canvas import Canvas
 from semnav_env.rendering.frame import Frame
 
 Entry: TypeAlias = tuple[str, Callable[[Canvas, Point], None]]
-"""A name, and what draws its symbol."""
+"""Name of a symbol and the function that draws it."""
 
 ROW_HEIGHT = 20.0
 """Height of a row, units of the page."""
@@ -30,7 +30,7 @@ LEGEND_HEIGHT = 196.0
 
 
 def draw_legend(canvas: Canvas, left: float, top: float, frame: Frame) -> None:
-    """Two columns of symbols and their names; `top` is the middle of the first row."""
+    """Draw two columns of symbols with their names; `top` is the middle of the first row."""
     entries = legend_entries(frame)
     rows = -(-len(entries) // 2)
     for index, (name, draw) in enumerate(entries):
@@ -40,7 +40,7 @@ def draw_legend(canvas: Canvas, left: float, top: float, frame: Frame) -> None:
 
 
 def legend_entries(frame: Frame) -> tuple[Entry, ...]:
-    """What any episode shows, and what this one does: the same at all of its moments."""
+    """Entries of what every episode shows and what this one shows, the same in all its frames."""
     plan = frame.floor_plan
     made_of = {surface.material for surface in plan.surfaces}
     closed = not all(door.open for door in plan.doors)
@@ -51,7 +51,9 @@ def legend_entries(frame: Frame) -> tuple[Entry, ...]:
         Material.FURNITURE in made_of,
         len(frame.people) > 0,
     )
-    return _ENTRIES + tuple(entry for entry, is_shown in zip(_SOME, shown, strict=True) if is_shown)
+    return _ENTRIES + tuple(
+        entry for entry, is_shown in zip(_OPTIONAL_ENTRIES, shown, strict=True) if is_shown
+    )
 
 
 def _bar(at: Point) -> list[Point]:
@@ -116,7 +118,7 @@ _ENTRIES: tuple[Entry, ...] = (
     ("path so far", lambda canvas, at: marks.trail(canvas, _bar(at))),
     ("true route", lambda canvas, at: marks.route(canvas, _bar(at))),
 )
-_SOME: tuple[Entry, ...] = (
+_OPTIONAL_ENTRIES: tuple[Entry, ...] = (
     ("assumed wall", lambda canvas, at: marks.wall_assumed(canvas, _bar(at))),
     ("glass", _glass),
     ("door leaf", lambda canvas, at: marks.leaf(canvas, _bar(at), 0.0)),

@@ -1,4 +1,4 @@
-"""The map side of the picture: what is seen, remembered and wanted, over the floor plan."""
+"""The map in the picture: what is seen, remembered and aimed at, over the floor plan."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ DRAWN_HITS = 270
 
 
 def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
-    """Everything but the floor plan, faint things first."""
+    """Draw everything but the floor plan, faint things first."""
     with canvas.highlighter():
         _draw_beams(canvas, camera, frame)
         for wall in frame.scene.walls:
@@ -48,7 +48,7 @@ def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
 
 
 def draw_scale_bar(canvas: Canvas, camera: Camera, view: Viewport) -> None:
-    """Two metres, at the lower left, on a plate that covers what lies there."""
+    """Draw a scale of two metres at the lower left, on a plate that covers what lies there."""
     x, y = view.left + 18, view.top + view.height - 18
     end = x + 2.0 * camera.scale
     canvas.box(Viewport(x - 9, y - 20, end - x + 18, 29), palette.PANEL, 5.0)
@@ -94,7 +94,7 @@ def _draw_seen(canvas: Canvas, camera: Camera, scene: Scene) -> None:
 
 
 def _badge_place(camera: Camera, door: Door) -> Point:
-    """Just behind the opening, to the right of start-end, where the scanner is not."""
+    """Place of a badge just behind an opening: right of start-end, away from the lidar."""
     (x1, y1), (x2, y2) = camera.pixels([door.start, door.end])
     length = math.hypot(x2 - x1, y2 - y1) or 1.0
     away = 2.2 * marks.BADGE_RADIUS / length

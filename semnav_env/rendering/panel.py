@@ -1,4 +1,4 @@
-"""The panel beside the map: the command, where it stands, and the state of the run."""
+"""The panel beside the map: the command, its active clause, and the state of the run."""
 
 from __future__ import annotations
 
@@ -28,22 +28,22 @@ CLAUSE_INDENT = 30.0
 
 @dataclass(frozen=True)
 class Column:
-    """A strip of the page that text is set in."""
+    """A column of the page in which text is set."""
 
     canvas: Canvas
     left: float
     width: float
 
     def wrapped(self, text: str, size: float, bold: bool = False, most: int = 4) -> tuple[str, ...]:
-        """The lines that a text takes here."""
+        """The lines of a text in this column."""
         return wrap(text, self.width, lambda line: self.canvas.text_width(line, size, bold), most)
 
     def indented(self, by: float) -> Column:
-        """The strip without its left side and a little of its right."""
+        """The column with a larger left margin and a little more on the right."""
         return Column(self.canvas, self.left + by, self.width - by - 6.0)
 
     def heading(self, y: float, text: str) -> None:
-        """A small heading over a thin rule."""
+        """Draw a small heading over a thin rule."""
         self.canvas.text((self.left, y), text, palette.MUTED, 10.0, bold=True)
         rule = self.left + self.canvas.text_width(text, 10.0, bold=True) + 8.0
         self.canvas.stroke([(rule, y), (self.left + self.width, y)], palette.HAIRLINE, 1.0)
@@ -51,7 +51,7 @@ class Column:
 
 @dataclass(frozen=True)
 class PanelEntry:
-    """A clause as it is set: its lines, and below them what the active one was taken to mean."""
+    """The layout of a clause: its lines, and for the active one its interpretation below."""
 
     index: int
     lines: tuple[str, ...]
@@ -59,12 +59,12 @@ class PanelEntry:
 
     @property
     def height(self) -> float:
-        """Units of the page, with the space around it."""
+        """Height with the space around it, units of the page."""
         return LINE_HEIGHT * len(self.lines) + 16.0 * len(self.notes) + 14.0
 
 
 def draw_panel(canvas: Canvas, panel: Viewport, frame: Frame) -> None:
-    """All of it, on its own ground."""
+    """Draw the panel on a background of its own."""
     canvas.box(panel, palette.PANEL)
     canvas.stroke([(panel.left, 0.0), (panel.left, panel.height)], palette.HAIRLINE, 1.0)
     column = Column(canvas, panel.left + PANEL_PADDING, panel.width - 2 * PANEL_PADDING)
@@ -85,7 +85,7 @@ def _draw_title(column: Column, frame: Frame) -> None:
 
 
 def _draw_status(column: Column, bottom: float, frame: Frame) -> float:
-    """Set upwards from the legend; returns where it begins."""
+    """Draw the status upwards from the legend; returns the height at which it begins."""
     spaced = (re.sub(r" {2,}", " · ", text.strip()) for text in frame.status)
     lines = [line for text in spaced for line in column.wrapped(text, 12.5, most=3)][:7]
     top = bottom - 18.0 * len(lines) - (34.0 if frame.in_contact else 0.0)
@@ -120,7 +120,7 @@ def _draw_command(column: Column, top: float, bottom: float, frame: Frame) -> No
 
 
 def _nearby(frame: Frame) -> range:
-    """Clauses that could be in view together with the active one."""
+    """The clauses that could be shown together with the active one."""
     return range(
         max(0, frame.active_clause - 12), min(len(frame.command), frame.active_clause + 12)
     )
@@ -135,7 +135,7 @@ def _entry(inner: Column, frame: Frame, index: int) -> PanelEntry:
 
 
 def _fitting(entries: Sequence[PanelEntry], active: int, room: float) -> list[PanelEntry]:
-    """As many clauses as fit, in order, those nearest to the active one first."""
+    """The clauses that fit, in order; those nearest to the active one have precedence."""
     shown: list[PanelEntry] = []
     for entry in sorted(entries, key=lambda entry: (abs(entry.index - active), -entry.index)):
         room -= entry.height
@@ -169,7 +169,7 @@ def _draw_entry(column: Column, inner: Column, y: float, entry: PanelEntry, fram
 
 
 def _draw_cross(canvas: Canvas, at: tuple[float, float]) -> None:
-    """For a clause that has failed."""
+    """Draw the mark of a clause that has failed."""
     x, y = at
     canvas.discs([at], 9.0, palette.CONTACT)
     for sign in (1.0, -1.0):
@@ -177,7 +177,7 @@ def _draw_cross(canvas: Canvas, at: tuple[float, float]) -> None:
 
 
 def _draw_mark(canvas: Canvas, at: tuple[float, float], relative: int, number: int) -> None:
-    """A tick for a clause that is done, else its number: filled for the active one."""
+    """Draw a tick for a clause that is done, else its number, filled for the active one."""
     x, y = at
     if relative < 0:
         canvas.discs([at], 9.0, palette.DONE)

@@ -1,4 +1,4 @@
-"""The floor plan: the quiet background that is drawn once and pasted into every picture."""
+"""The floor plan as a quiet background, drawn once and pasted into every picture."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class PlanLayer:
         self._tile = functools.lru_cache(64)(self._drawn_tile)
 
     def paste_onto(self, canvas: Canvas, camera: Camera, view: Viewport) -> None:
-        """Fill the view; the camera's origin must lie on a fine pixel."""
+        """Paste the plan into the view; the origin of the camera must lie on a fine pixel."""
         origin = round(camera.origin[0] * self.zoom), round(camera.origin[1] * self.zoom)
         spans = (view.left, view.width), (view.top, view.height)
         columns, rows = (
@@ -53,18 +53,18 @@ class PlanLayer:
                 canvas.paste(self._tile(column, row), at)
 
     def _drawn_tile(self, column: int, row: int) -> ShapeCanvas:
-        sheet = ShapeCanvas((TILE_SIZE, TILE_SIZE), self.zoom)
+        canvas = ShapeCanvas((TILE_SIZE, TILE_SIZE), self.zoom)
         side = TILE_SIZE / self.zoom
         camera = Camera(self.scale, (-column * side, -row * side))
-        draw_plan(sheet, camera, self.floor_plan)
-        draw_names(sheet, camera, self.floor_plan)
-        return sheet
+        draw_plan(canvas, camera, self.floor_plan)
+        draw_names(canvas, camera, self.floor_plan)
+        return canvas
 
 
-def draw_plan(sheet: ShapeCanvas, camera: Camera, plan: FloorPlan) -> None:
-    """Regions, doorways and everything solid."""
-    sheet.fill(palette.OUTSIDE)
-    _draw_area(sheet, camera, plan.boundary, palette.FLOOR)
+def draw_plan(canvas: ShapeCanvas, camera: Camera, plan: FloorPlan) -> None:
+    """Draw regions, doorways and everything solid."""
+    canvas.fill(palette.OUTSIDE)
+    _draw_area(canvas, camera, plan.boundary, palette.FLOOR)
     tints = (
         ((*plan.rooms, *plan.areas), palette.ROOM),
         (plan.corridors, palette.CORRIDOR),
@@ -72,24 +72,24 @@ def draw_plan(sheet: ShapeCanvas, camera: Camera, plan: FloorPlan) -> None:
     )
     for regions, tint in tints:
         for region in regions:
-            _draw_area(sheet, camera, region.polygon, tint)
+            _draw_area(canvas, camera, region.polygon, tint)
     for door in plan.doors:
         line = camera.pixels([door.start, door.end])
         if door.open:
-            sheet.dashes(line, palette.THRESHOLD, 1.2, dash=3.0, gap=3.0)
+            canvas.dashes(line, palette.THRESHOLD, 1.2, dash=3.0, gap=3.0)
         else:
-            sheet.stroke(line, palette.LEAF, 3.0)
+            canvas.stroke(line, palette.LEAF, 3.0)
     for surface in sorted(plan.surfaces, key=_drawing_order):
-        _draw_surface(sheet, camera, surface)
+        _draw_surface(canvas, camera, surface)
 
 
-def draw_names(sheet: ShapeCanvas, camera: Camera, plan: FloorPlan) -> None:
-    """The names of the rooms, areas and corridors that are large enough to hold them."""
+def draw_names(canvas: ShapeCanvas, camera: Camera, plan: FloorPlan) -> None:
+    """Write the names of the rooms, areas and corridors that are large enough for them."""
     for region in (*plan.rooms, *plan.areas, *plan.corridors):
         name = region.name.replace("_", " ")
         x1, _, x2, _ = region.polygon.bounds
-        if sheet.text_width(name, 10.5) < 0.8 * camera.scale * (x2 - x1):
-            sheet.engrave(camera.pixel(_label_point(region)), name, palette.NAME, 10.5)
+        if canvas.text_width(name, 10.5) < 0.8 * camera.scale * (x2 - x1):
+            canvas.engrave(camera.pixel(_label_point(region)), name, palette.NAME, 10.5)
 
 
 def _label_point(region: Region) -> tuple[float, float]:
@@ -97,31 +97,31 @@ def _label_point(region: Region) -> tuple[float, float]:
     return float(point.x), float(point.y)
 
 
-def _draw_area(sheet: ShapeCanvas, camera: Camera, area: Polygon, colour: palette.Colour) -> None:
+def _draw_area(canvas: ShapeCanvas, camera: Camera, area: Polygon, colour: palette.Colour) -> None:
     if not area.is_empty:
-        sheet.polygon(camera.pixels(np.asarray(area.exterior.coords)[:, :2]), colour)
+        canvas.polygon(camera.pixels(np.asarray(area.exterior.coords)[:, :2]), colour)
 
 
 def _drawing_order(surface: Surface) -> tuple[bool, bool]:
     return surface.material is not Material.FURNITURE, not surface.assumed
 
 
-def _draw_surface(sheet: ShapeCanvas, camera: Camera, surface: Surface) -> None:
+def _draw_surface(canvas: ShapeCanvas, camera: Camera, surface: Surface) -> None:
     line = camera.pixels(surface.points)
     thick = max(2.2, WALL_WIDTH * camera.scale)
     match surface.material:
         case Material.WALL if surface.assumed:
-            marks.wall_assumed(sheet, line)
+            marks.wall_assumed(canvas, line)
         case Material.WALL:
             if _is_solid(surface):
-                sheet.polygon(line, palette.ASSUMED)
-            sheet.stroke(line, palette.WALL, thick)
+                canvas.polygon(line, palette.ASSUMED)
+            canvas.stroke(line, palette.WALL, thick)
         case Material.GLASS:
-            marks.glass(sheet, line, thick)
+            marks.glass(canvas, line, thick)
         case Material.LEAF:
-            sheet.stroke(line, palette.LEAF, thick)
+            canvas.stroke(line, palette.LEAF, thick)
         case Material.FURNITURE:
-            marks.furniture(sheet, line)
+            marks.furniture(canvas, line)
 
 
 def _is_solid(surface: Surface) -> bool:

@@ -24,11 +24,11 @@ class Renderer:
         self._trail: list[Point] = []
 
     def begin(self, start: Pose) -> None:
-        """Start a new trail."""
+        """Begin a new episode: forget the trail."""
         self._trail = [start[:2]]
 
     def note(self, pose: Pose) -> None:
-        """Go on with the trail."""
+        """Add the place of the robot to the trail."""
         self._trail.append(pose[:2])
 
     def draw(self, env: RenderedEnvironment, mode: str) -> NDArray[np.uint8] | None:
@@ -51,5 +51,5 @@ class Renderer:
             self._viewer = None
 
     def __getstate__(self) -> dict[str, Any]:
-        """A picture is drawn anew after unpickling; windows do not travel."""
+        """Leave out the viewer, which is made anew after unpickling."""
         return {**self.__dict__, "_viewer": None}

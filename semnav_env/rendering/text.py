@@ -1,4 +1,4 @@
-"""Text that always fits: odd characters made harmless, long lines wrapped."""
+"""Text that always fits: unprintable characters are replaced and long lines wrapped."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ MAX_PARAGRAPH_LENGTH = 400
 
 
 def harmless(text: str) -> str:
-    """On one line, without control, bidirectional and other characters that do not print."""
+    """A text on one line without characters that do not print (control, bidirectional)."""
     clipped = text[:MAX_PARAGRAPH_LENGTH] + ("…" if len(text) > MAX_PARAGRAPH_LENGTH else "")
     spaced = "".join(" " if c.isspace() else c if c.isprintable() else "\ufffd" for c in clipped)
     return " ".join(spaced.split())

@@ -52,7 +52,7 @@ def save_video(path: str | Path, frames: Sequence[Picture], fps: float, scale: f
 
 
 def check_suffix(path: Path, suffixes: Sequence[str] = (".gif", ".mp4", ".png")) -> None:
-    """Refuse a path of which the suffix is not one of those.
+    """Refuse a path whose suffix is not one of some.
 
     Raises:
         ValueError: names the file, and the suffixes that would do.
@@ -112,7 +112,7 @@ def save_mp4(path: str | Path, frames: Sequence[Picture], fps: float, scale: flo
 
 
 def _prepared(path: str | Path, frames: Sequence[Picture], fps: float, scale: float) -> Path:
-    """Check what is asked for and make the folder."""
+    """Check the arguments of a film and make its folder."""
     if len(frames) == 0:
         raise ValueError(f"there are no frames to save as {path}")
     shapes = {np.shape(frame) for frame in frames}
@@ -141,6 +141,6 @@ def _sampled(frames: Sequence[Picture]) -> list[Picture]:
 
 
 def _durations(count: int, fps: float) -> list[int]:
-    """Milliseconds of each frame, in whole hundredths of a second that do not drift."""
+    """Durations of the frames in milliseconds: whole hundredths of a second that do not drift."""
     ends = np.round(100.0 * np.arange(count + 1) / fps).astype(int)
     return [int(value) for value in 10 * np.diff(ends)]

@@ -63,7 +63,7 @@ class Viewer:
         return self._window.is_open and self._window.present(self._paint(frame))
 
     def close(self) -> None:
-        """Close the window if there is one; more than once does nothing."""
+        """Close the window if there is one; a second call does nothing."""
         if self._window is not None:
             self._window.close()
             self._window = None

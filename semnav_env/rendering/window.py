@@ -33,7 +33,7 @@ class Window:
         self.is_open = True
 
     def present(self, page: Any) -> bool:
-        """Show a page, then wait for the next one's time; False once the user closed the window."""
+        """Show a page and wait for the time of the next; False once the user closed the window."""
         if self.is_open and self._pygame.event.get(self._pygame.QUIT):
             self.close()
         if self.is_open:
@@ -43,7 +43,7 @@ class Window:
         return self.is_open
 
     def close(self) -> None:
-        """Take the window away; more than once does nothing."""
+        """Close the window; a second call does nothing."""
         if self.is_open:
             self.is_open = False
             self._pygame.display.quit()

@@ -56,10 +56,10 @@ MAX_DOOR_DISTANCE = 1.5
 
 @dataclass(frozen=True)
 class Choices:
-    """What may be said to a robot that begins a clause at a pose.
+    """The clauses that may be said to a robot at a pose of a route.
 
     Attributes:
-        situation: in which the clause begins, on the true scene.
+        situation: the situation in which the clause begins, with the true scene.
         way: poses of the route from there on, shape (n, 3), up to the next door that it crosses.
         door: the name of that door; None if it crosses no more.
     """
@@ -84,7 +84,7 @@ class Choices:
             yield sorted(group, key=words_of)
 
     def _doors(self, doors: Sequence[CountedDoor]) -> Iterator[Sequence[Clause]]:
-        """Through the next door, or to the one before which the route ends."""
+        """Clauses through the next door, or to the one before which the route ends."""
         for door in doors:
             names = names_of_door(door, doors)
             if self.door is not None and door.door.name == self.door:
@@ -93,7 +93,7 @@ class Choices:
                 yield [GoToDoor(name, Approach.TO) for name in names]
 
     def _along(self, seen: Corridor, doors: Sequence[CountedDoor]) -> Iterator[Sequence[Clause]]:
-        """As far as the route follows the corridor: to its end, or to or past what is near it."""
+        """Clauses along the corridor: to its end, a distance, or to or past a mark."""
         yield from ([Follow()], [Follow(CORRIDOR_END)])
         stop = self._follows(seen)
         for names in self._near(stop, seen, doors):
@@ -114,7 +114,7 @@ class Choices:
         return [names for _, names in marks[first : first + 2]]
 
     def _follows(self, seen: Corridor) -> float:
-        """How far along the corridor the route follows it, metres."""
+        """Distance along the corridor at which the route leaves it, metres."""
         local = points_to_local(seen.frame, self.way[:, :2])
         aside = np.abs(local[:, 1]) > seen.half_width + SIDE_MARGIN
         away = np.cos(self.way[:, 2] - seen.frame[2]) < math.cos(LEAVING_ANGLE)
@@ -126,7 +126,7 @@ class Choices:
 
 
 def _turns(seen: Corridor) -> Iterator[Sequence[Clause]]:
-    """At every junction that leads aside, and here."""
+    """Turns at every junction that leads aside, and on the spot."""
     for turning in SIDE_TURNINGS:
         for junction in junctions_ahead(seen, None, turning):
             yield [Turn(turning, name) for name in names_of_junction(junction, seen, turning)]
@@ -136,5 +136,5 @@ def _turns(seen: Corridor) -> Iterator[Sequence[Clause]]:
 
 @lru_cache(maxsize=4096)
 def words_of(clause: Clause) -> int:
-    """How many words a clause has."""
+    """Number of words of a clause."""
     return str(clause).count(" ") + 1

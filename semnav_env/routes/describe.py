@@ -48,13 +48,13 @@ class UndescribableError(ValueError):
 
 @dataclass(frozen=True)
 class PartialDescription:
-    """A part of a route that has been put in words.
+    """A command that describes the first part of a route.
 
     Attributes:
-        clauses: the words so far.
-        begin: where the next clause begins.
-        index: of the pose of the route at which the last clause is done.
-        words: how many.
+        clauses: the clauses so far.
+        begin: pose at which the next clause begins.
+        index: index of the pose of the route at which the last clause is done.
+        words: number of words.
     """
 
     clauses: tuple[Clause, ...]
@@ -63,7 +63,7 @@ class PartialDescription:
     words: int
 
     def key(self) -> tuple[object, ...]:
-        """What the rest of the route can be told from, to 5 cm and 3 degrees."""
+        """What the rest of the description depends on, to 5 cm and 3 degrees."""
         x, y, heading = self.begin
         past = bool(self.clauses) and _is_past(self.clauses[-1])
         turned = round(math.cos(heading) * 20), round(math.sin(heading) * 20)
@@ -84,7 +84,7 @@ def describe(floor_plan: FloorPlan, route: Route) -> Command:
     Raises:
         RouteError: the route leads through something solid, or nowhere.
         UndescribableError: no command of up to eight clauses leads along the route; says how far
-            one can be told.
+            one leads.
         TypeError: it is no route.
     """
     if not isinstance(route, Route):
@@ -94,7 +94,7 @@ def describe(floor_plan: FloorPlan, route: Route) -> Command:
 
 
 class _Search:
-    """Best-first search over what can be told, cheapest first."""
+    """Best-first search over partial descriptions, by clauses and then by words."""
 
     def __init__(self, floor_plan: FloorPlan, route: Route) -> None:
         self._plan = floor_plan
@@ -124,12 +124,12 @@ class _Search:
         raise self._undescribable()
 
     def _still_to_tell(self, told: PartialDescription, ends: bool) -> int:
-        """The fewest clauses that can tell the rest: one for each door that is still to cross."""
+        """Lower bound of the clauses for the rest: one for each door still to be crossed."""
         doors = sum(k > told.index for k, _ in self._crossings)
         return doors if ends else max(1, doors)
 
     def _further(self, told: PartialDescription) -> Iterator[tuple[PartialDescription, bool]]:
-        """All that one more clause can tell, and whether it is the whole route."""
+        """Descriptions with one more clause, each with whether it is the whole route."""
         crossing = next((c for c in self._crossings if c[0] > told.index), None)
         stop, door = crossing or (len(self._poses), None)
         way = self._poses[told.index : stop + 1]
@@ -147,7 +147,7 @@ class _Search:
                 break
 
     def _done(self, goal: Goal, index: int, stop: int, door: str | None) -> int | None:
-        """At which pose of the route a goal is attained, before or by crossing the next door."""
+        """Index of the pose at which a goal is attained, up to the next door; None if it is not."""
         if isinstance(goal, PassGoal):
             return stop if goal.door.name == door and self._crosses(goal, stop) else None
         if not isinstance(goal, ReachGoal):
@@ -164,7 +164,7 @@ class _Search:
         return self._length(index, done) <= most
 
     def _length(self, start: int, stop: int) -> float:
-        """Of the route between two poses, metres."""
+        """Length of the route between two poses, metres."""
         return path_length(self._poses[start : stop + 1, :2])
 
     def _crosses(self, goal: PassGoal, stop: int) -> bool:
@@ -216,7 +216,7 @@ class _Search:
 
 
 def _goal(clause: Clause, told: PartialDescription, situation: Situation) -> Goal | None:
-    """Where a clause leads from there; None if nowhere."""
+    """The goal of a clause; None if it cannot be carried out there."""
     bare = _is_on_the_spot(clause) and clause != Turn(Turning.AROUND)
     if bare and told.clauses and _is_past(told.clauses[-1]):
         situation = replace(situation, after_corridor=True)

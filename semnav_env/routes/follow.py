@@ -1,4 +1,4 @@
-"""A robot that follows a route exactly: which doors it crosses, and what the verifier says."""
+"""What a robot that follows a route exactly crosses, and what the verifier says of it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ STEP_SECONDS = 0.1
 
 
 def follows(floor_plan: FloorPlan, command: Command, route: Route) -> bool:
-    """Whether the verifier takes a command for carried out by a robot that follows a route.
+    """Whether a robot that follows a route carries out a command, as the verifier judges.
 
     Raises:
         GroundingError: the command cannot be carried out from the start of the route.
@@ -56,7 +56,7 @@ def with_rest(route: Route) -> FloatArray:
 
 
 def crossings(floor_plan: FloorPlan, poses: FloatArray) -> list[tuple[int, str]]:
-    """The doors that poses lead through: at which pose, and the name."""
+    """The doors that poses lead through: index of the pose and name of the door."""
     doors, ends = floor_plan.doors, floor_plan.door_ends
     steps = np.hstack((poses[:-1, :2], poses[1:, :2])).tolist()
     hits = ((k, first_crossed(ends, *step)) for k, step in enumerate(steps, 1))

@@ -1,4 +1,4 @@
-"""What the doors and junctions of a corridor may be called, by the rules of reference."""
+"""Names of the doors and junctions of a corridor by the rules of reference."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ JUNCTION_KINDS = (Place.CORNER, Place.T_JUNCTION, Place.INTERSECTION, Place.TURN
 
 
 def names_of_door(target: CountedDoor, doors: Sequence[CountedDoor]) -> Iterator[DoorReference]:
-    """What a door may be called among the doors of a corridor.
+    """The names of a door among the doors of a corridor.
 
     The side is left out only where it makes no difference: where the door has the same number on
     its side as among all doors.
@@ -41,7 +41,7 @@ def names_of_door(target: CountedDoor, doors: Sequence[CountedDoor]) -> Iterator
 def names_of_junction(
     target: Junction, corridor: Corridor, turning: Turning | None = None
 ) -> Iterator[PlaceReference]:
-    """What a junction of a corridor may be called, for a turn to one side or for none."""
+    """The names of a junction of a corridor, for a turn to one side or for none."""
     for kind in JUNCTION_KINDS:
         junctions = junctions_ahead(corridor, kind, turning)
         if target not in junctions:
@@ -52,7 +52,7 @@ def names_of_junction(
 
 
 def _ordinals(index: int, count: int) -> tuple[int, int]:
-    """From the start and from the end."""
+    """The ordinals of a thing counted from the start and from the end."""
     return index + 1, index - count
 
 

@@ -1,4 +1,4 @@
-"""A route: the way a robot's centre takes through a floor plan."""
+"""A route of a robot's centre through a floor plan."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Route:
 
     @cached_property
     def poses(self) -> FloatArray:
-        """Where a robot that follows the route comes by, shape (n, 3), `POSE_SPACING` apart.
+        """Poses of a robot that follows the route, shape (n, 3), `POSE_SPACING` apart.
 
         It faces the way it goes. Where that changes by more than `HEADING_STEP` from pose to pose,
         the robot turns on the spot.
@@ -83,12 +83,12 @@ class Route:
 
     @cached_property
     def _travelled(self) -> FloatArray:
-        """From the start to each point, metres."""
+        """Length of the route from the start to each point, metres."""
         steps = np.hypot(*np.diff(self.points, axis=0).T)
         return np.concatenate(((0.0,), np.cumsum(steps)))
 
     def _at(self, marks: FloatArray) -> FloatArray:
-        """The points so many metres along the route, shape (n, 2)."""
+        """The points at some distances along the route, shape (n, 2)."""
         columns = [np.interp(marks, self._travelled, column) for column in self.points.T]
         return np.stack(columns, axis=1)
 

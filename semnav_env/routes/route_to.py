@@ -1,4 +1,4 @@
-"""A route from where a robot stands to a door, a room or a place."""
+"""Makes routes to a door, a room or a place."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ SMOOTHING_POINTS = 7
 
 
 def comfortable(floor_plan: FloorPlan) -> Geodesic:
-    """The ways that routes take: short ones in the middle of corridors."""
+    """The shortest ways that keep to the middle of corridors, as routes do."""
     return Geodesic(floor_plan, PREFERRED_CLEARANCE)
 
 
@@ -125,7 +125,7 @@ def _way(geodesic: Geodesic, start: Pose, goal: Point, name: str) -> FloatArray:
 
 
 def _smooth(way: FloatArray) -> FloatArray:
-    """A way along a grid without its steps; the ends stay."""
+    """A way along a grid, smoothed; its ends stay."""
     reach = min(SMOOTHING_POINTS // 2, (len(way) - 1) // 2)
     smooth = way.copy()
     for k in range(1, len(way) - 1):
@@ -147,7 +147,7 @@ def _region(floor_plan: FloorPlan, name: str) -> Region:
 
 
 def _door_into(floor_plan: FloorPlan, region: Region, way: FloatArray) -> PlanDoor | None:
-    """The door through which a way comes into a room at last."""
+    """The door through which a way enters a room; None if it is none of its doors."""
     if region not in floor_plan.rooms:
         return None
     x, y = way[0].tolist()

@@ -36,12 +36,12 @@ class Box(NamedTuple):
         )
 
     def grown(self, margin: int) -> Box:
-        """With a margin all around it."""
+        """The box with a margin added on all sides."""
         west, south, east, north = self
         return Box(west - margin, south - margin, east + margin, north + margin)
 
     def transposed(self) -> Box:
-        """With x and y exchanged."""
+        """The box with x and y exchanged."""
         return Box(self.south, self.west, self.north, self.east)
 
 
@@ -57,7 +57,7 @@ def is_free(box: Box, taken: Iterable[Box]) -> bool:
 
 
 def without(spans: Iterable[Span], holes: Iterable[Span]) -> list[Span]:
-    """What is left of some spans, in order and merged, when holes are cut into them."""
+    """The parts of spans outside some holes, in order and merged."""
     left = merged(spans)
     for low, high in holes:
         left = [

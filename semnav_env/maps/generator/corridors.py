@@ -42,13 +42,13 @@ class OfficeCorridor:
     blind: tuple[bool, bool]
 
     def transposed(self) -> OfficeCorridor:
-        """With x and y exchanged."""
+        """The corridor with x and y exchanged."""
         return replace(self, box=self.box.transposed(), along_x=not self.along_x)
 
 
 @dataclass(frozen=True)
 class OfficeJunction:
-    """Where corridors meet.
+    """A place where corridors meet.
 
     Attributes:
         box: shared by them.
@@ -203,7 +203,7 @@ def _corridor(
     lines: tuple[Lines, Lines],
     along_x: bool,
 ) -> OfficeCorridor:
-    """From one node to another: to the far side of what it meets there, or a stub beyond."""
+    """The corridor between two nodes, to the far side of what it meets or a stub beyond."""
     own, other = lines if along_x else lines[::-1]
     first, last = (node[not along_x] for node in ends)
     i = ends[0][along_x]

@@ -54,7 +54,7 @@ def furnish(
     lots: Sequence[Lot],
     doors: Sequence[Doorway],
 ) -> Iterator[Surface]:
-    """What stands in the rooms."""
+    """Surfaces of the furniture of all rooms."""
     clear = [_kept_clear(index, lots, doors) for index in range(len(lots))]
     for lot, kept in zip(lots, clear, strict=True):
         columns = list(_columns(rng, settings, lot, kept))
@@ -74,7 +74,7 @@ def _kept_clear(index: int, lots: Sequence[Lot], doors: Sequence[Doorway]) -> li
 def _columns(
     rng: Generator, settings: OfficeSettings, lot: Lot, kept: Sequence[Box]
 ) -> Iterator[Box]:
-    """On a grid in big rooms, all of one size."""
+    """Columns on a grid in big rooms, all of one size."""
     side = int(rng.integers(*COLUMN_SIDES, endpoint=True))
     if min(lot.box.size) < COLUMN_SPACING or not chance(rng, settings.columns):
         return
@@ -136,7 +136,7 @@ def _along(rng: Generator, settings: OfficeSettings, wall: OfficeWall) -> Iterat
 
 
 def _table(rng: Generator, room: Box) -> Box:
-    """In the middle, along the longer side."""
+    """A table in the middle of a room, along its longer side."""
     length, width = (int(rng.integers(a, b + 1)) for a, b in TABLE_SIZES)
     x, y = room.size
     size = (length, width) if x > y else (width, length)

@@ -64,11 +64,11 @@ class OfficeWall:
     inward: int
 
     def transposed(self) -> OfficeWall:
-        """With x and y exchanged."""
+        """The lot with x and y exchanged."""
         return replace(self, along_x=not self.along_x)
 
     def box(self, span: Span, depth: int) -> Box:
-        """What lies behind a part of it, so deep into the room (negative: before it)."""
+        """The box behind a part of its front, as deep as given; before it if negative."""
         return box_of(self.along_x, span, (self.at, self.at + self.inward * depth))
 
 
@@ -101,7 +101,7 @@ class Lot:
         return x * y / 1e4
 
     def transposed(self) -> Lot:
-        """With x and y exchanged."""
+        """The lot with x and y exchanged."""
         return replace(self, box=self.box.transposed(), front=self.front.transposed())
 
 
@@ -171,7 +171,7 @@ def _with_corners(corridors: Sequence[OfficeCorridor], index: int) -> Span:
 
 
 def _cuts(rng: Generator, settings: OfficeSettings, gap: Span, front: Span) -> list[int]:
-    """Where the walls between the rooms of a gap stand, its ends included.
+    """Places of the walls between the rooms of a gap, its ends included, cm.
 
     Every room borders on the front for at least `LEAST_FRONT`.
     """

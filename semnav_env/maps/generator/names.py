@@ -1,4 +1,4 @@
-"""What the rooms of a generated office are called: numbers as on door plates, and functions."""
+"""Names of the rooms of a generated office: numbers as on door plates, and functions."""
 
 from __future__ import annotations
 

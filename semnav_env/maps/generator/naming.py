@@ -51,7 +51,7 @@ def generate_office(seed: int, settings: str | OfficeSettings = "medium") -> Flo
 
 
 def office_name(distribution: str, seed: int) -> str:
-    """As "office:medium:17"."""
+    """The name of an office, as "office:medium:17"."""
     return f"{OFFICE_PREFIX}:{distribution}:{seed}"
 
 

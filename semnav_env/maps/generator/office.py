@@ -32,14 +32,14 @@ MAX_LAYOUTS = 1000
 
 @dataclass(frozen=True)
 class OfficeLayout:
-    """Where corridors and rooms lie."""
+    """Places of the corridors, junctions and rooms of an office."""
 
     corridors: tuple[OfficeCorridor, ...]
     junctions: tuple[OfficeJunction, ...]
     lots: tuple[Lot, ...]
 
     def transposed(self) -> OfficeLayout:
-        """With x and y exchanged."""
+        """The layout with x and y exchanged."""
         return OfficeLayout(
             tuple(corridor.transposed() for corridor in self.corridors),
             tuple(replace(j, box=j.box.transposed()) for j in self.junctions),
@@ -48,7 +48,7 @@ class OfficeLayout:
 
     @property
     def boxes(self) -> list[Box]:
-        """Of everything that has a floor."""
+        """Boxes of everything that has a floor."""
         return [corridor.box for corridor in self.corridors] + [lot.box for lot in self.lots]
 
 

@@ -71,7 +71,7 @@ class Doorway:
 
     @property
     def landings(self) -> tuple[Box, Box]:
-        """What stays free behind it and before it."""
+        """Boxes that stay free behind the door and before it."""
         span, way = (
             (low - CORNER_DISTANCE, high + CORNER_DISTANCE) for low, high in (self.span, self.way)
         )
@@ -92,7 +92,7 @@ def hang_doors(
 
 
 def lanes(door: Doorway, lots: Sequence[Lot]) -> Iterator[Box]:
-    """What stays free so that a door between two rooms is reached from the corridor."""
+    """Boxes that stay free so that a door between two rooms can be reached from the corridor."""
     for index in door.lots if len(door.lots) == 2 else ():
         lot = lots[index]
         low, high = lot.box.span(lot.front.along_x)
@@ -140,7 +140,7 @@ def _door(
 
 
 def _place(rng: Generator, settings: OfficeSettings, wall: OfficeWall) -> Span:
-    """From jamb to jamb: near one of the wall's ends, or anywhere."""
+    """A span for a door in a wall, near one of its ends or anywhere."""
     low, high = wall.span[0] + CORNER_DISTANCE, wall.span[1] - CORNER_DISTANCE
     width = min(centimetres(rng, settings.door_width), high - low)
     spare = high - low - width
@@ -157,7 +157,7 @@ def _half_open(rng: Generator, width: int) -> float:
 
 
 def _leaf(wall: OfficeWall, span: Span, at_low: bool, degrees: float) -> tuple[Point, Point]:
-    """From hinge to tip, at an angle to its closed place."""
+    """A leaf from hinge to tip, at an angle to its closed position."""
     hinge, sense = (span[0], 1.0) if at_low else (span[1], -1.0)
     width, angle = span[1] - span[0], math.radians(degrees)
     along, inward = sense * math.cos(angle) * width, math.sin(angle) * width

@@ -1,4 +1,4 @@
-"""From which ranges the parts of a generated office are drawn."""
+"""Ranges from which the parts of a generated office are drawn."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Range: TypeAlias = tuple[float, float]
 
 @dataclass(frozen=True)
 class OfficeSettings:
-    """What a generated office is like. Ranges are uniform; chances are between 0 and 1.
+    """Settings of generated offices: ranges are uniform, chances are probabilities.
 
     Attributes:
         rooms: how many there are.

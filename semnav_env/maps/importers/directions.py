@@ -63,7 +63,7 @@ def dominant_direction(rings: Sequence[FloatArray]) -> float:
 
 
 def _pieces(ring: FloatArray) -> Iterator[FloatArray]:
-    """Where the straight pieces of an outline lead, each as long as it is."""
+    """The straight pieces of an outline as vectors, pixels."""
     if np.ptp(ring, axis=0).max() < LEAST_PIECE_LENGTH:
         return
     ends = shapely.get_coordinates(

@@ -1,4 +1,4 @@
-"""From a doorway that somebody marked roughly to the jambs that a map shows there."""
+"""Finds the jambs that a map shows near a doorway that was marked roughly."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class Band:
         return bool(gap[0] > -MAX_JAMB_SHIFT and gap[1] < self.length + MAX_JAMB_SHIFT)
 
     def jambs(self, gap: FloatArray) -> tuple[Point, Point]:
-        """On both sides of a gap the solid point nearest to the line within `JAMB_ROUGHNESS`.
+        """The two jambs of a gap: on each side the solid point nearest to the line.
 
         Of several as near, as those of a wall that runs along the line, that at the gap.
         """

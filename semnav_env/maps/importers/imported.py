@@ -1,4 +1,4 @@
-"""What every importer returns: a floor plan, and what was understood of its source."""
+"""Result of every importer: a floor plan and a report of what was read."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ BOUNDARY_MARGIN = 1.0
 
 @dataclass(frozen=True)
 class ImportReport:
-    """What was read, and what was not.
+    """Report of an import: what was read, and what was not.
 
     Attributes:
         source: the files.
@@ -37,7 +37,7 @@ class ImportReport:
         return replace(self, left_out=(*self.left_out, *more))
 
     def __str__(self) -> str:
-        """As lines of text."""
+        """The report as lines of text."""
         taken = ", ".join(counted(count, name) for name, count in self.taken.items())
         lines = [f"{self.kind}: {', '.join(self.source)}", f"taken: {taken or 'nothing'}"]
         lines += [f"left out: {line}" for line in self.left_out]

@@ -21,7 +21,7 @@ IMAGE_SUFFIXES = (".pgm", ".png", ".ppm", ".bmp", ".tif", ".tiff", ".gif")
 
 @dataclass(frozen=True)
 class OccupancySpec:
-    """What map_server's YAML file says.
+    """Contents of a YAML file of map_server.
 
     Attributes:
         image: the image's path.
@@ -118,7 +118,7 @@ def read_occupancy(path: str | Path, resolution: float | None = None) -> Occupan
 
 
 def read_spec(path: Path) -> OccupancySpec:
-    """What a map's YAML file says.
+    """Read the YAML file of a map.
 
     Raises:
         FloorPlanError: not such a file; names what is wrong with which entry.

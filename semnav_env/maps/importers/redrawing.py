@@ -107,6 +107,6 @@ def _moved(old: FloatArray, new: FloatArray, run: PixelRun) -> float:
 
 
 def _area(points: FloatArray) -> float:
-    """Of a polygon, positive if it goes around counter-clockwise (x right, y up)."""
+    """Area of a polygon, positive if it is counter-clockwise (x right, y up)."""
     (x, y), (x2, y2) = points.T, np.roll(points, -1, axis=0).T
     return float(x @ y2 - x2 @ y) / 2.0

@@ -87,7 +87,7 @@ def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> ImportedPlan:
 
 
 def _report(straight: Straightened, rings: Sequence[FloatArray], spec: OccupancySpec) -> str:
-    """What was straightened, in a line."""
+    """One line about what was straightened."""
     turn = math.degrees(spec.origin[2] - straight.direction)  # rows of an image go downwards
     first = (turn + 45.0) % 90.0 - 45.0
     return (
