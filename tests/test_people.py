@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from semnav_env.dynamics import Dynamics, Walking
 from semnav_env.dynamics.nearby import culled_walls
-from semnav_env.dynamics.orca import FASTEST, nearest_allowed, orca
+from semnav_env.dynamics.orca import nearest_allowed, orca
+from semnav_env.dynamics.settings import MAX_SPEED_FACTOR
 from semnav_env.dynamics.social_force import RELAXATION_TIME, social_force
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.world import World
@@ -96,7 +97,7 @@ def test_nobody_wants_to_go_faster_than_the_models_allow(model: str) -> None:
     rng = np.random.default_rng(2)
     places, wishes = rng.uniform(-1, 1, (12, 2)), rng.uniform(-1.5, 1.5, (12, 2))
     fast = np.hypot(*next_velocities(model, places.tolist(), wishes.tolist()).T)
-    assert (fast <= FASTEST * np.hypot(*wishes.T) + 1e-9).all()
+    assert (fast <= MAX_SPEED_FACTOR * np.hypot(*wishes.T) + 1e-9).all()
 
 
 def test_orca_lets_two_who_take_half_each_miss_by_both_radii() -> None:
