@@ -95,7 +95,7 @@ def test_pictures_are_drawn(name: str, tmp_path: Path) -> None:
     assert (tmp_path / "plan.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_a_removed_wall_is_a_leak() -> None:
+def test_a_removed_wall_is_a_gap() -> None:
     plan = load_floor_plan("villa_hall")
     findings = [
         [f for f in check(replace(plan, surfaces=plan.surfaces[:i] + plan.surfaces[i + 1 :])) if f]

@@ -28,7 +28,7 @@ from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.generate import (
     LARGEST_BODY,
-    START_CLEARANCE,
+    LIMITS,
     Site,
     exits,
     generate_episode,
@@ -121,7 +121,7 @@ def test_rooms_to_leave_have_one_exit_and_space_to_turn() -> None:
         place = shapely.Point(episode.start[:2])
         (room,) = (room for room in SITE.plan.rooms if room.polygon.contains(place))
         assert exits(SITE.plan, room.polygon) == 1
-        assert is_clear(SITE.plan, episode.start[:2], START_CLEARANCE - 0.01)
+        assert is_clear(SITE.plan, episode.start[:2], LIMITS.start_clearance - 0.01)
         for clause in clauses[1:2]:
             goal = plan_goals(SITE.plan, Command((Leave(),)), episode.start)[0]
             ahead = corridor_at(SITE.plan.scene, goal.onward)

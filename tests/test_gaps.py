@@ -51,7 +51,7 @@ def two_rooms(thickness: float, opening: float = 0.0) -> FloorPlan:
     return FloorPlan("rooms", surfaces, (), rooms, (), (), boundary_of(surfaces))
 
 
-def test_closed_walls_with_a_boundary_outside_do_not_leak() -> None:
+def test_closed_walls_with_a_boundary_outside_have_no_gap() -> None:
     wall = closed((0, 0), (10, 0), (10, 6), (0, 6))
     assert found(FloorPlan("hall", (wall,), (), (), (), (), boundary_of((wall,)))) == []
 
@@ -88,7 +88,7 @@ def test_the_hollow_of_a_wall_with_two_faces_is_no_space(thickness: float) -> No
 
 @given(st.floats(0.02, 0.45), GAPS)
 @settings(max_examples=10, deadline=None)
-def test_an_opening_through_a_wall_with_two_faces_is_a_leak(thickness: float, gap: float) -> None:
+def test_an_opening_through_a_wall_with_two_faces_is_a_gap(thickness: float, gap: float) -> None:
     south, north = gaps(two_rooms(thickness, gap))
     assert (south.part, north.part) == ("south", "north")
     for finding in (south, north):

@@ -12,7 +12,7 @@ from semnav_env.dynamics.doors import SwingingDoors
 from semnav_env.dynamics.leaves import swinging_leaves
 from semnav_env.dynamics.settings import MAX_SPEED_FACTOR, Dynamics
 from semnav_env.dynamics.social import SocialRecord, gaps
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import FloatArray, Pose, Twist
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import footprint
 from semnav_env.robots import RobotSpec
@@ -63,12 +63,12 @@ class Moving:
         self.discs[:, :2] = self.crowd.places
         self.record.begin()
 
-    def step(self, pose: Pose, velocity: Pose) -> None:
+    def step(self, pose: Pose, velocity: Twist) -> None:
         """Move on by a time step.
 
         Args:
             pose: of the robot's centre, world frame.
-            velocity: forward, left (m/s) and turning (rad/s), robot frame.
+            velocity: forward, left (m/s) and yaw rate (rad/s), robot frame.
         """
         body = as_body(self._robot, pose, velocity)
         touch = _step_length(self._robot, velocity, self._seconds)
@@ -76,7 +76,7 @@ class Moving:
         self.doors.step(self._seconds, self.crowd.places, self._radius, body, self._guard)
         self.discs[:, :2] = self.crowd.places
 
-    def note(self, pose: Pose, velocity: Pose) -> None:
+    def note(self, pose: Pose, velocity: Twist) -> None:
         """Record how near people and robot are now."""
         body = as_body(self._robot, pose, velocity)
         self.record.note(body, self.discs, self.crowd.velocities, self._seconds)
@@ -93,12 +93,12 @@ class Moving:
         )
 
 
-def as_body(robot: RobotSpec, pose: Pose, velocity: Pose) -> FloatArray:
+def as_body(robot: RobotSpec, pose: Pose, velocity: Twist) -> FloatArray:
     """The robot as an array for kernels, see `nearest_on_body`."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
-    forward, left, turn = velocity
+    forward, left, yaw_rate = velocity
     moved = c * forward - s * left, s * forward + c * left
-    return np.array([*pose, robot.length / 2, robot.width / 2, *moved, turn])
+    return np.array([*pose, robot.length / 2, robot.width / 2, *moved, yaw_rate])
 
 
 def _turning_radius(robot: RobotSpec) -> float:
@@ -112,8 +112,10 @@ def _max_point_speed(robot: RobotSpec) -> float:
     return straight + robot.max_turn_rate * _turning_radius(robot)
 
 
-def _step_length(robot: RobotSpec, velocity: Pose, seconds: float) -> float:
+def _step_length(robot: RobotSpec, velocity: Twist, seconds: float) -> float:
     """Upper bound of how far any point of the body gets in the next step, metres."""
-    forward, left, turn = velocity
+    forward, left, yaw_rate = velocity
     gain = seconds * (robot.max_acceleration + robot.max_turn_acceleration * _turning_radius(robot))
-    return seconds * (math.hypot(forward, left) + abs(turn) * _turning_radius(robot) + gain) + 0.01
+    return (
+        seconds * (math.hypot(forward, left) + abs(yaw_rate) * _turning_radius(robot) + gain) + 0.01
+    )

@@ -31,11 +31,33 @@ from semnav_env.robots import ROBOTS, WHEELCHAIR
 from semnav_env.tasks.sampling import sample_start
 from semnav_env.verifier import Verifier, place, plan_mission
 
-MAX_STARTS = 15
-"""Starts tried for the topic that an episode should have, before it gets another one."""
 
-DRAFTS_PER_START = 4
-"""Commands drawn at each start."""
+@dataclass(frozen=True)
+class EpisodeLimits:
+    """What an episode may be like, and how long one is looked for.
+
+    Attributes:
+        starts: starts tried for the topic that an episode should have, before it gets another one.
+        drafts_per_start: commands drawn at each start.
+        min_route_length: length of the shortest true route, metres: less is no drive.
+        max_route_length: length of the longest true route, metres: it keeps an episode within a few
+            minutes of simulated time.
+        goal_distance: largest distance from a goal to a place that the largest body reaches, m.
+        route_tolerance: largest distance of a simplified true route from the exact one, metres.
+        start_clearance: free radius around a start in a room, metres: every body can turn there.
+    """
+
+    starts: int = 15
+    drafts_per_start: int = 4
+    min_route_length: float = 1.5
+    max_route_length: float = 120.0
+    goal_distance: float = 0.3
+    route_tolerance: float = 0.05
+    start_clearance: float = 0.75
+
+
+LIMITS = EpisodeLimits()
+"""Limits of all episodes; the frozen ones were made with them."""
 
 LARGEST_BODY = replace(
     WHEELCHAIR,
@@ -46,24 +68,8 @@ LARGEST_BODY = replace(
 """A body as long as the longest robot and as wide as the widest: every robot gets to where it
 gets."""
 
-MIN_ROUTE_LENGTH = 1.5
-"""Length of the shortest true route, metres: less is no drive."""
-
-MAX_ROUTE_LENGTH = 120.0
-"""Length of the longest true route, metres: it keeps an episode within a few minutes of simulated
-time."""
-
-GOAL_REACH = 0.3
-"""Largest distance from a goal to a place that the largest body gets to, metres."""
-
-ROUTE_TOLERANCE = 0.05
-"""Largest distance of a simplified true route from the exact one, metres."""
-
 GERMAN_SHARE = 0.2
 """Share of the episodes in German."""
-
-START_CLEARANCE = 0.75
-"""Free radius around a start in a room, metres: every body can turn round there."""
 
 
 class TooBareError(ValueError):
@@ -122,9 +128,9 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
     rng = Generator(PCG64(SeedSequence((seed, zlib.crc32(split.name.encode()), number))))
     maker = _MAKERS[split.expected]
     for clauses, topic in _wanted(site.plan, split, number, seed):
-        for _ in range(MAX_STARTS):
+        for _ in range(LIMITS.starts):
             start = _start(site, split, topic, rng)
-            for _ in range(0 if start is None else DRAFTS_PER_START):
+            for _ in range(0 if start is None else LIMITS.drafts_per_start):
                 assert start is not None
                 language = "de" if rng.random() < GERMAN_SHARE else "en"
                 drafter = Drafter(site.plan, site.geodesic, start, rng)
@@ -236,7 +242,7 @@ def _start_in_room(site: Site, rng: Generator) -> Pose | None:
     except ValueError:
         return None
     fair = exits(plan, room.polygon) == 1 and len(doors_around(plan.scene, pose)) == 1
-    return pose if fair and is_clear(plan, pose[:2], START_CLEARANCE) else None
+    return pose if fair and is_clear(plan, pose[:2], LIMITS.start_clearance) else None
 
 
 def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
@@ -247,10 +253,10 @@ def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
 def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | None:
     """The true route; None if a body cannot drive it or the verifier does not accept it."""
     verifier = Verifier(plan_mission(site.plan, site.geodesic, command, start))
-    if not MIN_ROUTE_LENGTH <= verifier.mission.route_length <= MAX_ROUTE_LENGTH:
+    if not LIMITS.min_route_length <= verifier.mission.route_length <= LIMITS.max_route_length:
         return None
     places = [shapely.Point(place(goal)) for goal in verifier.mission.goals]
-    if not all(site.reach.near(point, GOAL_REACH) for point in places):
+    if not all(site.reach.near(point, LIMITS.goal_distance) for point in places):
         return None
     if not all(_has_room(site.plan, goal) for goal in verifier.mission.goals):
         return None
@@ -269,5 +275,5 @@ def _has_room(plan: FloorPlan, goal: Goal) -> bool:
 
 def _simple(route: FloatArray) -> tuple[Point, ...]:
     """A route with fewer points, in whole centimetres."""
-    line = shapely.LineString(route).simplify(ROUTE_TOLERANCE, preserve_topology=False)
+    line = shapely.LineString(route).simplify(LIMITS.route_tolerance, preserve_topology=False)
     return tuple((float(x), float(y)) for x, y in np.round(line.coords, 2).tolist())

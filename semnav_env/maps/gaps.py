@@ -94,7 +94,7 @@ def _room_gaps(plan: FloorPlan, thin: BaseGeometry) -> Iterator[PlanFault]:
             part_outside = near.difference(room.polygon.buffer(DRAWING_TOLERANCE))
             if _fits(OUTLINE_ERROR, part_outside):
                 at = _at(space, room.polygon, part_outside)
-                problem = f"leaks at {written(at)} other than through a door; close it"
+                problem = f"has a gap at {written(at)}, other than through a door; close it"
                 yield PlanFault(room.name, problem, at)
 
 

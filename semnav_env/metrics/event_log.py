@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -26,17 +27,27 @@ from semnav_env.metrics.events import (
 from semnav_env.metrics.recording import Recording
 from semnav_env.rules import SuccessRules
 
-STOP_SECONDS = 1.0
-"""Time of standing still from which on it counts as a stop, seconds."""
 
-TURNING_RATE = 0.1
-"""Yaw rate above which a robot is turning, rad/s; noise and small corrections stay below."""
+@dataclass(frozen=True)
+class EventThresholds:
+    """What counts as a turn and as a stop.
 
-LEAST_TURN_ANGLE = math.radians(30.0)
-"""Heading change below which turning is not an event, radians."""
+    Attributes:
+        stop_seconds: shortest time of standing still that is a stop.
+        turning_rate: yaw rate above which a robot is turning, rad/s; noise and small corrections
+            stay below.
+        least_turn: smallest heading change that is a turn, radians.
+        max_turn_pause: longest pause within one turn, seconds.
+    """
 
-MAX_TURN_PAUSE = 0.5
-"""Longest pause within one turn, seconds."""
+    stop_seconds: float = 1.0
+    turning_rate: float = 0.1
+    least_turn: float = math.radians(30.0)
+    max_turn_pause: float = 0.5
+
+
+THRESHOLDS = EventThresholds()
+"""Thresholds of all events."""
 
 ARMS = (Arm.AHEAD, Arm.LEFT, Arm.BACK, Arm.RIGHT)
 """Arms of a junction by the quarter turns, counter-clockwise, from the way in to the way out."""
@@ -114,8 +125,8 @@ def _visit(
         origin = region_at(floor_plan, tuple(path[start - 1]))
         yield JunctionEntered(start, start * period, name, origin)
     if stop < len(path):
-        turn = wrap_angle(_outward(region, path[stop - 1], path[stop]) - inward)
-        arm = ARMS[round(turn / (math.pi / 2)) % 4]
+        heading_change = wrap_angle(_outward(region, path[stop - 1], path[stop]) - inward)
+        arm = ARMS[round(heading_change / (math.pi / 2)) % 4]
         into = region_at(floor_plan, tuple(path[stop]))
         yield JunctionLeft(stop, stop * period, name, arm, into)
 
@@ -132,12 +143,12 @@ def _outward(region: Region, before: FloatArray, after: FloatArray) -> float:
 def _turns(recording: Recording) -> Iterator[Turned]:
     rates, period = recording.velocities[:, 2], recording.period
     headings = np.unwrap(recording.poses[:, 2])
-    pause = round(MAX_TURN_PAUSE / period)
-    for turning in (rates > TURNING_RATE, rates < -TURNING_RATE):
+    pause = round(THRESHOLDS.max_turn_pause / period)
+    for turning in (rates > THRESHOLDS.turning_rate, rates < -THRESHOLDS.turning_rate):
         for start, stop in _joined(list(runs(turning)), pause):
             begin = max(start - 1, 0)
             angle = float(headings[stop - 1] - headings[begin])
-            if abs(angle) >= LEAST_TURN_ANGLE:
+            if abs(angle) >= THRESHOLDS.least_turn:
                 yield Turned(start, start * period, angle, (stop - 1 - begin) * period)
 
 
@@ -147,7 +158,7 @@ def _stops(recording: Recording) -> Iterator[Stopped]:
     still = (recording.speeds < rules.still_speed) & (yaw_rates < rules.still_yaw_rate)
     for start, stop in runs(still):
         duration = (stop - start) * recording.period
-        if start > 0 and duration >= STOP_SECONDS:
+        if start > 0 and duration >= THRESHOLDS.stop_seconds:
             yield Stopped(start, start * recording.period, duration)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import FloatArray, Pose, Twist
 from semnav_env.world import World
 
 REQUIRED_ARRAYS = ("poses", "velocities", "contacts", "impulses")
@@ -135,7 +135,7 @@ class Recorder:
     def __init__(self, world: World) -> None:
         self._world = world
         self._poses: list[Pose] = []
-        self._velocities: list[Pose] = []
+        self._velocities: list[Twist] = []
         self._touched: list[tuple[int, float]] = []
         self._people: list[FloatArray] = []
         self.note()

@@ -23,23 +23,32 @@ from semnav_env.routes.follow import check_route, crossings, destination, follow
 from semnav_env.routes.route import Route
 from semnav_env.verifier import place
 
-END_TOLERANCE = 1.0
-"""Largest distance from the end of a route to the end of its command, metres, where neither is a
-door."""
 
-MAX_REST = 3.0
-"""Longest part of a route that may be left when its command is done, metres."""
+@dataclass(frozen=True)
+class DescriptionLimits:
+    """How exactly a command must describe a route, and how long one is looked for.
 
-MAX_DETOUR_FACTOR = 2.0
-"""Largest ratio of the part of a route that a clause leads along to the straight line; the part may
-be longer by `MAX_REST`."""
+    Attributes:
+        end_distance: largest distance from the end of a route to the end of its command, metres,
+            where neither is a door.
+        end_angle: largest angle between the headings at these ends where the route fixes one,
+            radians.
+        rest: longest part of a route that may be left when its command is done, metres.
+        detour_factor: largest ratio of the part of a route that a clause leads along to the
+            straight line; the part may be longer by `rest`.
+        states: largest number of partial descriptions that are continued before a route is given
+            up.
+    """
 
-FACING_TOLERANCE = 0.3
-"""Largest angle between the headings at the end of a command and of a route that fixes one,
-radians."""
+    end_distance: float = 1.0
+    end_angle: float = 0.3
+    rest: float = 3.0
+    detour_factor: float = 2.0
+    states: int = 1000
 
-MAX_STATES = 1000
-"""Largest number of partial descriptions that are continued before a route is given up."""
+
+LIMITS = DescriptionLimits()
+"""Limits of all descriptions."""
 
 
 class UndescribableError(ValueError):
@@ -75,7 +84,7 @@ def describe(floor_plan: FloorPlan, route: Route) -> Command:
 
     The verifier accepts the route for it. If the route ends behind a door that it has crossed, or
     facing one, the command ends with going through that very door, or to it; else where the route
-    ends, within `END_TOLERANCE`.
+    ends, within `LIMITS.end_distance`.
 
     Args:
         floor_plan: where.
@@ -109,7 +118,7 @@ class _Search:
         order: Iterator[int] = count()
         seen: set[tuple[object, ...]] = set()
         queue = [(0, 0, next(order), self._farthest, False)]
-        while queue and len(seen) < MAX_STATES:
+        while queue and len(seen) < LIMITS.states:
             least, _, _, told, there = heapq.heappop(queue)
             if least > MAX_CLAUSES:
                 break
@@ -160,7 +169,7 @@ class _Search:
 
     def _is_direct(self, goal: Goal, index: int, done: int) -> bool:
         """Whether a clause leads along its part of the route, which wanders nowhere else."""
-        most = MAX_DETOUR_FACTOR * math.dist(place(goal), self._poses[index, :2]) + MAX_REST
+        most = LIMITS.detour_factor * math.dist(place(goal), self._poses[index, :2]) + LIMITS.rest
         return self._length(index, done) <= most
 
     def _length(self, start: int, stop: int) -> float:
@@ -189,17 +198,17 @@ class _Search:
             door = door_of(goal)
             is_it = isinstance(goal, kind) and door is not None and door.name == name
             return is_it and self._is_late(done)
-        near = math.dist(place(goal), self._poses[-1, :2]) <= END_TOLERANCE
+        near = math.dist(place(goal), self._poses[-1, :2]) <= LIMITS.end_distance
         return near and self._faces(goal) and self._is_late(done)
 
     def _faces(self, goal: Goal) -> bool:
         facing = self._route.facing
-        return facing is None or abs(wrap_angle(goal.pose[2] - facing)) <= FACING_TOLERANCE
+        return facing is None or abs(wrap_angle(goal.pose[2] - facing)) <= LIMITS.end_angle
 
     def _is_late(self, done: int) -> bool:
         """Whether next to nothing of the route is left at a pose."""
         crossed = all(k <= done for k, _ in self._crossings)
-        return crossed and self._length(done, len(self._poses)) <= MAX_REST
+        return crossed and self._length(done, len(self._poses)) <= LIMITS.rest
 
     def _undescribable(self) -> UndescribableError:
         told = self._farthest

@@ -96,6 +96,6 @@ class Route:
 def _turned(pose: Pose, wanted: float) -> list[Pose]:
     """The poses of a turn on the spot to a heading, the last with it."""
     x, y, heading = pose
-    turn = wrap_angle(wanted - heading)
-    steps = max(1, math.ceil(abs(turn) / HEADING_STEP))
-    return [(x, y, wrap_angle(heading + turn * k / steps)) for k in range(1, steps + 1)]
+    heading_change = wrap_angle(wanted - heading)
+    steps = max(1, math.ceil(abs(heading_change) / HEADING_STEP))
+    return [(x, y, wrap_angle(heading + heading_change * k / steps)) for k in range(1, steps + 1)]

@@ -1,4 +1,4 @@
-"""Takes out the furniture that leaves no way around the leaf of a door between two rooms."""
+"""Removes furniture that blocks the way around the leaf of a door between two rooms."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SURROUNDINGS_MARGIN = 120
 def without_blocking(
     surfaces: Sequence[Surface], doors: Sequence[Doorway], lots: Sequence[Lot]
 ) -> tuple[Surface, ...]:
-    """The surfaces without the furniture that keeps a wheelchair from a door between two rooms."""
+    """The surfaces without furniture that blocks a door between two rooms for a wheelchair."""
     kept = tuple(surfaces)
     for door in doors:
         if len(door.lots) == 2 and door.open and door.leaf:
@@ -47,7 +47,7 @@ def _beside(leaf: tuple[Point, Point], surfaces: Sequence[Surface]) -> list[Surf
 def _is_reached(
     door: Doorway, doors: Sequence[Doorway], lots: Sequence[Lot], surfaces: Sequence[Surface]
 ) -> bool:
-    """Whether a wheelchair that comes in by another door gets there."""
+    """Whether a wheelchair that enters by another door reaches this one."""
     building = shapely.union_all([_around(lots[index].box) for index in door.lots]).envelope
     entries = (entry for entry in doors if len(entry.lots) == 1 and entry.lots[0] in door.lots)
     for entry in entries:

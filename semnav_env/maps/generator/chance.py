@@ -1,4 +1,4 @@
-"""Draws on the grid of centimetres."""
+"""Random numbers of generated offices, on a grid of centimetres."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from semnav_env.maps.generator.settings import Range
 
 
 def chance(rng: Generator, probability: float) -> bool:
-    """Whether something happens."""
+    """Draw whether something happens."""
     return bool(rng.random() < probability)
 
 
 def centimetres(rng: Generator, metres: Range, step: int = 5) -> int:
-    """A multiple of `step` centimetres within a range of metres."""
+    """Draw a multiple of `step` centimetres within a range of metres."""
     low, high = (round(100 * value / step) for value in metres)
     return step * int(rng.integers(low, high + 1))

@@ -91,7 +91,7 @@ def draw_corridors(
 
 
 def _rows(rng: Generator, settings: OfficeSettings, count: int) -> Lines:
-    """Lines along x, so far apart that the rooms between two of them stand back to back."""
+    """Draw lines along x, at distances at which the rooms between two lines stand back to back."""
     widths, depths = _sizes(rng, settings, count)
     at = [0]
     for i in range(1, count):
@@ -103,7 +103,7 @@ def _rows(rng: Generator, settings: OfficeSettings, count: int) -> Lines:
 
 
 def _columns(rng: Generator, settings: OfficeSettings, count: int) -> Lines:
-    """Lines along y, a bay apart."""
+    """Draw lines along y, a bay apart."""
     widths, depths = _sizes(rng, settings, count)
     at = [0]
     for i in range(1, count):
@@ -127,7 +127,7 @@ def _with_wings(
 def _sizes(
     rng: Generator, settings: OfficeSettings, count: int
 ) -> tuple[list[int], list[tuple[int, int]]]:
-    """Widths of corridors, and depths of the rooms to both sides, not both 0."""
+    """Draw widths of corridors, and depths of the rooms on both sides, not both 0."""
     widths = [centimetres(rng, settings.corridor_width, 10) for _ in range(count)]
     depths = []
     for _ in range(count):
@@ -139,7 +139,7 @@ def _sizes(
 
 
 def _network(rng: Generator, columns: int, rows: int, loops: float) -> set[Edge]:
-    """A tree over all nodes of the grid, edges that close loops, some of its leaves cut back."""
+    """A spanning tree of the grid with edges that close loops, some of its leaves cut back."""
     nodes = [(i, j) for j in range(1, rows + 1) for i in range(1, columns + 1)]
     beside = [((i, j), (i + 1, j)) for i, j in nodes if i < columns]
     above = [((i, j), (i, j + 1)) for i, j in nodes if j < rows]

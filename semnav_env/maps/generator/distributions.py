@@ -1,4 +1,4 @@
-"""The fixed distributions of generated offices; their ranges stay, so that results compare."""
+"""Fixed distributions of generated offices; they never change, so that results compare."""
 
 from semnav_env.maps.generator.settings import OfficeSettings
 

@@ -1,4 +1,4 @@
-"""Desks, cabinets, tables and columns of a generated office; what must stay clear stays clear."""
+"""Desks, cabinets, tables and columns of a generated office, outside what must stay clear."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def _columns(
 
 
 def _places(span: Span) -> list[int]:
-    """Evenly spaced, neither at the ends."""
+    """Places spaced evenly between two ends, without the ends."""
     count = (span[1] - span[0]) // COLUMN_SPACING
     return [span[0] + (i + 1) * (span[1] - span[0]) // (count + 1) for i in range(count)]
 
@@ -94,7 +94,7 @@ def _places(span: Span) -> list[int]:
 def _pieces(
     rng: Generator, settings: OfficeSettings, lot: Lot, kept: Sequence[Box]
 ) -> Iterator[Box]:
-    """Along the walls, then a table in the middle if there is space for it."""
+    """Furniture along the walls of a room, and a table in its middle if there is space."""
     placed = list(kept)
     for wall in _inner_walls(lot):
         for box in _along(rng, settings, wall):
@@ -109,7 +109,7 @@ def _pieces(
 
 
 def _inner_walls(lot: Lot) -> Iterator[OfficeWall]:
-    """The walls of a room, as seen from within; not the open front of an area."""
+    """The walls of a room as seen from inside, without the open front of an area."""
     for along_x in (True, False):
         low, high = lot.box.span(not along_x)
         for at, inward in ((low, 1), (high, -1)):

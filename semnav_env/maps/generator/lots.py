@@ -90,13 +90,13 @@ class Lot:
 
     @property
     def width(self) -> int:
-        """Along its corridor, cm."""
+        """Width along the corridor, cm."""
         low, high = self.box.span(self.front.along_x)
         return high - low
 
     @property
     def area(self) -> float:
-        """Square metres."""
+        """Floor area, square metres."""
         x, y = self.box.size
         return x * y / 1e4
 
@@ -108,7 +108,7 @@ class Lot:
 def lay_rooms(
     rng: Generator, settings: OfficeSettings, corridors: Sequence[OfficeCorridor]
 ) -> tuple[Lot, ...]:
-    """Rooms on both sides of the corridors and at their dead ends, none on another."""
+    """Lay rooms on both sides of the corridors and at their dead ends; none overlap."""
     taken = [corridor.box for corridor in corridors]
     lots: list[Lot] = []
     for index in range(len(corridors)):
@@ -157,7 +157,7 @@ def _row(
 
 
 def _with_corners(corridors: Sequence[OfficeCorridor], index: int) -> Span:
-    """The extent of a corridor, and of the rooms that a corridor across its end has behind it."""
+    """Extent of a corridor, with the rooms behind a corridor that crosses its end."""
     corridor = corridors[index]
     low, high = corridor.box.span(corridor.along_x)
     for other in corridors:
@@ -190,7 +190,7 @@ def _width(rng: Generator, settings: OfficeSettings) -> int:
 
 
 def _depth(band: OfficeWall, span: Span, depth: int, taken: list[Box]) -> int:
-    """How deep a room is: as planned, but no narrow strip stays behind it."""
+    """Depth of a room: as planned, or more where a narrow strip would be left behind it."""
     behind = band.box(span, depth + MAX_ABSORBED_DEPTH)
     clear = depth + MAX_ABSORBED_DEPTH + 1
     for box in taken:

@@ -55,7 +55,7 @@ NUMBERED_STOREYS = 4
 
 
 def name_rooms(rng: Generator, lots: Sequence[Lot]) -> tuple[str, ...]:
-    """A name for each: "2.07", or what it is for; no two the same.
+    """A unique name for each lot: a number such as "2.07", or what the room is for.
 
     The number counts the rooms along the corridors; areas without a front wall have no number.
     """
@@ -89,6 +89,6 @@ def _function(rng: Generator, lot: Lot) -> str:
 
 
 def _numbered(word: str, used: dict[str, int]) -> str:
-    """The second lounge is "lounge 2"."""
+    """Number repeated names: the second lounge is "lounge 2"."""
     used[word] = used.get(word, 0) + 1
     return word if used[word] == 1 else f"{word} {used[word]}"

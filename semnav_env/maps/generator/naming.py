@@ -1,4 +1,4 @@
-"""The names of generated offices: "office:medium:17" is that of seed 17 of the medium ones.
+"""Names of generated offices: "office:medium:17" has seed 17 and distribution "medium".
 
 One word without blanks or slashes, so that it passes for a path nowhere and needs no quotes in a
 shell; it holds all that the plan is made from, so that a process needs nothing but the name.

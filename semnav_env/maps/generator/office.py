@@ -53,7 +53,7 @@ class OfficeLayout:
 
 
 def draw_office(seed: int, settings: OfficeSettings, name: str) -> FloorPlan:
-    """A floor plan, all of whose chance comes from the seed.
+    """Draw a floor plan; all random numbers come from the seed.
 
     Raises:
         ValueError: settings that no office meets.
@@ -83,7 +83,7 @@ def draw_office(seed: int, settings: OfficeSettings, name: str) -> FloorPlan:
 
 
 def _layout(rng: Generator, settings: OfficeSettings) -> OfficeLayout:
-    """Drawn until it has as many rooms as asked for."""
+    """Draw layouts until one has a number of rooms within the settings."""
     fewest, most = settings.rooms
     for _ in range(MAX_LAYOUTS):
         corridors, junctions = draw_corridors(rng, settings)
@@ -97,7 +97,7 @@ def _layout(rng: Generator, settings: OfficeSettings) -> OfficeLayout:
 
 
 def _named_doors(doors: Sequence[Doorway], names: Sequence[str]) -> Iterator[PlanDoor]:
-    """A door is called as its room, the second one of a room with a "b" behind."""
+    """Name doors after their rooms; the second door of a room gets a "b" behind its name."""
     used: Counter[str] = Counter()
     for door in doors:
         name = " - ".join(names[index] for index in door.lots)
@@ -112,7 +112,7 @@ def _regions(lots: Sequence[Lot], names: Sequence[str], is_open: bool) -> tuple[
 
 
 def _crossings(junctions: Sequence[OfficeJunction]) -> Iterator[Region]:
-    """Named after what they are: "corner 1", "T-junction 1", "crossing 1"."""
+    """Intersections named after their kind: "corner 1", "T-junction 1", "crossing 1"."""
     used: Counter[str] = Counter()
     for junction in junctions:
         kind = JUNCTION_KINDS[junction.arms]

@@ -1,4 +1,4 @@
-"""Doors of a generated office, with their leaves, and what stays clear before them."""
+"""Doors of a generated office, their leaves, and the areas that stay clear before them."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Doorway:
 
     @property
     def jambs(self) -> tuple[Point, Point]:
-        """Start and end, metres: the room lies to the right of the way from one to the other."""
+        """Start and end, metres; the room lies to the right of the line from start to end."""
         low, high = (_point(self.wall, along, 0.0) for along in self.span)
         return (high, low) if self.wall.along_x == (self.wall.inward > 0) else (low, high)
 
@@ -103,7 +103,7 @@ def lanes(door: Doorway, lots: Sequence[Lot]) -> Iterator[Box]:
 
 
 def _fronts(rng: Generator, lot: Lot) -> list[OfficeWall]:
-    """The stretches of a room's front that get a door each."""
+    """Stretches of the front of a room; each gets a door."""
     wall, (low, high) = lot.front, lot.front.span
     if high - low < TWO_DOOR_WIDTH or chance(rng, 0.4):
         return [wall]
@@ -115,7 +115,7 @@ def _fronts(rng: Generator, lot: Lot) -> list[OfficeWall]:
 def _door(
     rng: Generator, settings: OfficeSettings, wall: OfficeWall, room: Span, lots: tuple[int, ...]
 ) -> Doorway:
-    """A door somewhere in a wall; its leaf hangs on the jamb nearer to a corner of the room."""
+    """Draw a door in a wall; its leaf hangs on the jamb nearer to a corner of the room."""
     span = _place(rng, settings, wall)
     draw = float(rng.random())
     if draw < settings.closed:
@@ -165,7 +165,7 @@ def _leaf(wall: OfficeWall, span: Span, at_low: bool, degrees: float) -> tuple[P
 
 
 def _point(wall: OfficeWall, along: float, inward: float) -> Point:
-    """Metres, to the millimetre."""
+    """A point in metres, rounded to millimetres."""
     a, b = round(along / 100, 3), round((wall.at + wall.inward * inward) / 100, 3)
     return (a, b) if wall.along_x else (b, a)
 

@@ -1,4 +1,4 @@
-"""The walls of a generated office: around its rooms and corridors, but for the openings."""
+"""The walls of a generated office around its rooms and corridors, without the openings."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def _sides(box: Box) -> Iterator[tuple[bool, int, Span]]:
 
 
 class Pane(NamedTuple):
-    """Glass that is to take the place of wall: from where to where, and whether it is framed."""
+    """A pane of glass that replaces a stretch of wall: its ends, and whether it is framed."""
 
     low: int
     high: int

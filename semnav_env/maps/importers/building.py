@@ -31,7 +31,7 @@ CORRIDOR_ASPECT_RATIO = 4.0
 
 
 def load_building(path: str | Path, tracing: Tracing | None = None) -> ImportedPlan:
-    """The floor plan of an occupancy map, with what `doors.yaml` and `locations.yaml` name.
+    """The floor plan of an occupancy map with the doors and places of its label files.
 
     Either file may be missing beside the map. A labelled door gets the jambs that the map shows
     (`fit_door`), and is open if the map shows a way through; a closed one gets a leaf. Further
@@ -83,7 +83,7 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> ImportedP
 
 
 def _straightened(plan: FloorPlan, report: ImportReport, straight: ImportedPlan) -> ImportedPlan:
-    """A plan on straightened walls; as it was, with a note, if they leave a door too narrow."""
+    """A plan on straightened walls; unchanged, with a note, if a door would become too narrow."""
     try:
         return ImportedPlan(with_walls(plan, straight.plan), straight.report)
     except FloorPlanError as error:
@@ -94,7 +94,7 @@ def _straightened(plan: FloorPlan, report: ImportReport, straight: ImportedPlan)
 def _with_places(
     plan: FloorPlan, labels: Sequence[PlaceLabel], pixels: OccupancyMap
 ) -> tuple[FloorPlan, tuple[str, ...]]:
-    """The plan with those of the labelled places that keep to the rules; and why others do not."""
+    """The plan with the labelled places that keep the rules, and why others were left out."""
     regions: dict[str, Region] = {}
     kinds: dict[str, str] = {}
     lost = []

@@ -78,7 +78,7 @@ def without_leaves(plan: FloorPlan) -> FloorPlan:
 
 
 def moved_along(door: PlanDoor, before: FloorPlan, after: FloorPlan) -> PlanDoor:
-    """A door whose jambs go along with the nearest walls.
+    """A door moved along with the walls nearest to its jambs.
 
     So a jamb on a wall stays on it, and one that somebody marked beside a wall stays beside it.
 
@@ -117,7 +117,7 @@ def _further(
     doors: dict[str, PlanDoor],
     is_free: Callable[[Point], bool],
 ) -> Iterator[PlanDoor]:
-    """Doorways beside the labelled ones that keep to the rules, with names of their own."""
+    """Unlabelled doorways that keep the rules, with generated names."""
     taken = [(door.start, door.end) for door in doors.values()]
     middles = [_middle(*ends) for ends in (*taken, *((each.start, each.end) for each in labels))]
     for doorway in find_doorways(plan.regions, plan.solids, is_free):
@@ -139,7 +139,7 @@ def _middle(start: Point, end: Point) -> Point:
 
 
 def _turned(door: PlanDoor, plan: FloorPlan) -> PlanDoor:
-    """The door with the corridor, if it leads to one, to the left of the way between its jambs."""
+    """The door directed so that its corridor, if there is one, lies to the left."""
     (x1, y1), (x2, y2) = door.start, door.end
     right = door.midpoint[0] + (y2 - y1) / door.width, door.midpoint[1] - (x2 - x1) / door.width
     if any(shapely.contains_xy(hall.polygon, *right) for hall in plan.corridors):

@@ -1,4 +1,4 @@
-"""Reading small text files of other people's maps, safely."""
+"""Reads small text files of foreign maps safely."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MAX_BYTES = 20_000_000
 
 
 def read_text(path: Path, most: int = MAX_BYTES) -> str:
-    """A text file of moderate size.
+    """Read a text file of limited size.
 
     Raises:
         FloorPlanError: no such file, too large, or not UTF-8.
@@ -35,7 +35,7 @@ def read_text(path: Path, most: int = MAX_BYTES) -> str:
 
 
 def read_yaml(path: Path) -> Any:
-    """A YAML document of moderate size.
+    """Read a YAML document of limited size.
 
     Raises:
         FloorPlanError: no such file, too large, or no YAML.
@@ -50,7 +50,7 @@ def read_yaml(path: Path) -> Any:
 
 
 def finite(value: Any) -> float:
-    """A finite number, also one that YAML 1.1 takes for text, such as 1e-3.
+    """A finite number; also one that YAML 1.1 reads as text, such as 1e-3.
 
     Raises:
         TypeError: not a number at all.

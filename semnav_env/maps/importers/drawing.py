@@ -35,7 +35,7 @@ LEAF_WIDTHS = (0.5, 2.2)
 
 @dataclass(frozen=True)
 class Drawing:
-    """How a line drawing (DXF, SVG) is read.
+    """Options for reading a line drawing (DXF, SVG).
 
     Attributes:
         scale: metres a unit of the drawing, if the file does not say (0.001 for millimetres).

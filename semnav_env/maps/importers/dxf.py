@@ -1,4 +1,4 @@
-"""Drawings of AutoCAD and its kin (DXF), read with ezdxf."""
+"""Reads DXF drawings, as AutoCAD writes them, with ezdxf."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def _read(path: Path) -> tuple[Any, int]:
 
 
 def _metres(document: Any, path: Path) -> float:
-    """Metres a unit, as the header says."""
+    """Metres per unit by the header of the drawing."""
     from ezdxf.enums import InsertUnits
     from ezdxf.units import conversion_factor
 
@@ -112,7 +112,7 @@ def _metres(document: Any, path: Path) -> float:
 def _entities(
     layout: Iterable[Any], within: str | None, path: Path, depth: int = 0
 ) -> Iterator[tuple[str, Any]]:
-    """Layer and entity, those of blocks included."""
+    """Every entity with its layer, those within blocks included."""
     if depth > MAX_BLOCK_DEPTH:
         raise FloorPlanError(
             f"{path}: blocks within blocks more than {MAX_BLOCK_DEPTH} deep; explode them"
@@ -128,7 +128,7 @@ def _entities(
 
 
 def _stroke(entity: Any, layer: str, scale: float) -> Stroke | None:
-    """The entity as points; None if it is no curve after all, such as a mesh."""
+    """The entity as points; None if it is no curve, such as a mesh."""
     from ezdxf.path import make_path
 
     try:

@@ -42,7 +42,7 @@ class Fit:
 
 
 def fit_door(label: DoorLabel, solids: STRtree) -> Fit | None:
-    """The way through a labelled doorway, or the label itself as a closed door.
+    """Fit a labelled doorway to the walls: an open door at the gap, else a closed one.
 
     Of the gaps along the marked line (`Band`) that which the label shares most with is the opening;
     if it is narrower than any robot, the door is closed.
@@ -117,7 +117,7 @@ class Band:
 
 
 def _pieces(frame: Pose, width: float, solids: STRtree) -> FloatArray:
-    """Ends of what of the walls is near the label, in its frame, shape (n, 2, 2)."""
+    """Ends of the pieces of walls near the label, in its frame, shape (n, 2, 2)."""
     reach = MAX_JAMB_SHIFT + width
     near = solids.geometries[
         solids.query(shapely.Point(frame[:2]), "dwithin", reach + DOORWAY_HALF_DEPTH)

@@ -1,4 +1,4 @@
-"""Doorways that no label names: gaps in the walls between two labelled places."""
+"""Finds doorways without a label: gaps in the walls between two labelled places."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def _doorways(places: Sequence[Region], solids: STRtree) -> Iterator[PlanDoor]:
 
 
 def _way(door: PlanDoor) -> LineString:
-    """Straight through a door, from `CROSSING_DEPTH` before to `CROSSING_DEPTH` behind it."""
+    """The straight way through a door, `CROSSING_DEPTH` to both sides."""
     (x1, y1), (x2, y2) = door.start, door.end
     x, y = door.midpoint
     dx, dy = CROSSING_DEPTH * (y1 - y2) / door.width, CROSSING_DEPTH * (x2 - x1) / door.width

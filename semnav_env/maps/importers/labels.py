@@ -32,7 +32,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class DoorLabel:
-    """A doorway that somebody marked, open or not, to some decimetres.
+    """A doorway that was marked by hand, open or closed, exact to some decimetres.
 
     Attributes:
         name: of the door.
@@ -47,7 +47,7 @@ class DoorLabel:
 
 @dataclass(frozen=True, eq=False)
 class PlaceLabel:
-    """A room or a corridor that somebody outlined.
+    """A room or a corridor that was outlined by hand.
 
     Attributes:
         name: of the place.

@@ -1,4 +1,4 @@
-"""Which importer reads which file."""
+"""Chooses the importer of a file."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def import_map(
     tracing: Tracing | None = None,
     drawing: Drawing | None = None,
 ) -> ImportedPlan:
-    """A floor plan from somebody else's map, by the suffix of its file.
+    """Import a floor plan from a foreign map, by the suffix of its file.
 
     Args:
         path: .yaml or .yml of ROS's map_server, with the labels beside it if there are any; its

@@ -43,7 +43,7 @@ def outlines(solid: NDArray[np.bool_], tolerance: float = 0.0) -> list[FloatArra
 
 
 def _walks(solid: NDArray[np.bool_]) -> list[tuple[FloatArray, FloatArray]]:
-    """Once around each outline, solid pixels on the left: where each edge starts and its step."""
+    """For each outline, with solid pixels on the left, the start and the step of each edge."""
     starts, directions = _edges(solid)
     following = _following(starts, directions, solid.shape[1] + 1).tolist()
     left = np.ones(len(starts), dtype=bool)
@@ -77,7 +77,7 @@ def _edges(solid: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]
 def _following(
     starts: NDArray[np.intp], directions: NDArray[np.intp], width: int
 ) -> NDArray[np.intp]:
-    """Which edge follows each; where two pixels touch at a corner, the one of the other pixel."""
+    """Index of the edge after each; where two pixels touch at a corner, the other pixel's edge."""
     keys = 4 * (starts[:, 1] * width + starts[:, 0]) + directions
     order = np.argsort(keys)
     ends = starts + EDGE_STEPS[directions]

@@ -1,4 +1,4 @@
-"""Reading images of maps: which pixels are solid, safely."""
+"""Reads images of maps safely: which pixels are solid."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ UNKNOWN_GREY = 205.0
 
 
 def solid_pixels(grey: FloatArray, threshold: float, negate: bool) -> NDArray[np.bool_]:
-    """Which pixels are occupied: darker (lighter, if `negate`) than the threshold says.
+    """Which pixels are occupied: darker than the threshold, or lighter if `negate`.
 
     The occupancy is (255 - brightness) / 255, or brightness / 255 if `negate` (ROS map_server).
     """
@@ -95,7 +95,7 @@ def free_pixels(grey: FloatArray, threshold: float, negate: bool) -> NDArray[np.
 
 
 def mended(solid: NDArray[np.bool_], gap: int) -> NDArray[np.bool_]:
-    """The solid pixels with gaps of at most so many pixels closed, as in perforated walls."""
+    """The solid pixels with small gaps closed, as walls in maps of robots have them."""
     if not gap:
         return solid
     wide = np.pad(solid, gap + 1)

@@ -1,4 +1,4 @@
-"""Outlines drawn anew with their runs on lines, and which runs must not be."""
+"""Redraws outlines with their runs on lines, and finds runs that must be given up."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class RedrawnOutline:
 
 
 def redrawn(points: FloatArray, runs: Collection[PixelRun]) -> RedrawnOutline:
-    """An outline with runs on their lines; of each only the ends are left as vertices.
+    """Redraw an outline with its runs on their lines; only the ends of runs stay vertices.
 
     Where two runs meet at the tip of a thin wall, it gets an end as thick as they are apart.
 
@@ -62,7 +62,7 @@ def redrawn(points: FloatArray, runs: Collection[PixelRun]) -> RedrawnOutline:
 
 
 def _tips(runs: Collection[PixelRun], count: int) -> set[int]:
-    """The vertices, of so many, at which a run ends and another begins along the same axis."""
+    """The vertices at which a run ends and another begins along the same axis."""
     begun = {(run.span.axis, run.span.first % count) for run in runs}
     ended = {(run.span.axis, run.span.last % count) for run in runs}
     return {vertex for _, vertex in begun & ended}
@@ -94,7 +94,7 @@ def clashing(drawn: Sequence[RedrawnOutline]) -> set[PixelRun]:
 
 
 def _rank(run: PixelRun) -> tuple[float, int, int]:
-    """The least is given up first."""
+    """Order in which runs are given up; the least first."""
     return run.span.length, run.ring, run.span.first
 
 

@@ -74,7 +74,7 @@ class PixelRun:
     end: float
 
     def vertices(self, count: int) -> NDArray[np.intp]:
-        """Which vertices of its outline, of so many, are on it."""
+        """Indices of the vertices of the outline that lie on the run."""
         return np.arange(self.span.first, self.span.last + 1) % count
 
 
@@ -110,7 +110,7 @@ def runs_of(ring: int, points: FloatArray, limit: float) -> list[PixelRun]:
 
 
 def _spans(points: FloatArray, limit: float) -> Iterator[Span]:
-    """The stretches along either axis that cannot be prolonged."""
+    """The stretches along either axis that cannot be extended."""
     count = len(points)
     for axis in (0, 1):
         across = points[:, 1 - axis].tolist()
@@ -139,7 +139,7 @@ def _reach(along: list[float], across: list[float], first: int, limit: float) ->
 
 
 def _is_oblique(points: FloatArray, span: Span, wide: Sequence[Span], limit: float) -> bool:
-    """Whether a stretch is but a piece of something oblique or round, or something small so."""
+    """Whether a stretch is part of an oblique or round wall."""
     whole = _prolonged(points, span, limit)
     if not _trends(whole, span.axis):
         return False
@@ -170,7 +170,7 @@ def _trends(stretch: FloatArray, axis: int) -> bool:
 
 
 def _prolonged(points: FloatArray, span: Span, limit: float) -> FloatArray:
-    """A stretch and as much of the segments before and behind it as lies within the limit too."""
+    """A stretch extended into the segments at its ends as far as they lie within the limit."""
     stretch = _stretch(points, span)
     across = stretch[:, 1 - span.axis]
     band = float(across.max()) - 2.0 * limit, float(across.min()) + 2.0 * limit

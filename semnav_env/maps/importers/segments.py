@@ -64,7 +64,7 @@ def load_csv(path: str | Path) -> ImportedPlan:
 
 
 def plan_of_segments(rows: Sequence[Row], path: Path, kind: str) -> ImportedPlan:
-    """A plan whose walls are the given segments; those of no length and repeated ones are left out.
+    """A plan whose walls are segments, without repeated ones and those of no length.
 
     Args:
         rows: x1, y1, x2, y2 in metres.

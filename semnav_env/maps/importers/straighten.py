@@ -1,4 +1,4 @@
-"""Outlines of pixels put back on the straight, square walls that they come from."""
+"""Puts outlines of pixels on straight, square walls."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Straightened:
 
 
 def straighten(rings: Sequence[FloatArray], bound: float) -> Straightened:
-    """The outlines with what runs along the building's two directions exactly on lines.
+    """The outlines with their runs along the building's two directions on exact lines.
 
     Every `PixelRun` of an outline is put on a line along one of the two directions
     (`dominant_direction`); runs that continue each other, as beside a door, get the same line. All
@@ -72,7 +72,7 @@ def straighten(rings: Sequence[FloatArray], bound: float) -> Straightened:
 
 
 def _aligned(runs: Sequence[PixelRun]) -> list[PixelRun]:
-    """The runs, the longest first, with one line for those that continue each other.
+    """The runs, the longest first; those that continue each other share a line.
 
     A run takes over the line of a longer one that looks the same way, if its vertices allow, the
     two lie within `ALIGNMENT_TOLERANCE` and the gap between them along the line is no longer than

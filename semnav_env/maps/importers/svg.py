@@ -42,7 +42,7 @@ def load_svg(path: str | Path, drawing: Drawing | None = None) -> ImportedPlan:
             f"{where}: an SVG does not say how large the building is; give the scale, metres a "
             "unit of its coordinates, such as 0.01"
         )
-    unit = drawing.scale / _stretch(picture)
+    unit = drawing.scale / _pixels_per_unit(picture)
     strokes: list[Stroke] = []
     left: Counter[str] = Counter()
     for layer, shape in _shapes(picture, None):
@@ -73,8 +73,8 @@ def _read(path: Path) -> Any:
     return picture
 
 
-def _stretch(picture: Any) -> float:
-    """How many pixels svgelements makes of a unit of the file's coordinates."""
+def _pixels_per_unit(picture: Any) -> float:
+    """Number of pixels that svgelements gives to a unit of the file's coordinates."""
     box = picture.viewbox
     sides = [(picture.width, box and box.width), (picture.height, box and box.height)]
     shares = [float(size) / float(inner) for size, inner in sides if size and inner]
@@ -100,12 +100,12 @@ def _strokes(shape: Any, layer: str, unit: float) -> Iterator[Stroke]:
         return
     for part in Path(shape).as_subpaths():
         pieces = [piece for piece in part if piece.start is not None and piece.end is not None]
-        points = [_flat(piece, unit) for piece in pieces]
+        points = [_flattened(piece, unit) for piece in pieces]
         if not points:
             continue
         arcs = [piece for piece in pieces if isinstance(piece, Arc)]
         if len(arcs) == 1 and len(pieces) < 4:
-            yield Stroke(layer, _flat(arcs[0], unit), _placed(arcs[0].center, unit))
+            yield Stroke(layer, _flattened(arcs[0], unit), _placed(arcs[0].center, unit))
         elif len(line := _without_repetition(np.concatenate(points))) > 1:
             yield Stroke(layer, line)
 
@@ -116,8 +116,8 @@ def _without_repetition(points: FloatArray) -> FloatArray:
     return kept
 
 
-def _flat(piece: Any, unit: float) -> FloatArray:
-    """A piece of a path as points, metres."""
+def _flattened(piece: Any, unit: float) -> FloatArray:
+    """A piece of a path flattened to points, metres."""
     from svgelements import Close, Line
 
     if isinstance(piece, Line | Close):

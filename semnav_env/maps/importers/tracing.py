@@ -21,7 +21,7 @@ from semnav_env.maps.rules import LEAST_SEGMENT_LENGTH, FloorPlanError
 
 @dataclass(frozen=True)
 class Tracing:
-    """How walls are made of pixels.
+    """Options for tracing walls from pixels.
 
     Attributes:
         mend: gaps of at most so many pixels in walls are closed; maps that a robot made have
@@ -98,7 +98,7 @@ def _report(straight: Straightened, rings: Sequence[FloatArray], spec: Occupancy
 
 
 def _surface(points: FloatArray) -> Surface | None:
-    """A surface through these points without repeated ones; None if there is but one."""
+    """A surface through points without repeated ones; None if only one is left."""
     far = np.linalg.norm(np.diff(points, axis=0), axis=1) >= LEAST_SEGMENT_LENGTH
     kept = points[np.append(True, far)]
     return Surface(tuple([(x, y) for x, y in kept.tolist()])) if len(kept) > 1 else None
