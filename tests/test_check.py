@@ -52,7 +52,7 @@ def room_at_a_corridor(width: float = 0.9, *more: Surface, depth: float = 4.0) -
 
 
 def found(plan: FloorPlan, robot=WHEELCHAIR) -> list[str]:
-    return [str(finding) for finding in check(plan, robot)]
+    return [str(fault) for fault in check(plan, robot)]
 
 
 def test_nothing_is_wrong_with_a_room_at_a_corridor() -> None:
@@ -90,11 +90,11 @@ def test_a_turn_without_space_is_found_where_a_disc_would_pass() -> None:
 
 def test_a_corridor_that_is_blocked_is_found_with_the_place() -> None:
     plan = room_at_a_corridor(0.9, cabinet(6.0, 0.01, 6.5, 1.6))
-    (finding,) = check(plan)
+    (fault,) = check(plan)
     assert (
-        str(finding) == "hall: a wheelchair (1.1 m x 0.65 m) cannot get to this end of the corridor"
+        str(fault) == "hall: a wheelchair (1.1 m x 0.65 m) cannot get to this end of the corridor"
     )
-    assert finding.where == pytest.approx((7.0, 1.0))
+    assert fault.where == pytest.approx((7.0, 1.0))
 
 
 def test_what_stands_in_a_doorway_is_found() -> None:
@@ -122,7 +122,7 @@ def test_furniture_outside_is_found() -> None:
     assert any("reaches out of the building" in fault for fault in found(plan))
 
 
-def test_a_plan_in_which_the_robot_cannot_stand_gets_one_finding() -> None:
+def test_a_plan_in_which_the_robot_cannot_stand_gets_one_fault() -> None:
     plan = room_at_a_corridor(0.9, cabinet(3.7, 0.8, 4.3, 1.2))
     assert found(plan) == [
         "small: a wheelchair (1.1 m x 0.65 m) cannot stand in the middle of the largest corridor"
@@ -207,8 +207,8 @@ def test_many_faults_neither_shrink_the_plan_nor_overlap(
     west, south, east, north = plan.boundary.bounds
     corners = ((west, south), (east, north), (west + 0.1, north), (east, south))
     faults = [PlanFault("kitchen", f"is wrong {'and ' * k}", corners[k % 4]) for k in range(count)]
-    for findings in ((), faults):
-        save_picture(plan, tmp_path / "plan.png", findings=findings)
+    for drawn in ((), faults):
+        save_picture(plan, tmp_path / "plan.png", faults=drawn)
     clean, marked = (figure.axes[0].get_window_extent() for figure in drawn)
     assert marked.width > 0.9 * clean.width
     (ax,) = drawn[1].axes
