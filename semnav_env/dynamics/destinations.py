@@ -32,7 +32,7 @@ class Destinations:
     Each is worked out when somebody first wants to go there, and kept.
 
     Args:
-        floor_plan: with its doors as they stand at first.
+        floor_plan: the plan with its doors as they stand at first.
     """
 
     def __init__(self, floor_plan: FloorPlan) -> None:

@@ -21,12 +21,12 @@ class SwingingDoors:
     to the robot stops, and goes on once there is room.
 
     Args:
-        leaves: of the doors that can change.
-        dynamics: how many do, and how.
+        leaves: leaves of the doors that can open and close.
+        dynamics: settings of how many do, and how.
 
     Attributes:
-        leaves: as given.
-        angles: how far each stands open, radians of the sign of its swing, shape (m,).
+        leaves: the leaves as given.
+        angles: angle by which each stands open, radians, with the sign of its swing, shape (m,).
         segments: hinge and tip of each, metres, shape (m, 4); always the same array.
     """
 
@@ -58,10 +58,10 @@ class SwingingDoors:
         """Let leaves swing for a time step.
 
         Args:
-            seconds: of the step.
-            places: where people stand, metres, shape (n, 2).
-            radius: of a person, metres.
-            body: of the robot, see `nearest_on_body`.
+            seconds: length of the step.
+            places: positions of people, metres, shape (n, 2).
+            radius: radius of a person, metres.
+            body: the robot, see `nearest_on_body`.
             guard: metres that stay free between a leaf that moves and the robot.
         """
         swinging = self._dynamics.swinging

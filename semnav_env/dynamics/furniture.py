@@ -59,7 +59,7 @@ def with_moved_furniture(
     """The plan with some pieces of furniture moved and boxes added, and no way blocked.
 
     Args:
-        plan: as drawn.
+        plan: the plan as drawn.
         dynamics: share of the furniture that moves, and number of boxes.
         robot: everything stays reachable for it.
         rng: source of randomness.
@@ -78,12 +78,12 @@ class FurnitureMover:
     """Moves and adds furniture in a plan, one piece after the other.
 
     Args:
-        plan: as drawn.
+        plan: the plan as drawn.
         robot: everything stays reachable for it.
         keep: place near which nothing is put.
 
     Attributes:
-        plan: as it is now.
+        plan: the plan with the pieces moved so far.
     """
 
     def __init__(self, plan: FloorPlan, robot: RobotSpec, keep: Point | None) -> None:

@@ -24,9 +24,9 @@ class Moving:
     Their motion follows from seed, start and the robot's motion alone.
 
     Args:
-        plan: with its doors as they stand at first.
+        plan: the plan with its doors as they stand at first.
         robot: the body that they keep away from.
-        dynamics: what moves.
+        dynamics: settings of what moves.
         seconds: length of a time step.
 
     Attributes:
@@ -67,7 +67,7 @@ class Moving:
         """Move on by a time step.
 
         Args:
-            pose: of the robot's centre, world frame.
+            pose: pose of the robot's centre, world frame.
             velocity: forward, left (m/s) and yaw rate (rad/s), robot frame.
         """
         body = as_body(self._robot, pose, velocity)

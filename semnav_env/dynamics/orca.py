@@ -152,9 +152,9 @@ def nearest_allowed(
     Args:
         planes: shape (k, 3).
         hard: the first so many are not moved.
-        slack: by which the others are moved back, m/s.
+        slack: speed by which the others are moved back, m/s.
         wish: m/s.
-        limit: of the speed, m/s.
+        limit: largest speed, m/s.
         out: the velocity; of no meaning if there is none.
 
     Returns:

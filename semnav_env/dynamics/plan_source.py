@@ -19,7 +19,7 @@ class PlanSource:
 
     Args:
         default: the plan where no other is asked for: a name, a path or a plan.
-        dynamics: what changes.
+        dynamics: settings of what changes.
         robot: moved furniture leaves every way free for it.
 
     Raises:
@@ -43,8 +43,8 @@ class PlanSource:
 
         Args:
             floor_plan: a name, a path or a plan; the default if not given.
-            pose: at which the robot is asked to start, if at any.
-            rng: of the furniture, which stays where it is without it.
+            pose: start pose of the robot if one was asked for.
+            rng: source of randomness for the furniture; without it furniture stays where it is.
 
         Raises:
             FloorPlanError: see `load_floor_plan`.

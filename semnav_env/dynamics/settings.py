@@ -19,7 +19,7 @@ class Walking:
     """How people walk.
 
     Attributes:
-        radius: of a body, a disc as the lidar and the physics meet it, metres.
+        radius: radius of a person, a disc for lidar and physics, metres.
         speed: mean of the desired speeds, m/s (Helbing and Molnar 1995).
         spread: standard deviation of the desired speeds, m/s; cut off at two of them.
         patience: seconds without getting nearer after which somebody walks elsewhere.
@@ -48,7 +48,7 @@ class Swinging:
     Attributes:
         open_for: shortest and longest time that a door stands open, seconds.
         closed_for: the same for closed; so a closed door always opens again.
-        rate: of the leaf, rad/s.
+        rate: angular speed of the leaf, rad/s.
     """
 
     open_for: tuple[float, float] = (4.0, 25.0)
@@ -68,8 +68,8 @@ class Dynamics:
     """People, doors that open and close, and furniture that was moved.
 
     Attributes:
-        pedestrians: how many people walk about.
-        model: how they avoid each other: "social_force" or "orca".
+        pedestrians: number of people who walk about.
+        model: model of how they avoid each other, "social_force" or "orca".
         changing_doors: probability that a door with room to swing opens and closes in an episode.
             Every such door gets a leaf if the plan draws none.
         moved_furniture: probability that a piece of furniture of the plan is found elsewhere.

@@ -23,7 +23,7 @@ class SocialRecord:
     """Nearness of robot and people over an episode.
 
     Attributes:
-        intrusions: how often the robot's gap to somebody fell below `PERSONAL_SPACE`.
+        intrusions: number of times that the gap to a person fell below `PERSONAL_SPACE`.
         intruding_seconds: for how long some gap was below it.
         least_gap: smallest gap between footprint and body, metres.
         least_seconds: smallest time to collision, s.
@@ -47,9 +47,9 @@ class SocialRecord:
         """Record a time step.
 
         Args:
-            body: of the robot, see `nearest_on_body`.
+            body: the robot, see `nearest_on_body`.
             discs: x, y and radius of people, metres, shape (n, 3).
-            velocities: of people, m/s, shape (n, 2).
+            velocities: velocities of people, m/s, shape (n, 2).
             seconds: length of the step.
         """
         if len(discs) == 0:
@@ -86,7 +86,7 @@ def gaps(body: FloatArray, discs: FloatArray) -> FloatArray:
     0 where they touch or overlap.
 
     Args:
-        body: of the robot, see `nearest_on_body`.
+        body: the robot, see `nearest_on_body`.
         discs: x, y and radius, metres, shape (n, 3).
     """
     found = np.empty(len(discs))
@@ -106,9 +106,9 @@ def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArr
     says when. 0 where they overlap, infinite where they never meet.
 
     Args:
-        body: of the robot, see `nearest_on_body`.
+        body: the robot, see `nearest_on_body`.
         discs: x, y and radius, metres, shape (n, 3).
-        velocities: of the people, m/s, shape (n, 2).
+        velocities: velocities of people, m/s, shape (n, 2).
     """
     c, s = math.cos(body[2]), math.sin(body[2])
     found = np.empty(len(discs))

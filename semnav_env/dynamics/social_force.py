@@ -63,13 +63,13 @@ def social_force(
     other side.
 
     Args:
-        places: of people, metres, shape (n, 2).
+        places: positions of people, metres, shape (n, 2).
         velocities: now, m/s, shape (n, 2).
         wishes: desired velocities v0 e, m/s, shape (n, 2).
-        radius: of a person, metres.
-        walls: as `walls_near` takes them.
+        radius: radius of a person, metres.
+        walls: culled walls as `walls_near` takes them.
         leaves: shape (m, 4).
-        body: of the robot, see `nearest_on_body`.
+        body: the robot, see `nearest_on_body`.
         sees_robot: whether the robot counts.
         seconds: length of the step.
         out: shape (n, 2).

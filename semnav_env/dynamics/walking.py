@@ -38,7 +38,7 @@ def walk(
     Args:
         places: updated; metres, shape (n, 2).
         velocities: the desired ones; updated to the ones had, m/s, shape (n, 2).
-        radius: of a person, metres.
+        radius: radius of a person, metres.
         walls: `Culling` as `walls_near` takes it.
         leaves: segments that move, shape (m, 4).
         body: the robot, see `nearest_on_body`.

@@ -64,8 +64,8 @@ class Drafter:
         """A command that can be carried out; None if none came up.
 
         Args:
-            clauses: how many it has.
-            topic: what it is about; None if more is to be said after it.
+            clauses: number of clauses.
+            topic: its topic; None if further clauses will follow.
         """
         if topic is CommandTopic.CONDITION:
             return self._conditional(clauses)

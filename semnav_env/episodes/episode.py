@@ -34,7 +34,7 @@ class Episode:
         floor_plan: name of a bundled or generated plan, or a path.
         plan_hash: `fingerprint` of its geometry.
         start: pose of the robot's centre (x, y, heading), world frame.
-        command: what is said.
+        command: text of the command.
         language: language of the command, "en" or "de".
         readings: every meaning of the command in canonical words of that language.
         route: the true route as (x, y), metres, simplified to 5 cm. The route of an impossible

@@ -59,6 +59,8 @@ class Split:
 
 
 TRAIN_SEED, UNSEEN_SEED, LONG_SEED, ASK_SEED, HOPELESS_SEED = (k * 1_000_000 for k in range(1, 6))
+"""Seeds of the first offices of the splits, so far apart that only val_seen shares
+its offices, with train."""
 
 SPLITS = {
     split.name: split

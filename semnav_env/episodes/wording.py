@@ -63,8 +63,8 @@ def worded(
     """Words that mean a command and nothing else, given the names of the rooms.
 
     Args:
-        command: what to say; its last clause may be said wrongly first, and corrected.
-        language: its code.
+        command: the command to word; its last clause may be said wrongly first, then corrected.
+        language: code of the language.
         rng: source of randomness.
         rooms: the names of the rooms there.
         closed: the last clause is to take the first door, but a closed one comes before it.

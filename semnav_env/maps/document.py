@@ -13,6 +13,8 @@ from rapidfuzz import process
 from semnav_env.maps.rules import FloorPlanError
 
 Document: TypeAlias = dict[str, Any]
+"""A floor plan file as JSON gives it."""
+
 
 SCHEMA_FILE = Path(__file__).with_name("floor_plan.schema.json")
 """The JSON Schema of floor plan files."""

@@ -56,7 +56,7 @@ def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
 
     Args:
         plan: the plan.
-        ax: where to draw.
+        ax: axes to draw on.
         names: whether to write the names of doors and regions.
     """
     for group, tint in REGION_TINTS.items():
@@ -80,7 +80,7 @@ def leave_out_overlapping(ax: Axes) -> None:
     Rooms come before doors, doors before other regions.
 
     Args:
-        ax: with a plan; its figure has got its size.
+        ax: axes with a plan; the figure has its final size.
     """
     figure = ax.get_figure(root=True)
     assert figure is not None
@@ -113,7 +113,7 @@ def save_picture(
 
     Args:
         plan: the plan.
-        path: where to.
+        path: file to write.
         dpi: dots per inch; the longest side is 12 inches.
         faults: what is wrong with it, drawn as numbered circles with a list below.
 

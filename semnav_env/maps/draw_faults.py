@@ -58,7 +58,7 @@ def columns_of(faults: Sequence[PlanFault], width: float) -> list[list[str]]:
 
     Args:
         faults: what is wrong with a plan.
-        width: of the picture, inches.
+        width: width of the picture, inches.
     """
     if not faults:
         return []

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,6 +99,10 @@ class Region:
     assumed: bool = False
 
 
+NamedPart = TypeVar("NamedPart", PlanDoor, Region)
+"""A door or a region of a plan."""
+
+
 @dataclass(frozen=True)
 class FloorPlan:
     """One storey, in metres, in the world frame (x right, y up on the page).
@@ -108,9 +113,9 @@ class FloorPlan:
         doors: named doorways.
         rooms: named rooms.
         corridors: named stretches of corridor.
-        intersections: where corridors meet.
+        intersections: named places where corridors meet.
         boundary: the outline; a robot never leaves it.
-        source: where the plan comes from.
+        source: origin of the plan, in words.
         areas: named areas that are open to a corridor, as a lounge without a front wall.
     """
 
@@ -196,11 +201,7 @@ class FloorPlan:
         Raises:
             KeyError: no such door; lists those there are.
         """
-        for door in self.doors:
-            if door.name == name:
-                return door
-        names = ", ".join(door.name for door in self.doors)
-        raise KeyError(f"{self.name} has no door {name!r}; there are: {names}")
+        return _named(self.doors, name, f"{self.name} has no door")
 
     def region(self, name: str) -> Region:
         """The room, corridor, intersection or open area of that name.
@@ -208,11 +209,16 @@ class FloorPlan:
         Raises:
             KeyError: no such region; lists those there are.
         """
-        for region in self.regions:
-            if region.name == name:
-                return region
-        names = ", ".join(region.name for region in self.regions)
-        raise KeyError(f"{self.name} has no region {name!r}; there are: {names}")
+        return _named(self.regions, name, f"{self.name} has no region")
+
+
+def _named(parts: tuple[NamedPart, ...], name: str, problem: str) -> NamedPart:
+    """The part of that name; a `KeyError` that states the problem and lists the names if none."""
+    for part in parts:
+        if part.name == name:
+            return part
+    names = ", ".join(part.name for part in parts)
+    raise KeyError(f"{problem} {name!r}; there are: {names}")
 
 
 def _pairs(surface: Surface) -> list[tuple[Point, Point]]:

@@ -20,6 +20,8 @@ from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.plan_fault import PlanFault, point_in, written
 
 Lines = NDArray[np.object_] | Sequence[LineString]
+"""Lines of Shapely, as an array or a sequence."""
+
 
 HALF_LINE_WIDTH = 0.0005
 """Half the thickness that walls are given to part the spaces between them, metres: next to

@@ -39,9 +39,9 @@ def plan_of_scene(scene: Scene, name: str, source: str = "") -> FloorPlan:
     names in a map of lines, so the plan has none.
 
     Args:
-        scene: in the frame of the plan, metres.
-        name: of the plan.
-        source: where it comes from.
+        scene: the scene in the frame of the plan, metres.
+        name: name of the plan.
+        source: origin of the plan, in words.
 
     Raises:
         FloorPlanError: the scene has no walls.

@@ -27,7 +27,7 @@ def clear_near(
         segments: x1, y1, x2, y2, shape (n, 4), metres.
         west: x of the points of the first column.
         south: y of the points of the first row.
-        spacing: of the grid, metres.
+        spacing: spacing of the grid, metres.
         reach: metres.
     """
     rows, columns = free.shape

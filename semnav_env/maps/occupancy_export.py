@@ -44,7 +44,7 @@ class PixelPlan:
 
     Attributes:
         grey: brightness, shape (rows, columns), row 0 at the top.
-        origin: of the lower left corner of the image, metres.
+        origin: lower left corner of the image, (x, y) in metres.
         resolution: metres a pixel.
     """
 
@@ -64,8 +64,8 @@ class ExportReport:
 
     Attributes:
         files: their paths.
-        written: how many of each thing.
-        left_out: what the format cannot say, one line each.
+        written: how many of each kind of thing were written.
+        left_out: what the format cannot hold, one line each.
     """
 
     files: tuple[str, ...]

@@ -31,7 +31,7 @@ def placement_error(
     Args:
         plan: the plan.
         robot: its name or spec; its footprint must lie in the boundary and touch nothing solid.
-        pose: of its centre, world frame.
+        pose: pose of its centre, world frame.
         margin: metres to keep free all around it.
 
     Raises:
@@ -57,7 +57,7 @@ def sample_pose(
         plan: the plan.
         robot: its footprint must lie in the boundary and touch nothing solid.
         rng: source of randomness.
-        region: where its centre should be; any corridor by default.
+        region: region for its centre; any corridor by default.
         margin: metres to keep free all around it.
 
     Raises:

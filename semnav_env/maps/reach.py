@@ -78,9 +78,9 @@ def reach(
 
     Args:
         plan: the floor plan.
-        length: of the body, metres.
-        width: of the body, metres.
-        spacing: of the grid, metres; a very large plan gets a coarser one.
+        length: length of the body, metres.
+        width: width of the body, metres.
+        spacing: spacing of the grid, metres; a very large plan gets a coarser one.
         headings: number of headings of the body, evenly spread over half a turn.
     """
     west, south, east, north = plan.boundary.bounds

@@ -21,7 +21,11 @@ from semnav_env.maps.rules import (
 )
 
 Properties: TypeAlias = dict[str, Any]
+"""The properties of a feature."""
+
 Part: TypeAlias = Surface | PlanDoor | Region | Polygon
+"""What a feature of a floor plan becomes."""
+
 
 SOLID_KINDS = frozenset(Material)
 """Kinds of features that are solid."""

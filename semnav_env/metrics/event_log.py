@@ -54,6 +54,7 @@ ARMS = (Arm.AHEAD, Arm.LEFT, Arm.BACK, Arm.RIGHT)
 
 
 Mask = NDArray[np.bool_]
+"""A yes or no for each row of a recording, shape (n,)."""
 
 
 def events_of(recording: Recording, floor_plan: FloorPlan) -> tuple[Event, ...]:

@@ -24,9 +24,9 @@ class DoorCrossed:
     """The robot's centre crossed the line between a door's jambs.
 
     Attributes:
-        step: of the recording.
+        step: row of the recording.
         seconds: since the start.
-        door: its name.
+        door: name of the door.
         from_left: whether the robot came from the left of the line from the first jamb of the
             door to its second, where the corridor lies in the bundled plans.
         origin: the region that it came from; empty where the plan names none.
@@ -46,7 +46,7 @@ class JunctionEntered:
     """The robot's centre came into an intersection of the plan.
 
     Attributes:
-        step: of the recording.
+        step: row of the recording.
         seconds: since the start.
         junction: name of the intersection.
         origin: the region that it came from.
@@ -63,7 +63,7 @@ class JunctionLeft:
     """The robot's centre left an intersection of the plan.
 
     Attributes:
-        step: of the recording.
+        step: row of the recording.
         seconds: since the start.
         junction: name of the intersection.
         arm: side of the exit, as seen from the side of entry.
@@ -82,7 +82,7 @@ class Turned:
     """The robot began to turn, and turned without pause.
 
     Attributes:
-        step: of the recording, where the turn began.
+        step: row of the recording at which the turn began.
         seconds: since the start.
         angle: heading change, radians, positive to the left.
         duration: seconds.
@@ -99,9 +99,9 @@ class Stopped:
     """The robot came to a stand.
 
     Attributes:
-        step: of the recording.
+        step: row of the recording.
         seconds: since the start.
-        duration: of standing still, seconds.
+        duration: time of standing still, seconds.
     """
 
     step: int
@@ -114,11 +114,11 @@ class ContactBegun:
     """The robot touched something.
 
     Attributes:
-        step: of the recording.
+        step: row of the recording.
         seconds: since the start.
         impulse: received in that step, N s.
         total: received until the contact ended, N s.
-        duration: of the contact, seconds.
+        duration: duration of the contact, seconds.
     """
 
     step: int
@@ -129,3 +129,4 @@ class ContactBegun:
 
 
 Event: TypeAlias = DoorCrossed | JunctionEntered | JunctionLeft | Turned | Stopped | ContactBegun
+"""Any event of a drive."""

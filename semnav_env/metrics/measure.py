@@ -26,9 +26,9 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
     """Compute the measures of an episode.
 
     Args:
-        recording: of the episode.
-        verifier: that judged it; it knows the plan, the route and the goals.
-        robot: that drove.
+        recording: recording of the episode.
+        verifier: the verifier that judged it; it knows the plan, the route and the goals.
+        robot: the robot that drove.
     """
     path, route = recording.path, verifier.mission.route
     driven_length, route_length = path_length(path), verifier.mission.route_length

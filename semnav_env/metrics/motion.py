@@ -27,7 +27,7 @@ def rms_jerk(path: FloatArray, period: float) -> float:
     over the cube of the period. A path of fewer than four points has none: 0.
 
     Args:
-        path: of the robot's centre, one point a step, shape (n, 2), metres.
+        path: path of the robot's centre, one point a step, shape (n, 2), metres.
         period: between two points, seconds.
     """
     if len(path) < 4:
@@ -42,9 +42,9 @@ def clearances(poses: FloatArray, robot: RobotSpec, floor_plan: FloorPlan) -> Fl
     0 where they touch, and at most `MAX_CLEARANCE`. Only what the plan holds counts.
 
     Args:
-        poses: of the robot's centre, shape (n, 3), world frame.
-        robot: whose footprint.
-        floor_plan: what is solid.
+        poses: poses of the robot's centre, shape (n, 3), world frame.
+        robot: its footprint counts.
+        floor_plan: the solid segments.
     """
     if len(floor_plan.segments) == 0:
         return np.full(len(poses), MAX_CLEARANCE)

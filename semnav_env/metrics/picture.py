@@ -74,11 +74,11 @@ def save_episode(
 
     Args:
         path: the file; its suffix says the format (png, svg, pdf).
-        floor_plan: where, with the furniture of the episode.
-        recording: of the episode.
-        robot: whose body is drawn once a second.
+        floor_plan: the plan with the furniture of the episode.
+        recording: recording of the episode.
+        robot: its body is drawn once a second.
         route: the true route, shape (k, 2).
-        goals: of the clauses, numbered.
+        goals: goals of the clauses, drawn with numbers.
         title: above it, wrapped.
     """
     low, high = _extent(floor_plan, np.vstack((recording.path, route)))

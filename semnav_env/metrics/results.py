@@ -45,9 +45,9 @@ class Metrics:
         least_clearance: least distance of the body from anything solid, metres.
         mean_clearance: mean of it over time, metres.
         jerk: root mean square, m/s^3.
-        goal_distance: from the end of the path to the goal, geodesic, metres.
-        path_length: of the robot's centre, Euclidean, metres.
-        route_length: of the shortest way through the goals of all clauses, geodesic, metres.
+        goal_distance: distance from the end of the path to the goal, geodesic, metres.
+        path_length: length of the path of the robot's centre, Euclidean, metres.
+        route_length: length of the shortest way through all goals, geodesic, metres.
         seconds: simulated time.
     """
 
@@ -94,8 +94,8 @@ def worst(episodes: Sequence[Metrics], share: float) -> dict[str, float]:
     """The mean of each measure over its own worst episodes, see `cvar`.
 
     Args:
-        episodes: at least one.
-        share: of them, in (0, 1].
+        episodes: measures of at least one episode.
+        share: share of the episodes, in (0, 1].
 
     Raises:
         ValueError: no episodes, or a share outside (0, 1].

@@ -18,7 +18,7 @@ def cvar(values: ArrayLike, share: float, high_is_bad: bool = False) -> float:
 
     Args:
         values: one for each episode, at least one.
-        share: in (0, 1].
+        share: share of the values, in (0, 1].
         high_is_bad: whether high values are the bad ones, as with collisions; low ones otherwise.
 
     Raises:

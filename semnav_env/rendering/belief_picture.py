@@ -12,7 +12,7 @@ def save_beliefs(path: str | Path, beliefs: Sequence[Belief], title: str = "") -
     """Draw the way of a robot and what it remembers at its end, odometry frame.
 
     Args:
-        path: of the picture (.png, .pdf or .svg).
+        path: file of the picture (.png, .pdf or .svg).
         beliefs: one per scan, in order; at least one.
         title: above the picture.
     """

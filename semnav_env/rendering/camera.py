@@ -57,9 +57,9 @@ def looking_at(
     """The camera on the whole plan where it is small, else on the surroundings of `position`.
 
     Args:
-        bounds: of the plan: least x, least y, greatest x, greatest y, metres.
-        position: of the robot, metres.
-        view: where on the page.
+        bounds: least x, least y, greatest x and greatest y of the plan, metres.
+        position: position of the robot, metres.
+        view: rectangle of the page to fill.
         grid: the origin is rounded to multiples of this many pixels, so that a plan drawn once
             can be pasted.
     """

@@ -20,15 +20,15 @@ class Frame:
     """One moment of an episode, all in the world frame, metres and radians.
 
     Attributes:
-        floor_plan: where it happens, without what moves.
+        floor_plan: the plan of the episode without what moves.
         robot: the body.
-        pose: of the footprint's centre.
-        lidar: where the beams start; None draws no beams, only hits.
-        hits: where beams ended, shape (n, 2), in beam order; rows that are not finite are skipped.
-        scene: what is perceived now.
+        pose: pose of the footprint's centre.
+        lidar: point from which the beams start; None draws no beams, only hits.
+        hits: ends of the beams, shape (n, 2), in beam order; rows that are not finite are skipped.
+        scene: the scene perceived now.
         remembered: the memory, moved from the odometry frame to the world frame.
         door_numbers: number to show at `remembered.doors[index]`, by index, as the command counts.
-        goal: where the active clause leads.
+        goal: goal of the active clause.
         trail: past positions, oldest first, shape (k, 2).
         route: the true route, shape (m, 2); None hides it.
         command: the text of each clause.

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Final, TypeAlias
 
 Colour: TypeAlias = tuple[int, int, int]
+"""Red, green and blue, 0 to 255."""
+
 
 WHITE: Final[Colour] = (255, 255, 255)
 INK: Final[Colour] = (33, 42, 54)

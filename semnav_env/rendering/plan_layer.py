@@ -27,7 +27,7 @@ class PlanLayer:
     """A plan at one scale, drawn tile by tile as they come into view.
 
     Args:
-        floor_plan: what to draw.
+        floor_plan: the plan to draw.
         scale: units of the page per metre.
         zoom: fine pixels per unit.
     """

@@ -14,6 +14,8 @@ from PIL import Image
 from semnav_env.rendering.colours import Palette
 
 Picture = NDArray[np.uint8]
+"""An image, shape (height, width, 3), RGB."""
+
 
 PALETTE_FRAMES = 12
 """Number of frames that the shared palette of a GIF is chosen from."""
@@ -27,10 +29,10 @@ def save_video(path: str | Path, frames: Sequence[Picture], fps: float, scale: f
     """Save frames as the suffix says: .gif, .mp4, or .png, which holds the last frame.
 
     Args:
-        path: where to; missing folders are made.
+        path: file to write; missing folders are made.
         frames: each of shape (height, width, 3), all alike.
         fps: frames per second.
-        scale: of the saved picture to the frames, at most 1.
+        scale: size of the saved picture relative to the frames, at most 1.
 
     Returns:
         The path.

@@ -27,7 +27,7 @@ class Viewer:
     drawing that plan anew.
 
     Args:
-        floor_plan: what most frames will show.
+        floor_plan: the plan that most frames will show.
         size: pixels, (width, height); every size shows the same picture.
         fps: frames per second that `show` slows down to.
 

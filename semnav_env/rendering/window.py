@@ -12,7 +12,7 @@ class Window:
 
     Args:
         size: pixels, (width, height).
-        title: for its frame.
+        title: title of the window.
         fps: pages per second that `present` slows down to.
 
     Raises:

@@ -87,8 +87,8 @@ def describe(floor_plan: FloorPlan, route: Route) -> Command:
     ends, within `LIMITS.end_distance`.
 
     Args:
-        floor_plan: where.
-        route: in its world frame.
+        floor_plan: the floor plan.
+        route: a route in the world frame of the plan.
 
     Raises:
         RouteError: the route leads through something solid, or nowhere.

@@ -29,9 +29,9 @@ def draw_routes(
     """Draw routes into a plan, each with what is said of it.
 
     Args:
-        floor_plan: where.
+        floor_plan: the floor plan.
         routes: each with its text, the label of its line.
-        ax: where to draw.
+        ax: axes to draw on.
         names: whether to write the names of doors and regions.
     """
     draw_floor_plan(floor_plan, ax, names)

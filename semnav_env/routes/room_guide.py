@@ -35,7 +35,7 @@ class RoomGuide:
     """Knows the floor plan and tells a robot the ways to its rooms.
 
     Args:
-        floor_plan: of the building.
+        floor_plan: floor plan of the building.
         command: the command whose clauses name the rooms.
         geodesic: shortest ways in the floor plan; made when first needed if not given.
     """

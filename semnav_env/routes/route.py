@@ -30,8 +30,8 @@ class Route:
     """A way from a pose along points.
 
     Attributes:
-        start: where the robot stands and looks before it sets off, world frame.
-        points: where it goes, shape (k, 2), world frame, metres; the first is where it starts.
+        start: pose of the robot at the start, world frame.
+        points: points of the route, shape (k, 2), world frame, metres; the first is the start.
         facing: heading to turn to at the end, radians; None to stay as it comes.
 
     Raises:

@@ -44,11 +44,11 @@ def route_to(
     """A route of a robot's centre to a door, a room or a place.
 
     Args:
-        floor_plan: where.
+        floor_plan: the floor plan.
         start: pose of the robot's centre, world frame.
         goal: name of a door, a room, a corridor or an intersection, or a point.
         approach: whether to go through a door that is named, or up to it.
-        geodesic: of the floor plan, as `comfortable` makes it; give it where many routes are made.
+        geodesic: shortest ways as `comfortable` makes them; give them to make many routes.
 
     Raises:
         RouteError: there is no such goal, which lists those there are, or no way there; or a point

@@ -9,11 +9,9 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local
 from semnav_env.features.scene import Door, SceneLeaf
+from semnav_env.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor
 from semnav_env.truth.sweep import Outline, distances_along, points_at
-
-MAX_HINGE_GAP = 0.05
-"""A leaf that begins this close to a jamb hangs there, metres."""
 
 MIN_VISIBLE_SHARE = 1e-6
 """A smaller share of an opening in view is a matter of rounding."""
@@ -50,7 +48,7 @@ def open_doors(floor_plan: FloorPlan) -> list[OpenDoor]:
 def _with_leaf(door: PlanDoor, leaves: list[tuple[int, tuple[Point, ...]]]) -> OpenDoor:
     for jamb in (door.start, door.end):
         for number, points in leaves:
-            if math.dist(points[0], jamb) <= MAX_HINGE_GAP:
+            if math.dist(points[0], jamb) <= DRAWING_TOLERANCE:
                 return OpenDoor(door, jamb, points[-1], number)
     return OpenDoor(door)
 

@@ -13,7 +13,11 @@ from semnav_env.maps.generator.chance import centimetres, chance
 from semnav_env.maps.generator.settings import OfficeSettings
 
 Node: TypeAlias = tuple[int, int]
+"""A crossing of two lines of the grid: numbers of the line along x and of the line across."""
+
 Edge: TypeAlias = tuple[Node, Node]
+"""The two ends of a stretch of corridor."""
+
 
 MAX_STUB_LENGTH = 300
 """Largest length of a corridor behind the last place for a junction, cm."""
@@ -30,9 +34,9 @@ class OfficeCorridor:
     """A straight corridor.
 
     Attributes:
-        box: from end to end, through its junctions.
+        box: the floor from end to end, through its junctions.
         along_x: whether it runs along x, else along y.
-        depths: of the rooms below (or left of) and above (or right of) it, cm; 0 for none.
+        depths: depths of the rooms below (left of) and above (right of) it, cm; 0 for none.
         blind: whether its low end and its high end are dead ends.
     """
 
@@ -52,7 +56,7 @@ class OfficeJunction:
 
     Attributes:
         box: shared by them.
-        arms: how many ways lead away, 2 to 4.
+        arms: number of ways that lead away, 2 to 4.
     """
 
     box: Box
@@ -66,9 +70,9 @@ class Lines:
     The first and the last are no lines: wings of the building end there.
 
     Attributes:
-        at: where their middles are, cm.
-        widths: of the corridors, cm, even.
-        depths: of the rooms to both sides, cm.
+        at: coordinates of their middles, cm.
+        widths: widths of the corridors, cm, even.
+        depths: depths of the rooms to both sides, cm.
     """
 
     at: tuple[int, ...]

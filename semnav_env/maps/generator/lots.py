@@ -53,7 +53,7 @@ class OfficeWall:
 
     Attributes:
         along_x: whether it runs along x, else along y.
-        at: its place across that, cm.
+        at: its coordinate across that direction, cm.
         span: its extent, cm.
         inward: 1 if the room lies towards higher coordinates, else -1.
     """
@@ -78,7 +78,7 @@ class Lot:
 
     Attributes:
         box: its extent.
-        front: where it borders on its corridor.
+        front: the stretches where it borders on its corridor.
         corridor: index of that.
         open: it has no front wall.
     """

@@ -49,10 +49,10 @@ class Doorway:
 
     Attributes:
         wall: the stretch of wall it is in; its room lies inward of it.
-        span: from jamb to jamb, cm.
+        span: the opening from jamb to jamb, cm.
         open: whether one may pass.
-        leaf: from the hinge to the tip, metres; None if none is seen.
-        way: what one needs of the wall's extent to get in past the leaf, cm.
+        leaf: hinge and tip, metres; None if no leaf is drawn.
+        way: span along the wall that a robot needs to get in past the leaf, cm.
         lots: indices of the rooms it leads to.
     """
 

@@ -15,14 +15,14 @@ class OfficeSettings:
     """Settings of generated offices: ranges are uniform, chances are probabilities.
 
     Attributes:
-        rooms: how many there are.
-        crossings: how many lines of corridors there are along the building and across it.
+        rooms: number of rooms.
+        crossings: numbers of lines of corridors along the building and across it.
         bay: between two corridors across the building, metres.
         wings: chance of each corridor that could leave the grid of lines to do so.
-        wing: how far it does, metres.
+        wing: length of that part, metres.
         corridor_width: metres.
-        room_depth: from the corridor to the far wall, metres.
-        room_width: of a usual room along the corridor, metres.
+        room_depth: distance from the corridor to the far wall, metres.
+        room_width: width of a usual room along the corridor, metres.
         loops: chance of each corridor that closes a loop.
         single_loaded: chance of each side of a corridor to have no rooms.
         open_areas: chance of each stretch of rooms to hold an area without a front wall.

@@ -43,7 +43,7 @@ def load_building(path: str | Path, tracing: Tracing | None = None) -> ImportedP
 
     Args:
         path: the map's YAML file.
-        tracing: how walls are made of pixels.
+        tracing: options for tracing walls from pixels.
 
     Raises:
         FloorPlanError: names the file, what is wrong and what would be right.

@@ -26,7 +26,7 @@ def with_doors(
 
     Args:
         plan: walls and places.
-        labels: of doors, open or not.
+        labels: labels of doors, open or closed.
         is_free: whether a point is known to be free; None if there are no doors but the labelled.
     """
     doors: dict[str, PlanDoor] = {}
@@ -51,7 +51,7 @@ def with_walls(plan: FloorPlan, straight: FloorPlan) -> FloorPlan:
     The jambs of its doors go along with the walls beside them, and the leaves with the jambs.
 
     Args:
-        plan: with doors.
+        plan: a plan with doors.
         straight: the same walls without leaves, straightened.
 
     Raises:

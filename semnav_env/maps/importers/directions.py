@@ -93,7 +93,7 @@ def spread_out(points: FloatArray) -> tuple[FloatArray, FloatArray]:
     Simpson's rule on each segment, exact for polynomials up to degree three.
 
     Args:
-        points: of the polyline, shape (n, 2).
+        points: vertices of the polyline, shape (n, 2).
 
     Returns:
         Shape (2 n - 1, 2) and (2 n - 1,).

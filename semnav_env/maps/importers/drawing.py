@@ -60,7 +60,7 @@ class Stroke:
     """A line of a drawing.
 
     Attributes:
-        layer: that it is drawn on.
+        layer: name of its layer.
         points: along it, shape (n, 2), metres.
         hinge: the centre, if it is an arc.
     """

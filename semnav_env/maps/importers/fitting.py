@@ -74,7 +74,7 @@ class Band:
 
     Attributes:
         frame: pose at the line's start that looks along it.
-        length: of the line, metres.
+        length: length of the line, metres.
         pieces: the solid segments in that frame, shape (n, 2, 2).
         gaps: where along the line each begins and ends, shape (m, 2), the first from minus
             infinity on, the last to infinity.

@@ -34,7 +34,7 @@ def plan_of_house(content: dict[str, Any], path: Path, scale: float | None = Non
 
     Args:
         content: the JSON document.
-        path: where it comes from.
+        path: file that it was read from.
         scale: metres a unit; 1 if None.
 
     Raises:

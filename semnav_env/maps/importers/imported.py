@@ -20,10 +20,10 @@ class ImportReport:
 
     Attributes:
         source: the files.
-        kind: what kind of map it is.
-        taken: how many of each thing are in the plan.
+        kind: kind of map, in words.
+        taken: how many of each kind of thing are in the plan.
         left_out: what was not taken, one line each with the reason.
-        notes: what else is good to know.
+        notes: further remarks, one line each.
     """
 
     source: tuple[str, ...]

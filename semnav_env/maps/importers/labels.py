@@ -35,7 +35,7 @@ class DoorLabel:
     """A doorway that was marked by hand, open or closed, exact to some decimetres.
 
     Attributes:
-        name: of the door.
+        name: name of the door.
         start: one jamb, (x, y) in metres, world frame.
         end: the other jamb.
     """
@@ -50,7 +50,7 @@ class PlaceLabel:
     """A room or a corridor that was outlined by hand.
 
     Attributes:
-        name: of the place.
+        name: name of the place.
         ring: its corners (column, row) in pixels of the map, shape (n, 2); row 0 is at the top.
         kind: one of `PLACE_KINDS`, if the file says so.
     """

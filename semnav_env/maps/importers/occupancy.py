@@ -70,7 +70,7 @@ class OccupancyMap:
 
     Attributes:
         files: it was read from.
-        spec: what its pixels mean.
+        spec: meaning of its pixels.
         grey: their brightness, shape (rows, columns).
     """
 

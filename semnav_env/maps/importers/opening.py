@@ -39,7 +39,7 @@ def import_map(
             image alone; .json with the segments of a vector map or a house of HouseExpo; .csv or
             .txt with segments; .dxf or .svg.
         resolution: metres per pixel of an image alone.
-        tracing: how walls are made of the pixels of an occupancy map.
+        tracing: options for tracing walls from the pixels of an occupancy map.
         drawing: scale and layers of a drawing; of a house, only the scale is used.
 
     Returns:

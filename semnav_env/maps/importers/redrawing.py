@@ -19,8 +19,8 @@ class RedrawnOutline:
 
     Attributes:
         points: its vertices, each once, shape (n, 2), in pixels.
-        makers: of each vertex the runs on whose lines it was put.
-        moved: how far each run moved the outline at most, pixels.
+        makers: for each vertex, the runs on whose lines it was put.
+        moved: largest distance by which each run moved the outline, pixels.
         turned: whether it was turned inside out.
     """
 
@@ -37,7 +37,7 @@ def redrawn(points: FloatArray, runs: Collection[PixelRun]) -> RedrawnOutline:
 
     Args:
         points: its vertices, each once, shape (n, 2), in pixels.
-        runs: of this outline.
+        runs: the runs of this outline.
     """
     count = len(points)
     tips = _tips(runs, count)

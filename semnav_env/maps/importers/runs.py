@@ -37,7 +37,7 @@ class Span(NamedTuple):
     """A stretch of a closed outline.
 
     Attributes:
-        first: its first vertex.
+        first: index of its first vertex.
         last: its last one, counted on past the end of the outline where it goes around.
         axis: along which it runs: 0 or 1.
         length: along this axis, pixels.
@@ -55,13 +55,13 @@ class PixelRun:
 
     Attributes:
         ring: the number of the outline.
-        span: which of its vertices.
+        span: the stretch of the outline.
         least: least coordinate across the axis that its line may have.
         most: the greatest.
         level: coordinate across the axis that its line has.
         forward: whether the outline runs towards greater coordinates.
-        begin: where it begins along the axis.
-        end: where it ends; greater than `begin`.
+        begin: coordinate of its start along the axis.
+        end: coordinate of its end; greater than `begin`.
     """
 
     ring: int

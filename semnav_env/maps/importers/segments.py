@@ -17,6 +17,7 @@ from semnav_env.maps.importers.imported import ImportedPlan, ImportReport, bound
 from semnav_env.maps.rules import LEAST_SEGMENT_LENGTH, FloorPlanError
 
 Row: TypeAlias = tuple[float, float, float, float]
+"""The ends x1, y1, x2, y2 of a segment, metres."""
 
 
 def load_vector_map(path: str | Path) -> ImportedPlan:
@@ -68,8 +69,8 @@ def plan_of_segments(rows: Sequence[Row], path: Path, kind: str) -> ImportedPlan
 
     Args:
         rows: x1, y1, x2, y2 in metres.
-        path: where they come from.
-        kind: of file.
+        path: file that they were read from.
+        kind: kind of file, in words.
 
     Raises:
         FloorPlanError: no wall is left.

@@ -24,9 +24,9 @@ class Straightened:
         rings: closed, shape (k, 2) each, in pixels.
         direction: of the walls in the image, x right and y down, radians from -45 to 45 degrees;
             the others are square to it.
-        segments: how many were put on lines.
-        lines: on how many.
-        moved: how far a point moved at most, pixels.
+        segments: number of segments that were put on lines.
+        lines: number of these lines.
+        moved: largest distance by which a point moved, pixels.
     """
 
     rings: list[FloatArray]

@@ -53,7 +53,7 @@ def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> ImportedPlan:
 
     Args:
         pixels: the map.
-        tracing: how; `Tracing()` if None.
+        tracing: options for tracing walls; `Tracing()` if None.
 
     Returns:
         The plan (walls only) and the report.
