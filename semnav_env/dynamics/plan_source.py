@@ -54,9 +54,9 @@ class PlanSource:
             plan = self._hung_with_leaves(plan)
         if rng is None or not self.dynamics.furnishes:
             return plan
-        from semnav_env.dynamics.furniture import furnished  # most plans do not change
+        from semnav_env.dynamics.furniture import with_moved_furniture  # most plans do not change
 
-        return furnished(plan, self.dynamics, self._robot, rng, _point(pose))
+        return with_moved_furniture(plan, self.dynamics, self._robot, rng, _point(pose))
 
     def _hung_with_leaves(self, plan: FloorPlan) -> FloorPlan:
         """The plan with leaves; the same object for the same plan."""
