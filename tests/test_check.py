@@ -207,8 +207,8 @@ def test_many_faults_neither_shrink_the_plan_nor_overlap(
     west, south, east, north = plan.boundary.bounds
     corners = ((west, south), (east, north), (west + 0.1, north), (east, south))
     faults = [PlanFault("kitchen", f"is wrong {'and ' * k}", corners[k % 4]) for k in range(count)]
-    for drawn in ((), faults):
-        save_picture(plan, tmp_path / "plan.png", faults=drawn)
+    for shown in ((), faults):
+        save_picture(plan, tmp_path / "plan.png", faults=shown)
     clean, marked = (figure.axes[0].get_window_extent() for figure in drawn)
     assert marked.width > 0.9 * clean.width
     (ax,) = drawn[1].axes
