@@ -10,7 +10,7 @@ the path of a log and a command; without them, a drive of the scripted agent is 
 import sys
 from collections.abc import Iterable, Iterator
 
-from semnav_env.belief import follow_log
+from semnav_env.belief.log_following import follow_log
 from semnav_env.commands import parse
 from semnav_env.features import Scan
 from semnav_env.features.frames import Pose
