@@ -30,7 +30,7 @@ class ScriptedAgent:
         """Begin an episode with the body and the lidar that `info` names."""
         self._pilot = Pilot(info["robot_spec"])
         self._lidar: LidarSpec = info["lidar_spec"]
-        self._beams = np.ascontiguousarray(self._lidar.directions.T)
+        self._beams = self._lidar.directions
         self._obstacles.reset()
 
     def act(self, observation: Observation) -> NDArray[np.float32]:

@@ -1,6 +1,6 @@
 """The small scorer that tells doors from other gaps, as plain numbers in a file beside it.
 
-One layer of hidden units on the evidence x of `kernels.door_evidence`:
+One layer of hidden units j on the evidence x of `kernels.evidence_layout`:
 
     confidence = 1 / (1 + exp(-(c + sum_j v_j s(b_j + w_j . x)))),  s(t) = t / (1 + |t|)
 
@@ -17,7 +17,13 @@ from pathlib import Path
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.door_evidence import EVIDENCE
+from semnav_env.features.kernels.evidence_layout import (
+    BIAS_ROW,
+    EVIDENCE_NAMES,
+    OFFSET_ROW,
+    OUTPUT_ROW,
+    SCORER_ROWS,
+)
 
 SCORER_FILE = Path(__file__).with_name("door_scorer.json")
 
@@ -29,17 +35,21 @@ def default_scorer() -> FloatArray:
 
 
 def load_scorer(path: Path) -> FloatArray:
-    """A scorer as the kernels take it, shape (inputs + 3, hidden units).
+    """The table of a scorer as the kernels take it, shape (`SCORER_ROWS`, hidden units).
 
-    A row for every input holds its weight in each unit; then come the rows of the biases b_j, of
-    the weights v_j in the sum, and one that begins with c.
+    Each of the first rows holds the weights w_j of one input in every hidden unit j; `BIAS_ROW`
+    holds the biases b_j, `OUTPUT_ROW` the weights v_j, and `OFFSET_ROW` begins with c.
 
     Raises:
-        ValueError: the file was made for other evidence; says which.
+        ValueError: the file was made for other evidence; names both.
     """
     data = json.loads(path.read_text(encoding="utf-8"))
-    if tuple(data["inputs"]) != EVIDENCE:
-        raise ValueError(f"{path.name} weighs {data['inputs']}, but the evidence is {EVIDENCE}")
-    rest = np.zeros((3, len(data["bias"])))
-    rest[0], rest[1], rest[2, 0] = data["bias"], data["output"], data["offset"]
-    return np.concatenate((np.array(data["weights"]).T, rest))
+    if tuple(data["inputs"]) != EVIDENCE_NAMES:
+        raise ValueError(
+            f"{path.name} weighs {data['inputs']}, but the evidence is {EVIDENCE_NAMES}"
+        )
+    table = np.zeros((SCORER_ROWS, len(data["bias"])))
+    table[:BIAS_ROW] = np.array(data["weights"]).T
+    table[BIAS_ROW], table[OUTPUT_ROW] = data["bias"], data["output"]
+    table[OFFSET_ROW, 0] = data["offset"]
+    return table

@@ -4,10 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
 from semnav_env.features.frames import FloatArray
+
+CosinesSines: TypeAlias = tuple[FloatArray, FloatArray]
+"""Cosines and sines of the directions of beams, each of shape (beams,).
+
+Elsewhere beams are unit vectors, one to a row, shape (n, 2), as points are. The ray caster's inner
+loop takes several beams at a time and needs neighbouring cosines beside each other."""
 
 SENSOR = np.dtype(
     [
@@ -82,8 +89,13 @@ class LidarSpec:
 
     @property
     def directions(self) -> FloatArray:
-        """Cosines and sines of `angles`, shape (2, beams)."""
-        return np.stack((np.cos(self.angles), np.sin(self.angles)))
+        """Unit vector of each beam in the lidar frame, shape (beams, 2)."""
+        return np.stack((np.cos(self.angles), np.sin(self.angles)), axis=1)
+
+    @property
+    def cosines_sines(self) -> CosinesSines:
+        """The columns of `directions`, each contiguous: what the ray caster reads."""
+        return np.cos(self.angles), np.sin(self.angles)
 
     @property
     def sensor(self) -> np.ndarray:

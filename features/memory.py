@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,6 +12,7 @@ from semnav_env.features.kernels.door_memory import REMEMBERED_DOOR
 from semnav_env.features.kernels.drift import without_drift
 from semnav_env.features.kernels.layout import DOOR, DOORS, PIECES, WALL, WALLS
 from semnav_env.features.kernels.memory import (
+    COUNTERS,
     REMEMBERED_WALL,
     how_many_count,
     remember,
@@ -36,16 +39,19 @@ class SceneMemory:
     def __init__(self) -> None:
         self._walls = np.zeros(MAX_WALLS, dtype=REMEMBERED_WALL)
         self._doors = np.zeros(MAX_DOORS, dtype=REMEMBERED_DOOR)
-        self._used = np.zeros(3, dtype=np.int64)
+        self._counters = np.zeros(1, dtype=COUNTERS)
 
     @property
-    def arrays(self) -> tuple[NDArray[np.void], NDArray[np.void], NDArray[np.int64]]:
-        """(walls, doors, used) for a kernel that updates them in place; see `kernels.memory`."""
-        return self._walls, self._doors, self._used
+    def arrays(self) -> tuple[NDArray[np.void], NDArray[np.void], NDArray[np.void]]:
+        """(walls, doors, counters) for a kernel that updates them in place.
+
+        Their dtypes are `REMEMBERED_WALL`, `REMEMBERED_DOOR` and `COUNTERS` (`kernels.memory`).
+        """
+        return self._walls, self._doors, self._counters
 
     def clear(self) -> None:
         """Forget everything."""
-        self._used[:] = 0
+        self._counters[:] = 0
 
     def copy(self) -> SceneMemory:
         """What is remembered now, to be read; it has no room for more."""
@@ -102,7 +108,7 @@ class SceneMemory:
             lidar_pose: of the lidar by odometry since the last scan, in the memory's frame.
         """
         walls = ends_of(scene.placed(lidar_pose).walls)
-        return without_drift(walls, self._walls[: self._used[0]], lidar_pose)
+        return without_drift(walls, self._walls[: self._counters["walls"][0]], lidar_pose)
 
     @property
     def size(self) -> tuple[int, int]:
@@ -112,8 +118,12 @@ class SceneMemory:
     def scene(self) -> Scene:
         """The walls and doors that count, in the memory's frame, in the order first seen."""
         walls, doors = what_counts(*self.arrays)
-        counting = [
-            Door((x1, y1), (x2, y2), sightings=int(hits), confidence=confidence)
-            for x1, y1, x2, y2, hits, confidence in doors.tolist()
-        ]
-        return Scene(PlainWalls(walls), tuple(counting))
+        return Scene(PlainWalls(walls), tuple([_believed_door(*row) for row in doors.tolist()]))
+
+
+def _believed_door(
+    x1: float, y1: float, x2: float, y2: float, odds: float, hits: int, _: bool
+) -> Door:
+    """The door of a `REMEMBERED_DOOR` entry, its log-odds turned into a probability."""
+    confidence = 1.0 / (1.0 + math.exp(-odds))
+    return Door((x1, y1), (x2, y2), sightings=hits, confidence=confidence)

@@ -26,7 +26,7 @@ def ranges_of(segments: FloatArray, pose: Pose, spec: LidarSpec = TIM561) -> Flo
     culling = Culling.of(segments, spec.range_max)
     out = np.full(spec.beams, np.nan)
     x, y, heading = (float(value) for value in pose)
-    tables = (culling.grid, culling.starts, culling.ends, spec.directions, spec.sensor)
+    tables = (culling.grid, culling.starts, culling.ends, spec.cosines_sines, spec.sensor)
     cast(x, y, heading, *tables, out)
     return out
 

@@ -1,4 +1,4 @@
-"""What speaks for and against a gap being a door, measured in the scan."""
+"""Measures in the scan what speaks for and against a gap being a door."""
 
 from __future__ import annotations
 
@@ -11,49 +11,40 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.lines import offset
 from semnav_env.features.kernels.segmentation import is_return
 
-EVIDENCE = (
-    "past_more",  # wall that is missing beside the jambs, metres
-    "past_less",
-    "misfit_more",  # of the supporting walls, as a share of what is allowed
-    "misfit_less",
-    "clear",  # share of the beams between the jambs that reach beyond the chord
-    "deep",  # and of those that get deeper than a recess
-    "front",  # and of those that end in front
-    "depth",  # mean depth behind the chord, metres, at most 2
-    "beams",  # logarithm of how many there are between the jambs
-    "narrow",  # by how much, metres
-    "wide",
-    "incidence",  # cosine at the middle
-    "range",  # of the middle, metres
-    "jump_less",  # of the range beside the jambs, metres, -0.5 to 1
-    "jump_more",
-    "spacing",  # of the beams at both jambs, metres
-    "wall_more",  # lengths of the supporting walls, metres, at most 1.5
-    "wall_less",
-    "skew",  # sine of twice the angle to the scan's longest wall
-    "longest",  # length of that wall, metres, at most 4
-)
-"""Names of the evidence, in order; "more" and "less" are the larger and the smaller of the two
-sides, so that mirroring a scan changes nothing."""
+MISSING_WALL_MISFIT = 2.0
+"""Misfit where no wall supports a jamb, as a share of what is allowed: twice the largest that is
+accepted."""
 
-NO_WALL = 2.0
-"""Misfit where no wall supports a jamb."""
-SUPPORT_PIECES = 3
-"""So many pieces beside a jamb are tried as the wall that ends there."""
-DEEPEST, LONGEST_SUPPORT, LONGEST_WALL = 2.0, 1.5, 4.0
-"""Greater depths and lengths say no more, metres."""
-NARROW, WIDE = 0.8, 0.9
-"""Between these a width is usual, metres."""
-FRONT = 0.1
-"""A beam that ends so far before the chord is stopped in front of it, metres."""
-BESIDE = 0.8
-"""Metres beside each jamb in which a wall is looked for."""
-BAND, BAND_SLOPE = 0.05, 0.06
-"""A wall beside a jamb lies this near the chord's line, metres, and so much more per metre."""
-FINEST = 0.06
-"""Beams that end nearer together on the chord's line need not all be looked at, metres."""
-FLATTEST = 0.02
-"""Beams that meet the chord's line at a smaller sine end the search for a wall."""
+SUPPORT_TRIALS = 3
+"""Pieces beside a jamb that are tried as the wall that ends there: the nearest may be a door frame
+or a stub."""
+
+MAX_DEPTH, MAX_SUPPORT, MAX_WALL_LENGTH = 2.0, 1.5, 4.0
+"""Greatest depth behind the chord, and greatest lengths of a supporting wall and of the scan's
+longest wall, metres. Greater values say no more about a door, so they are cut off."""
+
+MIN_JUMP, MAX_JUMP = -0.5, 1.0
+"""Limits of how far a beam beside a jamb reaches beyond the chord, metres, for the same reason."""
+
+USUAL_WIDTH_MIN, USUAL_WIDTH_MAX = 0.8, 0.9
+"""Clear widths of usual doors, metres; a width outside says something against a door."""
+
+FRONT_DISTANCE = 0.1
+"""A beam that ends farther than this before the chord, metres, is stopped in front of the gap."""
+
+FLANK_LENGTH = 0.8
+"""Length of the chord's line beside each jamb in which a wall is looked for, metres."""
+
+FLANK_TOLERANCE, FLANK_SLOPE = 0.05, 0.06
+"""A wall beside a jamb lies at most this far behind the chord's line, metres, and this much farther
+for every metre from the jamb: walls are drawn and built a little off."""
+
+FLANK_SPACING = 0.06
+"""Where hits on the chord's line are closer together than this, metres, some beams are skipped."""
+
+MIN_INCIDENCE_SINE = 0.02
+"""Sine of the angle between beam and chord below which the search for a wall ends: the hits are too
+far apart there."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -64,14 +55,17 @@ def measure_gap(
     limit: float,
     gap: Any,
     settings: Any,
-    evidence: FloatArray,
+    evidence: Any,
 ) -> bool:
-    """The beams between the jambs: how many reach beyond the chord, and how far.
+    """Measure how many of the beams between the jambs reach beyond the chord, and how far.
+
+    For a unit vector d of a beam and the chord's unit direction u, the sine d x u of the angle
+    between them turns a length along the beam into one across the chord.
 
     Returns:
-        Whether it can be an opening. Not so if too few beams pass, if none gets deeper than a
-        recess, or if a beam beside a jamb ends in front of the chord: then the jamb is only the
-        edge of a shadow.
+        Whether the gap can be an opening. It cannot if too few beams pass, if none gets deeper
+        than a recess, or if a beam beside a jamb ends in front of the chord: then the jamb is only
+        the edge of a shadow.
     """
     first, last = gap.first, gap.last
     start_jump = reach_beyond(ranges, directions, range_min, limit, gap, first)
@@ -85,21 +79,24 @@ def measure_gap(
         if not is_return(measured, range_min, limit):
             clear += 1
             deep += 1
-            depth += DEEPEST
+            depth += MAX_DEPTH
             continue
         slant = directions[beam, 0] * gap.along_y - directions[beam, 1] * gap.along_x
         across = measured * slant - gap.distance
         clear += across >= settings.door_depth * slant
         deep += across >= settings.door_recess
-        front += across < -FRONT * slant
-        depth += min(max(across, 0.0), DEEPEST)
+        front += across < -FRONT_DISTANCE * slant
+        depth += min(max(across, 0.0), MAX_DEPTH)
     beams = last - first + 1
     if deep == 0 or clear < settings.door_clear_fraction * beams:
         return False
-    start_jump, end_jump = max(min(start_jump, 1.0), -0.5), max(min(end_jump, 1.0), -0.5)
-    evidence[4], evidence[5], evidence[6] = clear / beams, deep / beams, front / beams
-    evidence[7], evidence[8] = depth / beams, math.log(beams)
-    evidence[13], evidence[14] = min(start_jump, end_jump), max(start_jump, end_jump)
+    start_jump = max(min(start_jump, MAX_JUMP), MIN_JUMP)
+    end_jump = max(min(end_jump, MAX_JUMP), MIN_JUMP)
+    evidence.clear_share, evidence.deep_share = clear / beams, deep / beams
+    evidence.front_share, evidence.mean_depth = front / beams, depth / beams
+    evidence.log_beams = math.log(beams)
+    evidence.jump_less = min(start_jump, end_jump)
+    evidence.jump_more = max(start_jump, end_jump)
     return True
 
 
@@ -112,9 +109,12 @@ def reach_beyond(
     gap: Any,
     beam: int,
 ) -> float:
-    """How far a beam reaches beyond the chord, along the beam, metres; far without a return."""
+    """How far a beam reaches beyond the chord, along the beam, metres.
+
+    `MAX_DEPTH` for a beam without a return.
+    """
     if not is_return(ranges[beam], range_min, limit):
-        return DEEPEST
+        return MAX_DEPTH
     slant = directions[beam, 0] * gap.along_y - directions[beam, 1] * gap.along_x
     return float(ranges[beam] - gap.distance / slant)
 
@@ -125,36 +125,48 @@ def measure_walls(
     directions: FloatArray,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     gap: Any,
     pieces: int,
     settings: Any,
     scratch: Any,
-    evidence: FloatArray,
+    evidence: Any,
 ) -> None:
-    """The walls beside the jambs: in line with the gap, long, or missing."""
+    """Measure the walls beside the jambs: how well in line, how long, and how much is missing."""
     before = wall_misfit(gap, -1, pieces, settings, scratch)
     after = wall_misfit(gap, 1, pieces, settings, scratch)
-    evidence[2], evidence[3] = max(before[0], after[0]), min(before[0], after[0])
-    evidence[16], evidence[17] = max(before[1], after[1]), min(before[1], after[1])
-    lacking = missing_wall(ranges, directions, range_min, limit, turn, gap, -1)
-    lacking_after = missing_wall(ranges, directions, range_min, limit, turn, gap, 1)
-    evidence[0], evidence[1] = max(lacking, lacking_after), min(lacking, lacking_after)
+    evidence.misfit_more = max(before[0], after[0])
+    evidence.misfit_less = min(before[0], after[0])
+    evidence.wall_length_more = max(before[1], after[1])
+    evidence.wall_length_less = min(before[1], after[1])
+    sweep = ranges, directions, range_min, limit, beams_per_turn
+    missing_before, missing_after = missing_wall(*sweep, gap, -1), missing_wall(*sweep, gap, 1)
+    evidence.missing_wall_more = max(missing_before, missing_after)
+    evidence.missing_wall_less = min(missing_before, missing_after)
 
 
 @njit(cache=True, error_model="numpy")
 def measure_place(gap: Any, along_x: float, along_y: float, length: float, evidence: Any) -> None:
-    """Width, place, and direction against that of the scan's longest wall."""
+    """Measure width, place, and direction relative to the scan's longest wall.
+
+    Args:
+        gap: the candidate.
+        along_x: unit direction of the longest wall, like the next.
+        along_y: the same.
+        length: of that wall, metres.
+        evidence: written.
+    """
     width = gap.width - 0.5 * (gap.start_spacing + gap.end_spacing)
-    evidence[9], evidence[10] = max(NARROW - width, 0.0), max(width - WIDE, 0.0)
+    evidence.width_below = max(USUAL_WIDTH_MIN - width, 0.0)
+    evidence.width_above = max(width - USUAL_WIDTH_MAX, 0.0)
     x, y = 0.5 * (gap.start_x + gap.end_x), 0.5 * (gap.start_y + gap.end_y)
     distance = math.sqrt(x * x + y * y)
-    evidence[11], evidence[12] = gap.distance / distance, distance
-    evidence[15] = gap.start_spacing + gap.end_spacing
+    evidence.incidence_cosine, evidence.distance = gap.distance / distance, distance
+    evidence.beam_spacing = gap.start_spacing + gap.end_spacing
     cosine = along_x * gap.along_x + along_y * gap.along_y
     sine = along_x * gap.along_y - along_y * gap.along_x
-    evidence[18] = 2.0 * abs(cosine * sine)
-    evidence[19] = min(length, LONGEST_WALL)
+    evidence.skew_sine = 2.0 * abs(cosine * sine)  # sin(2 a) = 2 sin(a) cos(a)
+    evidence.longest_wall = min(length, MAX_WALL_LENGTH)
 
 
 @njit(cache=True, error_model="numpy")
@@ -163,18 +175,21 @@ def missing_wall(
     directions: FloatArray,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     gap: Any,
     step: int,
 ) -> float:
-    """Metres of the chord's line beside a jamb that beams pass, so that no wall is there.
+    """Length of the chord's line beside a jamb that beams pass, so that no wall is there, metres.
+
+    Walks away from the jamb beam by beam. `reached` is how far along the line the walk has come;
+    each beam answers for the stretch between the last one's place and its own.
 
     Args:
-        ranges: of the scan, like the next three.
-        directions: of the beams.
-        range_min: shortest valid range.
-        limit: longest.
-        turn: beams of a full circle, 0 if the scan is none.
+        ranges: of the scan, metres.
+        directions: unit vectors of the beams, shape (n, 2).
+        range_min: shortest valid range, metres.
+        limit: longest valid range, metres.
+        beams_per_turn: of a full circle; 0 if the scan is none.
         gap: the candidate.
         step: -1 for the side before its start, 1 for that after its end.
     """
@@ -183,24 +198,26 @@ def missing_wall(
     origin = gap.along_x * x + gap.along_y * y
     side = 1.0 if step > 0 else -1.0
     spacing = gap.start_spacing if step < 0 else gap.end_spacing
-    step *= max(int(FINEST / spacing), 1)
+    step *= max(int(FLANK_SPACING / spacing), 1)  # from here on: beams from look to look
     missing = reached = 0.0
-    while 0 <= beam < len(ranges) and reached < BESIDE:
+    while 0 <= beam < len(ranges) and reached < FLANK_LENGTH:
         dx, dy = directions[beam, 0], directions[beam, 1]
         slant = dx * gap.along_y - dy * gap.along_x
-        if slant <= FLATTEST:
+        if slant <= MIN_INCIDENCE_SINE:
             break
         along = gap.distance / slant * (dx * gap.along_x + dy * gap.along_y)
         place = side * (along - origin)
         if place > reached:
             measured = ranges[beam]
             across = measured * slant - gap.distance
-            if across > BAND + BAND_SLOPE * place or not is_return(measured, range_min, limit):
-                missing += min(place, BESIDE) - reached
+            if across > FLANK_TOLERANCE + FLANK_SLOPE * place or not is_return(
+                measured, range_min, limit
+            ):
+                missing += min(place, FLANK_LENGTH) - reached
             reached = place
         beam += step
-        if beam < 0:
-            beam += turn
+        if beam < 0:  # a full circle goes on at its end; else 0 is added and the walk ends
+            beam += beams_per_turn
     return missing
 
 
@@ -208,26 +225,27 @@ def missing_wall(
 def wall_misfit(
     gap: Any, step: int, pieces: int, settings: Any, scratch: Any
 ) -> tuple[float, float]:
-    """How far the jambs are from the line of the wall that best supports one of them.
+    """How far the jambs lie off the line of the wall that best supports one of them.
 
-    As a share of what is allowed: `confidence` standard deviations of the fitted line there, plus
-    the allowances for real walls, which are no straight lines.
+    The distance is divided by what is allowed: `confidence` standard deviations of the fitted line
+    there, plus allowances for real walls, which are not quite straight.
 
     Args:
         gap: the candidate.
         step: -1 for a wall before its start, 1 for one after its end.
-        pieces: how many there are.
+        pieces: how many pieces there are.
         settings: limits.
         scratch: with the pieces.
 
     Returns:
-        The share, at most `NO_WALL`, and the wall's length in metres.
+        The larger quotient of both jambs, at most `MISSING_WALL_MISFIT`, and the wall's length,
+        metres.
     """
     k = gap.start_piece if step < 0 else gap.end_piece
     x, y = (gap.start_x, gap.start_y) if step < 0 else (gap.end_x, gap.end_y)
     far_x, far_y = (gap.end_x, gap.end_y) if step < 0 else (gap.start_x, gap.start_y)
-    best, length = NO_WALL, 0.0
-    for _ in range(SUPPORT_PIECES):
+    best, length = MISSING_WALL_MISFIT, 0.0
+    for _ in range(SUPPORT_TRIALS):
         if k < 0 or k >= pieces:
             break
         wall = scratch.pieces[k]
@@ -240,11 +258,11 @@ def wall_misfit(
             continue
         allowed = settings.door_point_tolerance + settings.door_angle_tolerance * gap.width
         misfit = misfit_at(wall, far_x, far_y, allowed, settings)
-        if misfit >= best:
+        if misfit >= best:  # the near jamb can only make it worse
             continue
         misfit = max(misfit, misfit_at(wall, x, y, settings.door_point_tolerance, settings))
         if misfit < best:
-            best, length = misfit, min(wall.length, LONGEST_SUPPORT)
+            best, length = misfit, min(wall.length, MAX_SUPPORT)
     return best, length
 
 
@@ -257,10 +275,10 @@ def misfit_at(wall: Any, x: float, y: float, allowance: float, settings: Any) ->
 
 @njit(cache=True, error_model="numpy")
 def line_deviation(piece: Any, x: float, y: float, sigma: float) -> float:
-    """Standard deviation of a fitted line beside (x, y), metres.
+    """Standard deviation of a fitted line, across itself, beside (x, y), metres.
 
-    sigma sqrt(1/n + t^2 / sum t_i^2) with t along the line from the mean of its n points: the
-    prediction of a straight-line regression.
+    sigma sqrt(1/n + t^2 / sum t_i^2), where t is the place of (x, y) along the line, counted from
+    the mean of its n points: the prediction error of a straight-line regression.
     """
     along = piece.along_x * (x - piece.mean_x) + piece.along_y * (y - piece.mean_y)
     return float(sigma * math.sqrt(1.0 / piece.points + along * along / piece.spread))

@@ -11,6 +11,7 @@ from numba import njit
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.door_evidence import measure_gap, measure_place, measure_walls
 from semnav_env.features.kernels.door_leaf import find_leaf
+from semnav_env.features.kernels.evidence_layout import BIAS_ROW, OFFSET_ROW, OUTPUT_ROW
 
 OPEN, KEPT, SUPPRESSED = 0, 1, 2
 LONGEST_SPACING = 0.3
@@ -74,17 +75,19 @@ def find_candidates(
                 ranges, directions, range_min, limit, turn, gap, pieces, settings, scratch, evidence
             )
             measure_place(gap, along_x, along_y, length, evidence)
-            found += accept(gap, settings, evidence, scratch)
+            numbers = scratch.evidence[found : found + 1].view(np.float64)
+            gap.confidence = score(numbers, scratch.scorer, scratch.levels)
+            found += is_accepted(gap, settings, evidence)
     return found
 
 
 @njit(cache=True, error_model="numpy")
-def accept(gap: Any, settings: Any, evidence: FloatArray, scratch: Any) -> bool:
-    """Score a candidate; whether it is worth keeping."""
-    gap.confidence = score(evidence, scratch.scorer, scratch.levels)
-    both = evidence[2] <= 1.0
+def is_accepted(gap: Any, settings: Any, evidence: Any) -> bool:
+    """Whether a candidate is confident enough, and has the walls in line that are asked for."""
+    both_in_line = evidence.misfit_more <= 1.0
     return bool(
-        gap.confidence >= settings.door_confidence_min and (settings.one_sided_doors or both)
+        gap.confidence >= settings.door_confidence_min
+        and (settings.one_sided_doors or both_in_line)
     )
 
 
@@ -92,17 +95,18 @@ def accept(gap: Any, settings: Any, evidence: FloatArray, scratch: Any) -> bool:
 def score(evidence: FloatArray, scorer: FloatArray, levels: FloatArray) -> float:
     """How likely a gap with that evidence is a door, 0 to 1; see `features.door_scorer`.
 
-    All units side by side, so that the sums run in parallel; `levels` is working memory.
+    The inner loop runs over the hidden units, so that their sums are independent of each other and
+    run in parallel. `levels` is working memory, shape (hidden units,).
     """
-    inputs, units = len(evidence), len(levels)
+    units = len(levels)
     for unit in range(units):
-        levels[unit] = scorer[inputs, unit]
-    for k in range(inputs):
+        levels[unit] = scorer[BIAS_ROW, unit]
+    for k in range(len(evidence)):
         for unit in range(units):
             levels[unit] += scorer[k, unit] * evidence[k]
-    total = scorer[inputs + 2, 0]
+    total = scorer[OFFSET_ROW, 0]
     for unit in range(units):
-        total += scorer[inputs + 1, unit] * levels[unit] / (1.0 + abs(levels[unit]))
+        total += scorer[OUTPUT_ROW, unit] * levels[unit] / (1.0 + abs(levels[unit]))
     return float(1.0 / (1.0 + math.exp(-total)))
 
 

@@ -20,6 +20,10 @@ REMEMBERED_WALL = np.dtype(
 )
 """A remembered wall: its ends, and how often it was seen."""
 
+COUNTERS = np.dtype([("walls", "i8"), ("doors", "i8"), ("scans", "i8")])
+"""How many entries of the walls and of the doors are used, and how many scans were added; an array
+of shape (1,)."""
+
 WALL_HITS = 2
 """A wall counts from so many sightings on."""
 
@@ -60,23 +64,22 @@ def remember(
         angle_min: of the scan, radians.
         angle_increment: of the scan, radians.
         pose: of the lidar in the memory's frame.
-        memory: `REMEMBERED_WALL` and `REMEMBERED_DOOR` arrays and how many of each are used, and
-            how many scans were added, changed in place.
+        memory: arrays of `REMEMBERED_WALL`, `REMEMBERED_DOOR` and `COUNTERS`, changed in place.
     """
-    known_walls, known_doors, used = memory
+    known_walls, known_doors, counters = memory
+    used = counters[0]
     for i in range(counts[WALLS]):
         wall = walls[i]
         ends = (wall.start_x, wall.start_y, wall.end_x, wall.end_y)
-        used[0] = remember_wall(placed(ends, pose), known_walls, used[0])
+        used.walls = remember_wall(placed(ends, pose), known_walls, used.walls)
     for i in range(counts[DOORS]):
         door = doors[i]
         ends = (door.start_x, door.start_y, door.end_x, door.end_y)
-        used[1] = remember_door(placed(ends, pose), door.confidence, known_doors, used[1])
-    doubt_doors(ranges, angle_min, angle_increment, pose, known_doors[: used[1]])
-    doubt_walls(
-        ranges, angle_min, angle_increment, pose, known_walls[used[2] % TURNS : used[0] : TURNS]
-    )
-    used[2] += 1
+        used.doors = remember_door(placed(ends, pose), door.confidence, known_doors, used.doors)
+    doubt_doors(ranges, angle_min, angle_increment, pose, known_doors[: used.doors])
+    turn = used.scans % TURNS  # each scan looks at another eighth of the walls
+    doubt_walls(ranges, angle_min, angle_increment, pose, known_walls[turn : used.walls : TURNS])
+    used.scans += 1
 
 
 @njit(cache=True, error_model="numpy")
@@ -93,8 +96,8 @@ def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) 
     for i in range(counts[WALLS]):
         wall = walls[i]
         seen[i] = placed((wall.start_x, wall.start_y, wall.end_x, wall.end_y), pose)
-    known, _, used = memory
-    return without_drift(seen, known[: used[0]], pose)
+    known, _, counters = memory
+    return without_drift(seen, known[: counters[0].walls], pose)
 
 
 @njit(cache=True, error_model="numpy")
@@ -127,39 +130,35 @@ def wall_counts(walls: Any, k: int) -> bool:
 
 
 @njit(cache=True, error_model="numpy")
-def how_many_count(walls: Any, doors: Any, used: Any) -> tuple[int, int]:
+def how_many_count(walls: Any, doors: Any, counters: Any) -> tuple[int, int]:
     """How many of the remembered walls and doors count."""
+    used = counters[0]
     wall_total, door_total = 0, 0
-    for k in range(used[0]):
+    for k in range(used.walls):
         wall_total += wall_counts(walls, k)
-    for k in range(used[1]):
-        door_total += door_counts(doors[: used[1]], k)
+    for k in range(used.doors):
+        door_total += door_counts(doors[: used.doors], k)
     return wall_total, door_total
 
 
 @njit(cache=True, error_model="numpy")
-def what_counts(walls: Any, doors: Any, used: Any) -> tuple[FloatArray, FloatArray]:
+def what_counts(walls: Any, doors: Any, counters: Any) -> tuple[FloatArray, Any]:
     """The remembered walls and doors that count.
 
     Returns:
-        Ends of the walls, shape (n, 4), metres; ends of the doors, how often each was seen and
-        how likely it is one, shape (m, 6).
+        Ends of the walls, shape (n, 4), metres; and the entries of the doors, shape (m,).
     """
-    wall_rows, door_rows = np.empty((used[0], 4)), np.empty((used[1], 6))
-    n = m = 0
-    for k in range(used[0]):
+    used = counters[0]
+    wall_ends, counting = np.empty((used.walls, 4)), np.empty(used.doors, np.bool_)
+    n = 0
+    for k in range(used.walls):
         if wall_counts(walls, k):
             wall = walls[k]
-            wall_rows[n] = wall.start_x, wall.start_y, wall.end_x, wall.end_y
+            wall_ends[n] = wall.start_x, wall.start_y, wall.end_x, wall.end_y
             n += 1
-    for k in range(used[1]):
-        if door_counts(doors[: used[1]], k):
-            door = doors[k]
-            door_rows[m, :4] = door.start_x, door.start_y, door.end_x, door.end_y
-            door_rows[m, 4] = door.hits
-            door_rows[m, 5] = 1.0 / (1.0 + math.exp(-door.odds))
-            m += 1
-    return wall_rows[:n], door_rows[:m]
+    for k in range(used.doors):
+        counting[k] = door_counts(doors[: used.doors], k)
+    return wall_ends[:n], doors[: used.doors][counting]
 
 
 @njit(cache=True, error_model="numpy")

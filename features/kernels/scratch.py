@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from semnav_env.features.door_scorer import default_scorer
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.door_evidence import EVIDENCE
+from semnav_env.features.kernels.evidence_layout import EVIDENCE
 from semnav_env.features.kernels.layout import ARC, CAPACITY, CORNER, CORRIDOR, DOOR, PIECES, WALL
 
 PIECE = np.dtype(
@@ -79,9 +79,9 @@ class Scratch(NamedTuple):
         start_jambs: where an opening may start, dtype `JAMB`.
         end_jambs: where an opening may end, dtype `JAMB`.
         candidates: possible doors, dtype `CANDIDATE`.
-        evidence: what speaks for each of them, see `door_evidence.EVIDENCE`.
-        scorer: what weighs it, as `door_scorer.load_scorer` gives it.
-        levels: of its units.
+        evidence: what was measured of each candidate, dtype `EVIDENCE`.
+        scorer: table that weighs the evidence, from `door_scorer.load_scorer`.
+        levels: activations of the scorer's hidden units.
         wall_piece: the piece of each wall, shape of the wall array.
         near_pieces: the pieces of the walls near a corner, shape of the wall array.
         joints: the corner at the end of each wall, dtype `JOINT`, shape of the wall array.
@@ -104,7 +104,7 @@ class Scratch(NamedTuple):
     start_jambs: np.ndarray
     end_jambs: np.ndarray
     candidates: np.ndarray
-    evidence: FloatArray
+    evidence: np.ndarray
     scorer: FloatArray
     levels: FloatArray
     wall_piece: NDArray[np.int64]
@@ -133,7 +133,7 @@ class Features(NamedTuple):
     counts: NDArray[np.int64]
 
 
-def allocate_scratch(beams: int) -> Scratch:
+def allocate_scratch(beams: int, door_candidates: int = DOOR_CANDIDATES) -> Scratch:
     """Working memory for scans of up to that many beams; not filled, which would take longer."""
     beams += MISSING
     return Scratch(
@@ -152,8 +152,8 @@ def allocate_scratch(beams: int) -> Scratch:
         pieces=np.empty(2 * beams, PIECE),
         start_jambs=np.empty(JAMBS, JAMB),
         end_jambs=np.empty(JAMBS, JAMB),
-        candidates=np.empty(DOOR_CANDIDATES, CANDIDATE),
-        evidence=np.empty((DOOR_CANDIDATES, len(EVIDENCE))),
+        candidates=np.empty(door_candidates, CANDIDATE),
+        evidence=np.empty(door_candidates, EVIDENCE),
         scorer=default_scorer(),
         levels=np.empty(default_scorer().shape[1]),
         wall_piece=np.empty(CAPACITY["walls"], np.int64),

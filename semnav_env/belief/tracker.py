@@ -78,7 +78,7 @@ class BeliefTracker:
         self.memory = SceneMemory()
         self.bumps = BumpMap(self.lidar, mount)
         self._updates = -1
-        self._beams = np.ascontiguousarray(self.lidar.directions.T)
+        self._beams = self.lidar.directions
         self.rules, extractor = with_doors_of(rules, extractor)
         self._record = extractor.as_record()
         self._scratch = allocate_scratch(self.lidar.beams)

@@ -32,13 +32,13 @@ class Senses(structref.StructRefProxy):
 
     Attributes:
         limits: `LidarSpec.sensor`: directions and limits of the ranges, shape (1,).
-        beams: cosine and sine of each beam, shape (n, 2).
+        beams: unit vector of each beam, lidar frame, shape (n, 2).
         record: `ExtractorSettings.as_record()`.
         scratch: working memory of the extractor.
         mount: pose of the lidar in the robot frame.
         ranges: of the last scan, metres, shape (n,).
         features: of the last scan, lidar frame; written at every scan.
-        remembered: (walls, doors, used) of the memory; updated at every scan.
+        remembered: `SceneMemory.arrays`; updated at every scan.
     """
 
     limits: np.ndarray

@@ -9,7 +9,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose, compose
-from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
+from semnav_env.features.lidar_spec import CosinesSines, LidarSpec, lidar_spec
 from semnav_env.features.scan import Scan
 from semnav_env.lidar.culling import Culling
 from semnav_env.lidar.moving import NOTHING, cast_moving
@@ -29,7 +29,7 @@ def sense(
     grid: np.ndarray,
     starts: NDArray[np.int64],
     ends: FloatArray,
-    directions: FloatArray,
+    beams: CosinesSines,
     sensor: np.ndarray,
     discs: FloatArray,
     leaves: FloatArray,
@@ -39,9 +39,9 @@ def sense(
     out: FloatArray,
 ) -> None:
     """Write measured ranges: `cast`, `cast_moving`, `corrupt`; the arguments are theirs."""
-    cast(x, y, heading, grid, starts, ends, directions, sensor, out)
+    cast(x, y, heading, grid, starts, ends, beams, sensor, out)
     if len(discs) + len(leaves) > 0:
-        cast_moving(x, y, heading, discs, leaves, directions, sensor[0].range_max, out)
+        cast_moving(x, y, heading, discs, leaves, beams, sensor[0].range_max, out)
     corrupt(out, sensor, seed, episode, step)
 
 
@@ -56,7 +56,7 @@ class Lidar:
             every scan.
 
     Attributes:
-        arrays: (grid, starts, ends, directions, sensor, discs, segments), as `sense` takes them;
+        arrays: (grid, starts, ends, beams, sensor, discs, segments), as `sense` takes them;
             `cast` takes the first five.
     """
 
@@ -70,7 +70,7 @@ class Lidar:
         self.spec = lidar_spec(spec)
         self.mount = mount
         culling = Culling.of(floor_plan.opaque_segments, self.spec.range_max)
-        tables = (self.spec.directions, self.spec.sensor)
+        tables = (self.spec.cosines_sines, self.spec.sensor)
         self.arrays = (culling.grid, culling.starts, culling.ends, *tables, *moving)
 
     def ranges(self, robot_pose: Pose, key: Key, out: FloatArray | None = None) -> FloatArray:
@@ -87,9 +87,9 @@ class Lidar:
         """The ranges without any error: metres, shape (beams,), +inf for no return."""
         out = np.empty(self.spec.beams)
         x, y, heading = compose(robot_pose, self.mount)
-        grid, starts, ends, directions, sensor, discs, leaves = self.arrays
-        cast(x, y, heading, grid, starts, ends, directions, sensor, out)
-        cast_moving(x, y, heading, discs, leaves, directions, self.spec.range_max, out)
+        grid, starts, ends, beams, sensor, discs, leaves = self.arrays
+        cast(x, y, heading, grid, starts, ends, beams, sensor, out)
+        cast_moving(x, y, heading, discs, leaves, beams, self.spec.range_max, out)
         return out
 
     def scan(self, robot_pose: Pose, key: Key) -> Scan:

@@ -8,6 +8,7 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.lidar_spec import CosinesSines
 
 NOTHING = (np.zeros((0, 3)), np.zeros((0, 4)))
 """Discs and segments of a place in which nothing moves."""
@@ -20,7 +21,7 @@ def cast_moving(
     heading: float,
     discs: FloatArray,
     segments: FloatArray,
-    directions: FloatArray,
+    beams: CosinesSines,
     range_max: float,
     out: FloatArray,
 ) -> None:
@@ -32,7 +33,7 @@ def cast_moving(
         heading: of the lidar in the world, radians.
         discs: x, y and radius, metres, shape (n, 3).
         segments: x1, y1, x2, y2 in metres, shape (m, 4).
-        directions: `LidarSpec.directions`, shape (2, beams).
+        beams: `LidarSpec.cosines_sines`.
         range_max: metres.
         out: ranges in metres, +inf for no return, shape (beams,).
     """
@@ -40,21 +41,21 @@ def cast_moving(
     for k in range(len(discs)):
         dx, dy, radius = discs[k, 0] - x, discs[k, 1] - y, discs[k, 2]
         if math.hypot(dx, dy) < range_max + radius:
-            _shorten_by_disc(c * dx + s * dy, c * dy - s * dx, radius, directions, range_max, out)
+            _shorten_by_disc(c * dx + s * dy, c * dy - s * dx, radius, beams, range_max, out)
     for k in range(len(segments)):
         x1, y1 = segments[k, 0] - x, segments[k, 1] - y
         x2, y2 = segments[k, 2] - x, segments[k, 3] - y
         a = c * x1 + s * y1, c * y1 - s * x1
         b = c * x2 + s * y2, c * y2 - s * x2
-        _shorten_by_segment(a, b, directions, range_max, out)
+        _shorten_by_segment(a, b, beams, range_max, out)
 
 
 @njit(cache=True, error_model="numpy")
 def _shorten_by_disc(
-    x: float, y: float, radius: float, directions: FloatArray, range_max: float, out: FloatArray
+    x: float, y: float, radius: float, beams: CosinesSines, range_max: float, out: FloatArray
 ) -> None:
     """A beam of direction u meets the disc around c at u . c - sqrt(r^2 - (u x c)^2)."""
-    cos, sin = directions[0], directions[1]
+    cos, sin = beams
     squared = radius * radius
     for i in range(len(out)):
         along, across = cos[i] * x + sin[i] * y, cos[i] * y - sin[i] * x
@@ -68,12 +69,12 @@ def _shorten_by_disc(
 def _shorten_by_segment(
     a: tuple[float, float],
     b: tuple[float, float],
-    directions: FloatArray,
+    beams: CosinesSines,
     range_max: float,
     out: FloatArray,
 ) -> None:
     """A beam of direction u meets the line through a and b at (a x b) / (u x (b - a))."""
-    cos, sin = directions[0], directions[1]
+    cos, sin = beams
     dx, dy = b[0] - a[0], b[1] - a[1]
     area = a[0] * b[1] - a[1] * b[0]
     for i in range(len(out)):

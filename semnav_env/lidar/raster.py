@@ -16,6 +16,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.lidar_spec import CosinesSines
 from semnav_env.lidar.culling import cell_of
 
 _TURN = 2.0 * math.pi
@@ -40,7 +41,7 @@ def cast(
     grid: np.ndarray,
     starts: NDArray[np.int64],
     ends: FloatArray,
-    directions: FloatArray,
+    beams: CosinesSines,
     sensor: np.ndarray,
     out: FloatArray,
 ) -> None:
@@ -53,7 +54,7 @@ def cast(
         grid: `Culling.grid`, made for at least this lidar's range_max.
         starts: `Culling.starts`.
         ends: `Culling.ends`.
-        directions: `LidarSpec.directions`, shape (2, beams).
+        beams: `LidarSpec.cosines_sines`.
         sensor: `LidarSpec.sensor`, shape (1,).
         out: ranges in metres, shape (beams,); +inf where nothing is nearer than range_max.
     """
@@ -67,7 +68,7 @@ def cast(
     out[:] = farthest
     for k in range(table.shape[1]):
         if table[_SPAN, k] > _UNSEEN:
-            _draw(table, k, directions, guard, turn, out)
+            _draw(table, k, beams, guard, turn, out)
     for i in range(np.uint64(out.shape[0])):
         inverse = out[i]
         out[i] = 1.0 / inverse if inverse > farthest else np.inf
@@ -131,17 +132,17 @@ def _prepare(
 
 @njit(cache=True)
 def _draw(
-    table: FloatArray, k: int, directions: FloatArray, guard: float, turn: float, out: FloatArray
+    table: FloatArray, k: int, beams: CosinesSines, guard: float, turn: float, out: FloatArray
 ) -> None:
     """Raise the reciprocal ranges in `out` to those of one segment."""
-    cos, sin, beams = directions[0], directions[1], np.int64(out.shape[0])
+    (cos, sin), last_beam = beams, np.int64(out.shape[0]) - 1
     start = table[_FIRST, k] - guard
     stop = table[_FIRST, k] + table[_SPAN, k] + guard
     ax, ay, bx, by = table[_AX, k], table[_AY, k], table[_BX, k], table[_BY, k]
     nx, ny = table[_NX, k], table[_NY, k]
     while stop >= 0.0:  # once more a turn below: the segment may lie across angle_min
         first = math.ceil(start) if start > 0.0 else 0
-        last = math.floor(stop) if stop < beams - 1 else beams - 1
+        last = math.floor(stop) if stop < last_beam else last_beam
         while first <= last and ax * sin[first] - ay * cos[first] < -_EPS:
             first += 1
         while first <= last and cos[last] * by - sin[last] * bx < -_EPS:

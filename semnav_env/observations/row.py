@@ -73,8 +73,8 @@ def write_row(
         has_door: whether the goal has a door.
     """
     _write_features(row, senses.features, senses.mount)
-    _, doors, used = senses.remembered
-    _write_remembered(row, doors, used[1], pose)
+    _, doors, counters = senses.remembered
+    _write_remembered(row, doors, counters[0].doors, pose)
     limits = senses.limits[0]
     _write_scan(row[ROW_SIZE:], senses.ranges, limits.range_min, limits.range_max)
     row[_CLAUSE:ROW_SIZE] = 0.0

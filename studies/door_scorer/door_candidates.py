@@ -10,8 +10,8 @@ from semnav_env.features import ExtractorSettings, Scan
 from semnav_env.features.extract import beam_directions
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.chain import extract_arrays
-from semnav_env.features.kernels.door_evidence import EVIDENCE
-from semnav_env.features.kernels.scratch import CANDIDATE, allocate_features, allocate_scratch
+from semnav_env.features.kernels.evidence_layout import EVIDENCE_NAMES
+from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
 from semnav_env.features.scene import Door, ends_of
 
 MAX_CANDIDATES = 2048
@@ -26,7 +26,7 @@ class Candidates(NamedTuple):
 
     Attributes:
         ends: their jambs as a door's, lidar frame, shape (n, 4), metres.
-        evidence: what speaks for them, shape (n, len(EVIDENCE)).
+        evidence: what was measured of them, shape (n, inputs of the scorer).
     """
 
     ends: FloatArray
@@ -37,10 +37,7 @@ def candidates_of(scan: Scan, settings: ExtractorSettings) -> Candidates:
     """The candidates of a scan at or above the least confidence of the settings, in beam order."""
     directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
     beams = len(directions)
-    scratch = allocate_scratch(beams)._replace(
-        candidates=np.zeros(MAX_CANDIDATES, CANDIDATE),
-        evidence=np.zeros((MAX_CANDIDATES, len(EVIDENCE))),
-    )
+    scratch = allocate_scratch(beams, MAX_CANDIDATES)
     scratch.candidates["state"] = UNUSED_STATE
     extract_arrays(
         scan.ranges[:beams].copy(),
@@ -53,7 +50,8 @@ def candidates_of(scan: Scan, settings: ExtractorSettings) -> Candidates:
         *allocate_features(),
     )
     count = np.count_nonzero(scratch.candidates["state"] != UNUSED_STATE)
-    return Candidates(_ends(scratch.candidates[:count]), scratch.evidence[:count].copy())
+    numbers = scratch.evidence[:count].view(np.float64).reshape(count, len(EVIDENCE_NAMES))
+    return Candidates(_ends(scratch.candidates[:count]), numbers.copy())
 
 
 def _ends(gaps: np.ndarray) -> FloatArray:

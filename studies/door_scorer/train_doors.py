@@ -22,7 +22,7 @@ from scipy.optimize import minimize
 
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.door_evidence import EVIDENCE
+from semnav_env.features.kernels.evidence_layout import EVIDENCE_NAMES
 from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Door
@@ -139,7 +139,7 @@ def fit(evidence: FloatArray, labels: FloatArray, training: Arguments) -> dict[s
     )
     weights, bias, output, offset = _unpacked(found.x, size, count)
     return {
-        "inputs": list(EVIDENCE),
+        "inputs": list(EVIDENCE_NAMES),
         "weights": _rounded(weights / scale),
         "bias": _rounded(bias - weights @ (mean / scale)),
         "output": _rounded(output),

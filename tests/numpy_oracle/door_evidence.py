@@ -96,22 +96,22 @@ def evidence_of(
     longest = max(pieces, key=lambda piece: piece.length, default=None)
     main = longest.along if longest is not None else np.array((1.0, 0.0))
     return {
-        **_more_or_less("past", missing),
+        **_more_or_less("missing_wall", missing),
         **_more_or_less("misfit", [misfit for misfit, _ in walls]),
-        "clear": float(np.mean(beyond >= settings.door_depth)),
-        "deep": float(np.mean(across >= settings.door_recess)),
-        "front": float(np.mean(beyond < -EVIDENCE.front)),
-        "depth": float(np.mean(np.clip(across, 0.0, EVIDENCE.deepest))),
-        "beams": math.log(len(beyond)),
-        "narrow": max(EVIDENCE.narrow - width, 0.0),
-        "wide": max(width - EVIDENCE.wide, 0.0),
-        "incidence": gap.distance / away,
-        "range": away,
+        "clear_share": float(np.mean(beyond >= settings.door_depth)),
+        "deep_share": float(np.mean(across >= settings.door_recess)),
+        "front_share": float(np.mean(beyond < -EVIDENCE.front)),
+        "mean_depth": float(np.mean(np.clip(across, 0.0, EVIDENCE.deepest))),
+        "log_beams": math.log(len(beyond)),
+        "width_below": max(EVIDENCE.narrow - width, 0.0),
+        "width_above": max(width - EVIDENCE.wide, 0.0),
+        "incidence_cosine": gap.distance / away,
+        "distance": away,
         **_more_or_less("jump", jumps.tolist()),
-        "spacing": gap.start_spacing + gap.end_spacing,
-        **_more_or_less("wall", [length for _, length in walls]),
-        "skew": 2.0 * abs(float(main @ gap.along) * float(_cross(main, gap.along))),
-        "longest": min(longest.length if longest is not None else 0.0, EVIDENCE.longest_wall),
+        "beam_spacing": gap.start_spacing + gap.end_spacing,
+        **_more_or_less("wall_length", [length for _, length in walls]),
+        "skew_sine": 2.0 * abs(float(main @ gap.along) * float(_cross(main, gap.along))),
+        "longest_wall": min(longest.length if longest is not None else 0.0, EVIDENCE.longest_wall),
     }
 
 
