@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
+from semnav_env.features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND
 from semnav_env.features.kernels.corridor_survey import first_gap, stands_in, survey
-from semnav_env.features.kernels.probing import BEHIND, SPACING
 from semnav_env.features.scene import Door, Scene, ends_of
 
-GOES_ON = 1.2
+MIN_CONTINUATION = 1.2
 """A corridor goes on behind a junction if it is longer than this there, metres."""
 
 
@@ -103,10 +103,10 @@ class Corridor:
         """Where a point lies along the axis, metres."""
         return to_local(self.frame, point)[0]
 
-    def place(self, along: float, offset: float = 0.0, turn: float = 0.0) -> Pose:
+    def place(self, along: float, offset: float = 0.0, heading_change: float = 0.0) -> Pose:
         """The pose at a place along the axis, `offset` to its left, turned from its direction."""
         x, y = to_parent(self.frame, (along, offset))
-        return x, y, wrap_angle(self.frame[2] + turn)
+        return x, y, wrap_angle(self.frame[2] + heading_change)
 
     def side_at(self, left: bool, along: float) -> float:
         """Distance from the axis to a side, metres; inf where there is none."""
@@ -124,12 +124,12 @@ class Corridor:
             opening = junction.left if left else junction.right
             if opening is not None:
                 side[max(0, _probe(opening.near - 0.2)) : _probe(opening.far + 0.2)] = 0.0
-        gap = first_gap(side, _probe(start), _probe(stop), round(longer_than / SPACING))
-        return math.inf if gap < 0 else gap * SPACING - BEHIND
+        gap = first_gap(side, _probe(start), _probe(stop), round(longer_than / PROBE_SPACING))
+        return math.inf if gap < 0 else gap * PROBE_SPACING - PROBED_BEHIND
 
 
 def _probe(along: float) -> int:
-    return round((along + BEHIND) / SPACING)
+    return round((along + PROBED_BEHIND) / PROBE_SPACING)
 
 
 def corridor_at(scene: Scene, pose: Pose) -> Corridor:
@@ -173,4 +173,4 @@ def _junctions(openings: list[SideOpening], end: float) -> tuple[Junction, ...]:
 
 def _junction(left: SideOpening | None, right: SideOpening | None, end: float) -> Junction:
     far = max(opening.far for opening in (left, right) if opening is not None)
-    return Junction(left, right, far < end - GOES_ON)
+    return Junction(left, right, far < end - MIN_CONTINUATION)

@@ -88,8 +88,8 @@ class Wall:
         theta, _ = self.line
         x, y = self.centroid or self.start
         lever = y * math.cos(theta) - x * math.sin(theta)
-        turn, shift = self.angle_deviation**2, self.offset_deviation**2
-        return np.array([[turn, lever * turn], [lever * turn, shift + lever**2 * turn]])
+        tilt, shift = self.angle_deviation**2, self.offset_deviation**2
+        return np.array([[tilt, lever * tilt], [lever * tilt, shift + lever**2 * tilt]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +141,7 @@ class Door:
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """Where two walls meet, or where one may turn out of sight.
+    """Where two walls meet, or where one may bend out of sight.
 
     Attributes:
         point: (x, y) in metres.

@@ -97,8 +97,8 @@ def extract(
 @lru_cache(maxsize=16)
 def beam_directions(beams: int, angle_min: float, angle_increment: float) -> FloatArray:
     """Cosine and sine of every beam of at most one full turn, shape (n, 2); do not write."""
-    turn = 2.0 * math.pi / angle_increment * (1.0 + 1e-9) + 1.0
-    angles = angle_min + angle_increment * np.arange(int(min(beams, turn)))
+    beams_per_turn = 2.0 * math.pi / angle_increment * (1.0 + 1e-9) + 1.0
+    angles = angle_min + angle_increment * np.arange(int(min(beams, beams_per_turn)))
     return np.stack((np.cos(angles), np.sin(angles)), axis=1)
 
 

@@ -30,7 +30,7 @@ MAX_WALLS, MAX_DOORS = 512, 64
 class SceneMemory:
     """What was seen so far, in one fixed frame, such as that of odometry.
 
-    A wall counts from its second sighting, until scans pass through it (`kernels.seen_through`).
+    A wall counts from its second sighting, until scans pass through it (`kernels.pass_through`).
     A door counts while its sightings, by their confidence, outweigh the scans that looked at its
     opening and found no door there, or found it filled (`kernels.door_memory`); of two doors in
     one place, only the likelier one.
@@ -56,8 +56,8 @@ class SceneMemory:
     def copy(self) -> SceneMemory:
         """What is remembered now, to be read; it has no room for more."""
         copy = object.__new__(SceneMemory)
-        copy._used = self._used.copy()
-        walls, doors, _ = self._used.tolist()
+        copy._counters = self._counters.copy()
+        walls, doors, _ = self._counters[0].tolist()
         copy._walls, copy._doors = self._walls[:walls].copy(), self._doors[:doors].copy()
         return copy
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.dynamic_polyline import choose_vertices
-from semnav_env.features.kernels.dynamic_refine import refine_vertices
+from semnav_env.features.kernels.polyline_refinement import refine_vertices
+from semnav_env.features.kernels.polyline_vertices import choose_vertices
 from semnav_env.features.scan import Scan
 
 
@@ -49,8 +49,8 @@ def polylines(
         ValueError: vertices, missed or link is out of its range.
     """
     _check(vertices, missed, link)
-    turn = 2.0 * math.pi / scan.angle_increment * (1.0 + 1e-9)
-    beams = np.flatnonzero(scan.valid[: math.ceil(turn)])
+    beams_per_turn = 2.0 * math.pi / scan.angle_increment * (1.0 + 1e-9)
+    beams = np.flatnonzero(scan.valid[: math.ceil(beams_per_turn)])
     if len(beams) < 2:
         return ()
     ranges, angles = scan.ranges[beams], scan.angles[beams]

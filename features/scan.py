@@ -10,13 +10,13 @@ from numpy.typing import ArrayLike
 
 from semnav_env.features.frames import FloatArray
 
-_FARTHEST = 8.0 * math.pi
-"""Beyond it a first direction is in degrees, not a heading that nobody wrapped; radians."""
+_MAX_FIRST_ANGLE = 8.0 * math.pi
+"""A first direction beyond this is in degrees, not a heading that was not wrapped; radians."""
 
-_LONGEST = 1000.0
-"""No lidar of a robot sees farther, metres."""
+_MAX_RANGE = 1000.0
+"""Longest range that any lidar of a robot has, metres."""
 
-_WIDEST = 4.0 * math.pi
+_MAX_SWEEP = 4.0 * math.pi
 """More than any scanner sweeps, though some repeat a few beams of the circle; radians."""
 
 
@@ -99,9 +99,9 @@ def _check_numbers(values: dict[str, float]) -> None:
             f"range_min {values['range_min']} and range_max {values['range_max']} must satisfy "
             "0 <= range_min < range_max"
         )
-    if values["range_max"] > _LONGEST:
+    if values["range_max"] > _MAX_RANGE:
         raise ValueError(
-            f"range_max is {values['range_max']:g}; it must be metres, at most {_LONGEST:g}: "
+            f"range_max is {values['range_max']:g}; it must be metres, at most {_MAX_RANGE:g}: "
             "divide ranges and limits in millimetres by 1000"
         )
 
@@ -109,12 +109,12 @@ def _check_numbers(values: dict[str, float]) -> None:
 def _check_angles(angle_min: float, increment: float, beams: int) -> None:
     if increment == 0:
         raise ValueError("angle_increment is 0; it is the angle between two beams, in radians")
-    if abs(angle_min) > _FARTHEST:
+    if abs(angle_min) > _MAX_FIRST_ANGLE:
         raise ValueError(
             f"angle_min is {angle_min:g}, more than four turns; give it in radians, "
             "not degrees (math.radians)"
         )
-    if (sweep := abs(increment) * (beams - 1)) > _WIDEST:
+    if (sweep := abs(increment) * (beams - 1)) > _MAX_SWEEP:
         raise ValueError(
             f"angle_increment {increment:g} makes {beams} beams sweep {sweep:.4g} radians, more "
             "than two turns; give it in radians, not degrees (math.radians)"

@@ -48,8 +48,8 @@ class ExtractorSettings:
         breakpoint_ratio: largest |r1 - r2| / (r1 + r2) of neighbouring ranges, for "lee".
         dropout_beams: so many missing returns in a row do not end a wall.
         segmentation: how a connected group is cut into straight pieces: "end_point_fit" (thesis
-            2.4.4); "dynamic", the most likely partition (`kernels.dynamic`), which takes a
-            hundred times as long; or "curvature", where the curvature function with adaptive
+            2.4.4); "dynamic", the most likely partition (`kernels.optimal_partition`), which takes
+            a hundred times as long; or "curvature", where the curvature function with adaptive
             arms peaks (`kernels.curvature`).
         split_distance: a point farther from the chord is where "end_point_fit" cuts, metres
             (thesis: 0.06; here four standard deviations). In "curvature" by how much the contour

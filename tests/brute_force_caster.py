@@ -1,4 +1,4 @@
-"""The same ranges as `raster.cast`, computed in the plainest way: to test against."""
+"""The same ranges as `raster.cast`, by trying every segment: what tests compare it with."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from semnav_env.features.frames import FloatArray, Pose, points_to_local
 
 
-def cast_plainly(pose: Pose, segments: FloatArray, angles: FloatArray) -> FloatArray:
+def brute_force_ranges(pose: Pose, segments: FloatArray, angles: FloatArray) -> FloatArray:
     """Intersect every beam with every segment.
 
     Args:

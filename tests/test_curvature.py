@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from semnav_env.features import CornerKind, ExtractorSettings, Scan, extract
 from semnav_env.features.frames import points_to_parent
-from semnav_env.features.kernels.curvature import LEAST_TURN, cut_where_it_turns
+from semnav_env.features.kernels.curvature import MIN_TURN, cut_where_it_turns
 from semnav_env.features.kernels.scratch import allocate_scratch
 from tests.numpy_oracle import extract_reference
 from tests.raycaster import polyline, scan_of
@@ -46,9 +46,9 @@ def test_a_bend_is_cut_where_it_is_if_it_turns_enough(turn, spacing, heading):
     points, corner = bent(turn, spacing)
     c, s = math.cos(heading), math.sin(heading)
     cuts = cuts_of(points @ ((c, s), (-s, c)), ExtractorSettings(split_distance=0.3, sigma=0.001))
-    if abs(turn) > 1.05 * LEAST_TURN:
+    if abs(turn) > 1.05 * MIN_TURN:
         assert cuts == [corner]
-    elif abs(turn) < 0.95 * LEAST_TURN:
+    elif abs(turn) < 0.95 * MIN_TURN:
         assert cuts == []
 
 

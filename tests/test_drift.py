@@ -14,7 +14,11 @@ from semnav_env.agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.features import extract
 from semnav_env.features.frames import FloatArray, Pose, compose, relative, to_parent
-from semnav_env.features.kernels.drift import BESIDE, KNOWN_HITS, without_drift
+from semnav_env.features.kernels.drift import (
+    MAX_LANDMARK_OFFSET,
+    MIN_LANDMARK_SIGHTINGS,
+    without_drift,
+)
 from semnav_env.features.kernels.memory import REMEMBERED_WALL
 from semnav_env.features.memory import SceneMemory
 from semnav_env.lidar import Lidar
@@ -28,7 +32,7 @@ HERE: Pose = (0.5, -0.4, 0.3)
 small = st.tuples(st.floats(-0.08, 0.08), st.floats(-0.08, 0.08), st.floats(-0.03, 0.03))
 
 
-def known(walls: FloatArray, hits: int = KNOWN_HITS) -> np.ndarray:
+def known(walls: FloatArray, hits: int = MIN_LANDMARK_SIGHTINGS) -> np.ndarray:
     """A memory that holds these walls."""
     table = np.zeros(len(walls), REMEMBERED_WALL)
     for name, column in zip(("start_x", "start_y", "end_x", "end_y"), walls.T, strict=True):
@@ -81,9 +85,9 @@ def test_one_scan_corrects_a_part_and_never_more_than_the_whole(error: Pose) -> 
     "memory",
     [
         known(CORRIDOR[:0]),
-        known(CORRIDOR, KNOWN_HITS - 1),
+        known(CORRIDOR, MIN_LANDMARK_SIGHTINGS - 1),
         known(CORRIDOR[:, (2, 3, 0, 1)]),
-        known(np.add(CORRIDOR, (0.0, 2 * BESIDE, 0.0, 2 * BESIDE))),
+        known(np.add(CORRIDOR, (0.0, 2 * MAX_LANDMARK_OFFSET, 0.0, 2 * MAX_LANDMARK_OFFSET))),
         known(np.add(CORRIDOR, (20.0, 0.0, 20.0, 0.0))),
         known(CORRIDOR[:, (0, 1, 0, 1)]),
     ],
@@ -96,7 +100,7 @@ def test_walls_that_are_not_those_seen_do_not_move_the_robot(memory: np.ndarray)
 def test_a_memory_locates_a_lidar_by_what_it_saw_before() -> None:
     memory, lidar = SceneMemory(), Lidar(load_floor_plan("office_cross"))
     start = (6.0, 9.1, 0.2)
-    for step in range(KNOWN_HITS + 1):
+    for step in range(MIN_LANDMARK_SIGHTINGS + 1):
         scan = lidar.scan(start, (0, 0, step))
         memory.see(extract(scan), scan, start)
     believed = compose(start, (0.05, -0.05, 0.02))

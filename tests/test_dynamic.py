@@ -9,7 +9,7 @@ from hypothesis.extra.numpy import arrays
 
 from semnav_env.features import ExtractorSettings, Scan, extract
 from semnav_env.features.frames import points_to_parent
-from semnav_env.features.kernels.dynamic import PIECE_PRICE, partition
+from semnav_env.features.kernels.optimal_partition import PIECE_PRICE, partition
 from semnav_env.features.kernels.scratch import allocate_scratch
 from tests.numpy_oracle import extract_reference
 from tests.raycaster import heidelberg, scan_of

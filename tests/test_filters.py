@@ -14,7 +14,7 @@ from semnav_env.features import ExtractorSettings, Scan, Scene, extract
 from semnav_env.features.extract import beam_directions
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.filters import filter_ranges
-from semnav_env.features.kernels.ring import beams_of_turn
+from semnav_env.features.kernels.full_circle import count_beams_per_turn
 from semnav_env.features.kernels.scratch import allocate_scratch
 from tests.numpy_oracle.filters import filtered
 from tests.numpy_oracle.sweep import Sweep
@@ -35,7 +35,7 @@ filters = st.builds(
 
 def filtered_ranges(scan: Scan, chosen: ExtractorSettings) -> FloatArray:
     beams = len(beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment))
-    turn = beams_of_turn(beams, scan.angle_increment, chosen.dropout_beams)
+    turn = count_beams_per_turn(beams, scan.angle_increment, chosen.dropout_beams)
     limits = scan.range_min, min(scan.range_max, chosen.rupture_range)
     ranges, record = scan.ranges[:beams].copy(), chosen.as_record()[0]
     scratch = allocate_scratch(beams)
@@ -71,7 +71,7 @@ def test_without_being_asked_no_range_is_changed(scan: Scan) -> None:
 @given(awkward_scans(), filters)
 def test_the_kernel_agrees_with_the_reference(scan: Scan, chosen: ExtractorSettings) -> None:
     found = filtered_ranges(scan, chosen)
-    turn = beams_of_turn(len(found), scan.angle_increment, chosen.dropout_beams)
+    turn = count_beams_per_turn(len(found), scan.angle_increment, chosen.dropout_beams)
     sweep = Sweep.of(scan, chosen)
     expected = filtered(sweep, turn, chosen)
     seen = sweep.returned

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from semnav_env.features.elements import Wall
 from semnav_env.features.frames import to_parent
-from semnav_env.features.mapping.doubles import without_doubles
-from semnav_env.features.mapping.evidence import CELL
+from semnav_env.features.mapping.duplicate_walls import without_duplicates
+from semnav_env.features.mapping.line_cells import CELL_LENGTH
 from semnav_env.features.mapping.lines import Line, fuse, gap, line_of
 from semnav_env.features.mapping.map_wall import MapWall
 
@@ -95,8 +95,8 @@ def test_the_four_cases_of_weerakoons_figure_5(new, joined, frame, swapped):
         assert point == pytest.approx(to_parent(frame, (place, 1.0)), abs=1e-6)
     seen = known.cells.seen
     both = min(new[1], 4.0) - max(new[0], 1.0)
-    assert np.count_nonzero(seen) == pytest.approx((joined[1] - joined[0]) / CELL, abs=3)
-    assert np.count_nonzero(seen == 2) == pytest.approx(both / CELL, abs=3)
+    assert np.count_nonzero(seen) == pytest.approx((joined[1] - joined[0]) / CELL_LENGTH, abs=3)
+    assert np.count_nonzero(seen == 2) == pytest.approx(both / CELL_LENGTH, abs=3)
 
 
 @given(metres, metres, st.floats(0.0, 5.0), st.floats(0.0, 5.0))
@@ -110,4 +110,4 @@ def test_a_short_line_along_a_long_one_is_a_double():
     """A line that faces the other way is the back of the wall, and stays."""
     long, short = Wall((0.0, 0.0), (5.0, 0.0)), Wall((1.0, 0.03), (2.0, 0.05))
     back, far = Wall((4.0, -0.05), (1.0, -0.05)), Wall((1.0, 0.3), (2.0, 0.3))
-    assert without_doubles((short, long, back, far)) == (long, back, far)
+    assert without_duplicates((short, long, back, far)) == (long, back, far)

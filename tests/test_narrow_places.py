@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import points_to_parent
-from semnav_env.features.kernels.narrow_places import is_narrow_place
+from semnav_env.features.kernels.narrowings import is_narrowing
 from semnav_env.features.scene import Door, PlainWalls, Scene
 from semnav_env.grounding.counted_doors import doors_along
 
@@ -39,8 +39,8 @@ STEP = st.floats(0.0, 0.15)
 def test_a_pilaster_makes_no_door_whatever_the_frame(a, b, c, d, turn, away):
     ends = np.vstack((passage(a, b, c, d), OPENING)).reshape(-1, 2)
     placed = points_to_parent((away, -away, turn), ends).reshape(-1, 4)
-    assert is_narrow_place(placed[-1], placed)
-    assert is_narrow_place(placed[-1][[2, 3, 0, 1]], placed)
+    assert is_narrowing(placed[-1], placed)
+    assert is_narrowing(placed[-1][[2, 3, 0, 1]], placed)
 
 
 ASIDE = st.floats(0.0, 0.6)
@@ -48,14 +48,14 @@ ASIDE = st.floats(0.0, 0.6)
 
 @given(ASIDE, ASIDE, ASIDE, ASIDE)
 def test_a_corridor_whose_sides_go_on_goes_on(a, b, c, d):
-    assert is_narrow_place(OPENING, passage(a, b, c, d, length=3.0))
+    assert is_narrowing(OPENING, passage(a, b, c, d, length=3.0))
 
 
 @given(st.floats(0.3, 0.6), st.integers(0, 3))
 def test_an_unseen_side_ends_a_corridor_at_the_door(aside, missing):
     sides = passage(aside, aside, aside, aside, length=3.0)
     sides[missing, [0, 2]] = np.clip(sides[missing, [0, 2]], -2.4, 2.4)
-    assert not is_narrow_place(OPENING, sides)
+    assert not is_narrowing(OPENING, sides)
 
 
 @pytest.mark.parametrize(
@@ -64,22 +64,22 @@ def test_an_unseen_side_ends_a_corridor_at_the_door(aside, missing):
     ids=["a door into a room", "a room flush with it", "a narrow arm", "a room at its end"],
 )
 def test_an_opening_narrower_than_its_corridor_is_a_door(steps):
-    assert not is_narrow_place(OPENING, passage(*steps))
+    assert not is_narrowing(OPENING, passage(*steps))
 
 
 def test_a_corridor_with_one_through_side_ends_where_it_widens():
     lobby = passage(0.1, 0.1, 0.1, 3.0)
-    assert is_narrow_place(OPENING, lobby)
-    assert is_narrow_place(OPENING, lobby * [-1.0, 1.0, -1.0, 1.0])
+    assert is_narrowing(OPENING, lobby)
+    assert is_narrowing(OPENING, lobby * [-1.0, 1.0, -1.0, 1.0])
     leaf = np.array([(0.0, 0.6, 1.2, 0.6)])
-    assert not is_narrow_place(OPENING, np.vstack((passage(0.1, 0.1, 3.0, 3.0), leaf)))
+    assert not is_narrowing(OPENING, np.vstack((passage(0.1, 0.1, 3.0, 3.0), leaf)))
 
 
 def test_sides_that_are_not_seen_to_run_on_leave_a_door_a_door():
-    assert not is_narrow_place(OPENING, passage()[:2])
-    assert not is_narrow_place(OPENING, passage(length=0.9))
-    assert is_narrow_place(OPENING, np.vstack((passage(length=0.9)[:2], passage()[2:])))
-    assert not is_narrow_place(np.zeros(4), passage())
+    assert not is_narrowing(OPENING, passage()[:2])
+    assert not is_narrowing(OPENING, passage(length=0.9))
+    assert is_narrowing(OPENING, np.vstack((passage(length=0.9)[:2], passage()[2:])))
+    assert not is_narrowing(np.zeros(4), passage())
 
 
 @pytest.mark.parametrize(

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.lidar_spec import BARBRET, TIM561, LidarSpec
-from semnav_env.lidar.culling import CELL, MOST_CELLS, Culling, cell_of
+from semnav_env.lidar.culling import CELL_SIZE, MAX_CELLS, Culling, cell_of
 from semnav_env.lidar.raster import cast
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
-from tests.brute_force_caster import cast_plainly
+from tests.brute_force_caster import brute_force_ranges
 from tests.small_plans import closed, empty_hall, furnished_hall, plan_of
 
 AROUND = LidarSpec("around", 360, -math.pi, math.tau / 360)
@@ -78,7 +78,7 @@ def test_ranges_agree_with_brute_force_among_random_segments(seed: int, heading:
     segments = rng.uniform(-30, 30, (200, 2)).repeat(2, 0).reshape(200, 4)
     segments[:, 2:] += rng.uniform(-3, 3, (200, 2))
     pose = (*rng.uniform(-35, 35, 2).tolist(), heading)
-    expected = within(cast_plainly(pose, segments, AROUND.angles), AROUND.range_max)
+    expected = within(brute_force_ranges(pose, segments, AROUND.angles), AROUND.range_max)
     np.testing.assert_allclose(ranges_of(segments, pose, AROUND), expected, rtol=0, atol=1e-9)
 
 
@@ -127,7 +127,9 @@ def test_beams_may_begin_in_any_direction(angle_min: float, heading: float) -> N
     spec = replace(ROUNDABOUT, angle_min=angle_min)
     segments, pose = empty_hall().segments, (3.1, 2.2, heading)
     found = ranges_of(segments, pose, spec)
-    np.testing.assert_allclose(found, cast_plainly(pose, segments, spec.angles), rtol=0, atol=1e-9)
+    np.testing.assert_allclose(
+        found, brute_force_ranges(pose, segments, spec.angles), rtol=0, atol=1e-9
+    )
     assert found[0] == pytest.approx(found[-1], abs=1e-9)
 
 
@@ -135,7 +137,7 @@ def test_very_fine_and_very_few_beams_are_exact() -> None:
     segments, pose = furnished_hall().opaque_segments, (4.5, 3.3, 0.4)
     for beams in (1, 2, 40_001):
         spec = LidarSpec("fine", beams, -2.0, 4.0 / max(beams - 1, 1))
-        expected = within(cast_plainly(pose, segments, spec.angles), spec.range_max)
+        expected = within(brute_force_ranges(pose, segments, spec.angles), spec.range_max)
         np.testing.assert_allclose(ranges_of(segments, pose, spec), expected, atol=1e-9)
 
 
@@ -202,9 +204,9 @@ def test_every_list_holds_whatever_its_cell_can_reach() -> None:
 
 
 def test_cells_grow_instead_of_becoming_too_many() -> None:
-    assert Culling.of(empty_hall().segments, 10.0).grid[0]["cell"] == CELL
+    assert Culling.of(empty_hall().segments, 10.0).grid[0]["cell"] == CELL_SIZE
     vast = plan_of(closed((0, 0), (5e4, 0), (5e4, 3e4), (0, 3e4)))
-    assert len(Culling.of(vast.segments, 10.0).starts) < 1.1 * MOST_CELLS
+    assert len(Culling.of(vast.segments, 10.0).starts) < 1.1 * MAX_CELLS
     assert ranges_of(vast.segments, (5e4 - 3.0, 9.0, 0.0), AROUND)[180] == pytest.approx(3.0)
 
 

@@ -9,11 +9,11 @@ from typing import Any
 from semnav_env.features.elements import Rejection
 from semnav_env.features.explain.trace import Trace, ends
 from semnav_env.features.kernels.corners import (
-    APART,
-    ASTRAY,
-    FLAT,
-    NEXT_WALLS,
-    PASSED,
+    ENDS_APART,
+    PARTNER_TRIALS,
+    PLACE_TOO_FAR,
+    TOO_STRAIGHT,
+    WALL_GOES_ON,
     full_corner,
 )
 
@@ -22,9 +22,9 @@ def rejected_corners(trace: Trace) -> Iterator[Rejection]:
     """The end of each wall and the starts of the next ones, as far as they make no corner."""
     count = len(trace.walls)
     for k in range(count):
-        for step in range(1, min(NEXT_WALLS, count - 1) + 1):
+        for step in range(1, min(PARTNER_TRIALS, count - 1) + 1):
             partner = (k + step) % count
-            if (k + step >= count and trace.turn == 0) or _is_joined(trace, k, partner):
+            if (k + step >= count and trace.beams_per_turn == 0) or _is_joined(trace, k, partner):
                 break
             if reason := _reason(trace, k, partner, is_next=step == 1):
                 place = ends(trace.walls[k])[1], ends(trace.walls[partner])[0]
@@ -39,21 +39,21 @@ def _reason(trace: Trace, k: int, partner: int, is_next: bool) -> str:
     """Why two walls make no corner; empty if they are not even neighbours."""
     a, b, settings = trace.walls[k], trace.walls[partner], trace.settings
     fault, _, _ = full_corner(a, b, trace.record)
-    if fault == APART:
+    if fault == ENDS_APART:
         gap, limit = math.dist(ends(a)[1], ends(b)[0]), 2 * settings.corner_gap
         return f"the ends are {gap:.3f} m apart; twice corner_gap is {limit:g}" if is_next else ""
-    if fault == FLAT:
-        turn, limit = math.degrees(_turn(a, b)), math.degrees(settings.corner_angle)
-        if turn > limit:
-            return f"the walls turn by {turn:.1f} degrees; opposite walls do not meet"
-        return f"the walls turn by {turn:.1f} degrees; corner_angle is {limit:g}"
-    if fault == ASTRAY:
+    if fault == TOO_STRAIGHT:
+        angle, limit = math.degrees(_angle_between(a, b)), math.degrees(settings.corner_angle)
+        if angle > limit:
+            return f"the walls turn by {angle:.1f} degrees; opposite walls do not meet"
+        return f"the walls turn by {angle:.1f} degrees; corner_angle is {limit:g}"
+    if fault == PLACE_TOO_FAR:
         return f"the lines meet beyond corner_gap, {settings.corner_gap:g} m, from the ends"
-    if fault == PASSED:
+    if fault == WALL_GOES_ON:
         return f"one goes on behind the other, which ends over {settings.corner_fuse:g} m before it"
     return "an end, or the place, belongs to another corner"
 
 
-def _turn(a: Any, b: Any) -> float:
+def _angle_between(a: Any, b: Any) -> float:
     headings = [math.atan2(piece["along_y"], piece["along_x"]) for piece in (a, b)]
     return abs(math.remainder(headings[1] - headings[0], math.tau))

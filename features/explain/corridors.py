@@ -64,10 +64,10 @@ def _reason(fault: int, entry: Any, settings: ExtractorSettings) -> str:
     near, far = settings.corridor_distance_min, settings.corridor_distance_max
     half = settings.corridor_half_width
     return {
-        kernel.NO_WALL: f"no wall within corridor_probe, {settings.corridor_probe:g} m",
-        kernel.ASKEW: f"the nearest wall is met from behind, or more than "
+        kernel.NO_WALL_MET: f"no wall within corridor_probe, {settings.corridor_probe:g} m",
+        kernel.NOT_SQUARE: f"the nearest wall is met from behind, or more than "
         f"corridor_angle_tolerance, {tolerance:g} degrees, from square",
-        kernel.NARROW: f"{width:.3f} m wide; twice corridor_half_width is {2 * half:g}",
+        kernel.TOO_NARROW: f"{width:.3f} m wide; twice corridor_half_width is {2 * half:g}",
         kernel.TOO_NEAR: f"the middle is {away:.3f} m away; corridor_distance_min is {near:g}",
         kernel.TOO_FAR: f"the middle is {away:.3f} m away; corridor_distance_max is {far:g}",
         kernel.HIDDEN: "no beam passes over the middle",

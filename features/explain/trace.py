@@ -10,8 +10,8 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.kernels.filters import filter_ranges
+from semnav_env.features.kernels.full_circle import count_beams_per_turn
 from semnav_env.features.kernels.layout import PIECES, WALLS
-from semnav_env.features.kernels.ring import beams_of_turn
 from semnav_env.features.kernels.scratch import Features, Scratch
 from semnav_env.features.scan import Scan
 from semnav_env.features.settings import ExtractorSettings
@@ -27,7 +27,7 @@ class Trace:
         increment: angle between beams, radians.
         range_min: shortest valid range, metres.
         limit: returns at or beyond it do not count, metres.
-        turn: beams of a full circle, else 0.
+        beams_per_turn: beams of a full circle, else 0.
         settings: every limit.
         scratch: with `pieces`, `joints`, `wall_piece` and so on.
         features: what was found.
@@ -38,7 +38,7 @@ class Trace:
     increment: float
     range_min: float
     limit: float
-    turn: int
+    beams_per_turn: int
     settings: ExtractorSettings
     scratch: Scratch
     features: Features
@@ -54,15 +54,15 @@ class Trace:
     ) -> Trace:
         """The trace of a scan that was just extracted with these arrays."""
         beams, increment = len(directions), scan.angle_increment
-        turn = beams_of_turn(beams, increment, settings.dropout_beams)
+        beams_per_turn = count_beams_per_turn(beams, increment, settings.dropout_beams)
         limit = min(scan.range_max, settings.rupture_range)
-        if turn > 0:
-            ranges = scratch.ring_ranges[: 2 * turn]
-            directions = scratch.ring_directions[: 2 * turn]
+        if beams_per_turn > 0:
+            ranges = scratch.ring_ranges[: 2 * beams_per_turn]
+            directions = scratch.ring_directions[: 2 * beams_per_turn]
         else:
             given, record = scan.ranges[:beams].copy(), settings.as_record()[0]
             ranges = filter_ranges(given, increment, scan.range_min, limit, 0, record, scratch)
-        found = (turn, settings, scratch, features)
+        found = (beams_per_turn, settings, scratch, features)
         return cls(ranges, directions, increment, scan.range_min, limit, *found)
 
     @cached_property

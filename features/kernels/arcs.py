@@ -1,4 +1,4 @@
-"""Arcs: columns and curved walls, found where straight pieces turn step by step (Yan et al.)."""
+"""Finds arcs (columns and curved walls) where straight pieces bend step by step (Yan et al.)."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.arc_candidates import end_of_run, is_bent_like_arc, may_be_column
 from semnav_env.features.kernels.circles import (
     NO_RAY,
     Ray,
@@ -18,14 +19,15 @@ from semnav_env.features.kernels.circles import (
 )
 from semnav_env.features.kernels.layout import ROUND
 from semnav_env.features.kernels.lines import offset
-from semnav_env.features.kernels.round_runs import end_of_run, is_bowed, is_lonely
 
-NEAR = 3.0
-"""Points within so many standard deviations of a circle may belong to it."""
-EDGE_ERROR = 0.25
+MAX_CIRCLE_DEVIATIONS = 3.0
+"""Largest distance of a point from a circle that it may belong to, in standard deviations."""
+
+EDGE_DEVIATION = 0.25
 """Standard deviation of where a beam ends at an edge, on top of its spacing, in sigma."""
-FINEST = 0.1
-"""Share of sigma below which a fit is not made better by a smaller residual."""
+
+RESIDUAL_FLOOR = 0.1
+"""Residuals below this share of sigma do not make a fit better: it keeps the logarithm finite."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -34,7 +36,7 @@ def find_arcs(
 ) -> int:
     """Write the arcs among the pieces and flag these pieces `ROUND`; returns how many.
 
-    A run of pieces that turn the same way, no more than chords of one circle would, is tried as
+    A run of pieces that bend the same way, no more than chords of one circle would, is tried as
     one arc and otherwise split where it fits worst (Yan et al., section 2).
     """
     found = first = 0
@@ -42,14 +44,14 @@ def find_arcs(
         if scratch.pieces[first].flags & ROUND:
             first += 1
             continue
-        last, turn = end_of_run(first, pieces, settings, scratch.pieces)
+        last, heading_change = end_of_run(first, pieces, settings, scratch.pieces)
         before = found
-        if is_bowed(first, last, turn, settings, scratch):
+        if is_bent_like_arc(first, last, heading_change, settings, scratch):
             found = explain_run(
                 directions, groups, pieces, first, last, settings, scratch, arcs, found
             )
-        ends_one_and_starts_another = last > first and found == before
-        first = last if ends_one_and_starts_another else last + 1
+        starts_another = last > first and found == before
+        first = last if starts_another else last + 1
     return found
 
 
@@ -65,7 +67,11 @@ def explain_run(
     arcs: np.ndarray,
     found: int,
 ) -> int:
-    """Find the arcs in a run of pieces; returns how many arcs there are now."""
+    """Find the arcs in a run of pieces; returns how many arcs there are now.
+
+    The stack holds the last pieces of the parts that are still to be tried, the nearest on top;
+    `start` is the first piece that is not explained yet. A part that is no arc is cut in two.
+    """
     stack = scratch.stack
     stack[0] = last
     start, height = first, 1
@@ -76,7 +82,7 @@ def explain_run(
             start += start <= end
             continue
         worst = 0
-        if end > start or is_lonely(scratch.pieces[start], settings):
+        if end > start or may_be_column(scratch.pieces[start], settings):
             worst = try_arc(directions, groups, count, start, end, settings, scratch, arcs[found])
         if worst >= 0 and end > start:
             stack[height] = piece_before_cut(start, end, worst, scratch.pieces)
@@ -116,10 +122,10 @@ def try_arc(
     xs, ys, pieces = scratch.xs, scratch.ys, scratch.pieces
     first, last = pieces[start].first, pieces[end].last
     circle = algebraic_circle(xs, ys, first, last)
-    start, first = grow(circle, start, first, -1, groups, count, settings, scratch)
-    end, last = grow(circle, end, last, 1, groups, count, settings, scratch)
+    start, first = grow_run(circle, start, first, -1, groups, count, settings, scratch)
+    end, last = grow_run(circle, end, last, 1, groups, count, settings, scratch)
     before = after = NO_RAY
-    if bulges(circle, xs[(first + last) // 2], ys[(first + last) // 2]):
+    if is_convex_at(circle, xs[(first + last) // 2], ys[(first + last) // 2]):
         before = edge_ray(first, -1, directions, groups, settings, scratch)
         after = edge_ray(last, 1, directions, groups, settings, scratch)
     circle = refine_circle(xs, ys, first, last, circle, before, after)
@@ -134,13 +140,13 @@ def try_arc(
 
 
 @njit(cache=True, error_model="numpy")
-def bulges(circle: tuple[float, float, float], x: float, y: float) -> bool:
+def is_convex_at(circle: tuple[float, float, float], x: float, y: float) -> bool:
     """Whether a circle bulges towards the scanner at its point (x, y)."""
     return (circle[0] - x) * x + (circle[1] - y) * y > 0.0
 
 
 @njit(cache=True, error_model="numpy")
-def grow(
+def grow_run(
     circle: tuple[float, float, float],
     piece: int,
     point: int,
@@ -152,8 +158,8 @@ def grow(
 ) -> tuple[int, int]:
     """Add points beside a run, backwards (step -1) or onwards (1), while they lie on the circle.
 
-    It stays in the group of the run, and takes the points of another piece only all together: a
-    curved wall may end in a straight one. One bad point does not end it, two in a row do.
+    It stays in the group of the run, and takes the points of another piece only all together, since
+    a curved wall may end in a straight one. One bad point does not end it, two in a row do.
 
     Returns:
         The outermost piece and the outermost point.
@@ -164,7 +170,7 @@ def grow(
     taken, reached, i, was_on = piece, point, point, True
     while i != border:
         i += step
-        on = is_on(circle, scratch.xs[i], scratch.ys[i], settings)
+        on = is_on_circle(circle, scratch.xs[i], scratch.ys[i], settings)
         if not on and not was_on:
             break
         was_on = on
@@ -181,20 +187,20 @@ def grow(
 
 
 @njit(cache=True, error_model="numpy")
-def is_on(circle: tuple[float, float, float], x: float, y: float, settings: Any) -> bool:
+def is_on_circle(circle: tuple[float, float, float], x: float, y: float, settings: Any) -> bool:
     """Whether a point is as near to a circle as noise lets its points be."""
     distance = math.hypot(x - circle[0], y - circle[1]) - circle[2]
-    return bool(abs(distance) <= NEAR * settings.sigma)
+    return bool(abs(distance) <= MAX_CIRCLE_DEVIATIONS * settings.sigma)
 
 
 @njit(cache=True, error_model="numpy")
 def edge_ray(
     point: int, step: int, directions: FloatArray, groups: int, settings: Any, scratch: Any
 ) -> Ray:
-    """The ray that grazes a column beside its first (step -1) or last point (step 1).
+    """The ray that touches a column beside its first (step -1) or last point (step 1).
 
-    The beam at that point meets the column and the next one passes it, so the ray that touches
-    it lies between them: for thin columns that tells the radius better than the ranges do.
+    The beam at that point meets the column and the next one passes it, so the tangent ray lies
+    between them: for thin columns that tells the radius better than the ranges do.
     `NO_RAY` where the next beam is missing, or ends before the column or on something connected.
     """
     xs, ys, beams = scratch.xs, scratch.ys, scratch.beams
@@ -216,7 +222,9 @@ def edge_ray(
     gap_x = directions[beams[point], 0] - directions[beam, 0]
     gap_y = directions[beams[point], 1] - directions[beam, 1]
     noise = settings.sigma * settings.sigma
-    variance = square * (gap_x * gap_x + gap_y * gap_y) / 12.0 + EDGE_ERROR * EDGE_ERROR * noise
+    variance = (
+        square * (gap_x * gap_x + gap_y * gap_y) / 12.0 + EDGE_DEVIATION * EDGE_DEVIATION * noise
+    )
     return step * y / size, -step * x / size, noise / variance
 
 
@@ -254,7 +262,7 @@ def write_arc(
     arc.start_x, arc.start_y = x + start * (xs[first] - x), y + start * (ys[first] - y)
     arc.end_x, arc.end_y = x + end * (xs[last] - x), y + end * (ys[last] - y)
     middle = (first + last) // 2
-    arc.convex = bulges(circle, xs[middle], ys[middle])
+    arc.convex = is_convex_at(circle, xs[middle], ys[middle])
     arc.points = last - first + 1
     arc.residual = math.sqrt(scatter / arc.points)
     arc.first, arc.last = beams[first], beams[last]
@@ -269,7 +277,7 @@ def is_arc(arc: Any, straight: float, lines: int, settings: Any) -> bool:
     one for each cut between lines. It needs no knowledge of the noise. Only from within a circle
     one sees more than half of it.
     """
-    n, span, finest = arc.points, extent(arc), (FINEST * settings.sigma) ** 2
+    n, span, finest = arc.points, extent(arc), (RESIDUAL_FLOOR * settings.sigma) ** 2
     within = math.hypot(arc.centre_x, arc.centre_y) < arc.radius
     gain = n * math.log((straight / n + finest) / (arc.residual * arc.residual + finest))
     return bool(
@@ -289,6 +297,6 @@ def extent(arc: Any) -> float:
     """Angle that an arc spans about its centre, radians; see `elements.Arc.extent`."""
     ax, ay = arc.start_x - arc.centre_x, arc.start_y - arc.centre_y
     bx, by = arc.end_x - arc.centre_x, arc.end_y - arc.centre_y
-    turn = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
-    turn = -turn if arc.convex else turn
-    return turn if turn >= 0.0 else turn + 2.0 * math.pi
+    heading_change = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
+    heading_change = -heading_change if arc.convex else heading_change
+    return heading_change if heading_change >= 0.0 else heading_change + 2.0 * math.pi

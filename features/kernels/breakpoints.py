@@ -19,7 +19,7 @@ from numba import njit
 
 from semnav_env.features.strategies import BreakpointRule
 
-Reach: TypeAlias = tuple[float, float, float, float]
+ThresholdTerms: TypeAlias = tuple[float, float, float, float]
 """The coefficients (nearer, farther, previous, offset); the offset in metres."""
 
 _CONSTANT = int(BreakpointRule.CONSTANT)
@@ -31,7 +31,7 @@ _WEERAKOON = int(BreakpointRule.WEERAKOON)
 
 
 @njit(cache=True, error_model="numpy")
-def breakpoint_reach(angle: float, settings: Any) -> Reach:
+def breakpoint_terms(angle: float, settings: Any) -> ThresholdTerms:
     """The coefficients of the rule in the settings, for two beams that are `angle` apart."""
     rule = settings.breakpoint_rule
     if rule == _CONSTANT:
@@ -62,13 +62,13 @@ def incidence_factor(angle: float, breakpoint_angle: float) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def constant(settings: Any) -> Reach:
+def constant(settings: Any) -> ThresholdTerms:
     """D = C0: what the papers start from (Weerakoon (3))."""
     return 0.0, 0.0, 0.0, settings.breakpoint_distance
 
 
 @njit(cache=True, error_model="numpy")
-def borges_aldon(angle: float, settings: Any) -> Reach:
+def borges_aldon(angle: float, settings: Any) -> ThresholdTerms:
     """D = r_n sin(da) / sin(lambda - da) + 3 sigma (Weerakoon (5), Barbret (2.3)).
 
     Weerakoon calls sigma a variance and Barbret writes the point P_n-1 for its range; both can
@@ -79,7 +79,7 @@ def borges_aldon(angle: float, settings: Any) -> Reach:
 
 
 @njit(cache=True, error_model="numpy")
-def certad(angle: float, settings: Any) -> Reach:
+def certad(angle: float, settings: Any) -> ThresholdTerms:
     """D = min(r_n, r_n+1) sin(da) / sin(lambda - da) + 3 sigma (Weerakoon (6)).
 
     The worst case of Borges and Aldon seen from either side, the same in both directions.
@@ -89,7 +89,7 @@ def certad(angle: float, settings: Any) -> Reach:
 
 
 @njit(cache=True, error_model="numpy")
-def dietmayer(angle: float, settings: Any) -> Reach:
+def dietmayer(angle: float, settings: Any) -> ThresholdTerms:
     """D = C0 + C1 min(r_n, r_n+1), C1 = sqrt(2 (1 - cos da)) (Weerakoon (7)).
 
     C1 is the chord of da. Weerakoon adds C1 = D(r_n, r_n+1) / r_n, which holds only where both
@@ -99,7 +99,7 @@ def dietmayer(angle: float, settings: Any) -> Reach:
 
 
 @njit(cache=True, error_model="numpy")
-def santos(angle: float, settings: Any) -> Reach:
+def santos(angle: float, settings: Any) -> ThresholdTerms:
     """D = C0 + C1 min(r_n, r_n+1) / (cot(beta) (cos(da / 2) - sin(da / 2))) (Weerakoon (8)).
 
     Beta is how far from square a wall may be met: 90 degrees less lambda. The bracket is kept as
@@ -115,7 +115,7 @@ def santos(angle: float, settings: Any) -> Reach:
 
 
 @njit(cache=True, error_model="numpy")
-def lee(angle: float, settings: Any) -> Reach:
+def lee(angle: float, settings: Any) -> ThresholdTerms:
     """|r_n - r_n+1| / (r_n + r_n+1) <= k (after Weerakoon (9)).
 
     (9) is printed as a threshold for the distance D. That compares metres with a ratio, and cuts
@@ -129,7 +129,7 @@ def lee(angle: float, settings: Any) -> Reach:
 
 
 @njit(cache=True, error_model="numpy")
-def weerakoon(angle: float, settings: Any) -> Reach:
+def weerakoon(angle: float, settings: Any) -> ThresholdTerms:
     """D = min (1 - 3 s) sin(da) / sin(lambda - da) + 3 s max (Weerakoon (12)).
 
     (12) writes sigma for s, but where (5) and (6) add a length, s is a share of the range (the

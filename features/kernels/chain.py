@@ -14,16 +14,16 @@ from semnav_env.features.kernels.corners import find_corners
 from semnav_env.features.kernels.corridor_probes import find_corridors
 from semnav_env.features.kernels.doors import find_doors
 from semnav_env.features.kernels.filters import filter_ranges
-from semnav_env.features.kernels.layout import ARCS, CORNERS, CORRIDORS, DOORS, PIECES, WALLS
-from semnav_env.features.kernels.merging import merge_pieces
-from semnav_env.features.kernels.ring import (
-    beams_of_turn,
+from semnav_env.features.kernels.full_circle import (
     close_seam,
+    count_beams_per_turn,
     find_seam,
+    renumber_beams,
     repeat_pieces,
-    turn_back,
     unroll,
 )
+from semnav_env.features.kernels.layout import ARCS, CORNERS, CORRIDORS, DOORS, PIECES, WALLS
+from semnav_env.features.kernels.merging import merge_pieces
 from semnav_env.features.kernels.robust import refit_robustly
 from semnav_env.features.kernels.scratch import Features
 from semnav_env.features.kernels.segmentation import group_points
@@ -67,19 +67,24 @@ def extract_arrays(
     settings = record[0]
     limit = min(range_max, settings.rupture_range)
     features = Features(walls, doors, corners, corridors, arcs, counts)
-    turn = beams_of_turn(len(ranges), increment, settings.dropout_beams)
+    beams_per_turn = count_beams_per_turn(len(ranges), increment, settings.dropout_beams)
     if settings.veil_angle > 0.0 or settings.median_beams > 0:
-        ranges = filter_ranges(ranges, increment, range_min, limit, turn, settings, scratch)
-    beams = turn if turn > 0 else len(ranges)
+        ranges = filter_ranges(
+            ranges, increment, range_min, limit, beams_per_turn, settings, scratch
+        )
+    beams = beams_per_turn if beams_per_turn > 0 else len(ranges)
     sweep, rays = ranges[:beams], directions[:beams]
     groups, pieces = find_pieces(sweep, rays, increment, range_min, limit, 0, settings, scratch)
     seam, is_break = 0, True
-    if turn > 0:
+    if beams_per_turn > 0:
         seam, is_break = find_seam(pieces, scratch)
-        unroll(ranges, directions, increment, range_min, limit, turn, seam, scratch)
-        sweep, rays = scratch.ring_ranges[: 2 * turn], scratch.ring_directions[: 2 * turn]
+        unroll(ranges, directions, increment, range_min, limit, beams_per_turn, seam, scratch)
+        sweep, rays = (
+            scratch.ring_ranges[: 2 * beams_per_turn],
+            scratch.ring_directions[: 2 * beams_per_turn],
+        )
         groups, pieces = find_pieces(
-            sweep, rays, increment, range_min, limit, turn, settings, scratch
+            sweep, rays, increment, range_min, limit, beams_per_turn, settings, scratch
         )
     if not is_break:
         close_seam(pieces, scratch)
@@ -89,16 +94,16 @@ def extract_arrays(
         increment,
         range_min,
         limit,
-        turn,
+        beams_per_turn,
         groups,
         pieces,
         settings,
         scratch,
         features,
     )
-    if turn > 0:
-        turn_back(walls, counts[WALLS], turn, seam)
-        turn_back(arcs, counts[ARCS], turn, seam)
+    if beams_per_turn > 0:
+        renumber_beams(walls, counts[WALLS], beams_per_turn, seam)
+        renumber_beams(arcs, counts[ARCS], beams_per_turn, seam)
 
 
 @njit(cache=True, error_model="numpy")
@@ -108,21 +113,21 @@ def find_pieces(
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     settings: Any,
     scratch: Any,
 ) -> tuple[int, int]:
-    """Straight pieces of the scan, or of the first `turn` beams of an unrolled circle.
+    """Straight pieces of the scan, or of the first `beams_per_turn` beams of an unrolled circle.
 
     Returns:
         How many groups of points and how many pieces were written to `scratch`.
     """
-    beams = turn if turn > 0 else len(ranges)
+    beams = beams_per_turn if beams_per_turn > 0 else len(ranges)
     _, groups = group_points(
         ranges[:beams], directions, increment, range_min, limit, settings, scratch
     )
     pieces = fit_pieces(groups, settings, scratch)
-    flag_pieces(ranges, range_min, limit, turn, groups, pieces, scratch)
+    flag_pieces(ranges, range_min, limit, beams_per_turn, groups, pieces, scratch)
     return groups, merge_pieces(pieces, settings, scratch)
 
 
@@ -133,7 +138,7 @@ def find_features(
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     groups: int,
     pieces: int,
     settings: Any,
@@ -146,8 +151,8 @@ def find_features(
     if settings.robust_fit:
         refit_robustly(pieces, settings, scratch)
     counts[WALLS] = select_walls(pieces, settings, scratch, features.walls)
-    if turn > 0:
-        pieces = repeat_pieces(pieces, scratch.group_first[groups], turn, scratch)
+    if beams_per_turn > 0:
+        pieces = repeat_pieces(pieces, scratch.group_first[groups], beams_per_turn, scratch)
     counts[PIECES] = pieces
     counts[DOORS] = find_doors(
         ranges,
@@ -155,14 +160,16 @@ def find_features(
         increment,
         range_min,
         limit,
-        turn,
+        beams_per_turn,
         groups,
         pieces,
         settings,
         scratch,
         features.doors,
     )
-    counts[CORNERS] = find_corners(counts[WALLS], turn > 0, settings, scratch, features.corners)
+    counts[CORNERS] = find_corners(
+        counts[WALLS], beams_per_turn > 0, settings, scratch, features.corners
+    )
     counts[CORRIDORS] = find_corridors(
         ranges,
         directions,

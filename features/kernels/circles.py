@@ -8,18 +8,23 @@ from typing import TypeAlias
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.normal_equations import solved
+from semnav_env.features.kernels.normal_equations import solve_step
 
 Ray: TypeAlias = tuple[float, float, float]
-"""A ray that touches a circle: its unit normal towards the centre, and its weight, the variance of
-a range over that of the distance at which the ray passes; with a weight of 0 it says nothing."""
+"""A ray that touches a circle: its unit normal towards the centre (x, y), and its weight.
+
+The weight is the variance of a range over that of the distance at which the ray passes; a ray of
+weight 0 says nothing."""
 
 NO_RAY = (0.0, 0.0, 0.0)
-ROOT_STEPS = 8
-"""Newton's method for the algebraic fit has converged to rounding after so many steps."""
-REFINEMENTS = 2
-"""Gauss-Newton steps; the second still gains a tenth on thin columns, a third nothing."""
-LEAST_COSINE = 0.1
+
+NEWTON_STEPS = 8
+"""Steps of Newton's method for the algebraic fit; after these it has converged to rounding."""
+
+GAUSS_NEWTON_STEPS = 2
+"""Steps of the geometric fit: the second still gains a tenth on thin columns, a third nothing."""
+
+MIN_SQUARED_COSINE = 0.1
 """Added to the squared cosine of the incidence: no point is exact, however grazing its beam."""
 
 
@@ -70,7 +75,7 @@ def taubin_root(xx: float, xy: float, yy: float, xz: float, yz: float, zz: float
     a1 = (zz + 4.0 * determinant - z * z) * z - xz * xz - yz * yz
     a0 = xz * (xz * yy - yz * xy) + yz * (yz * xx - xz * xy) - (zz - z * z) * determinant
     root = 0.0
-    for _ in range(ROOT_STEPS):
+    for _ in range(NEWTON_STEPS):
         root -= (a0 + root * (a1 + root * (a2 + root * a3))) / (
             a1 + root * (2.0 * a2 + root * 3.0 * a3)
         )
@@ -92,7 +97,7 @@ def refine_circle(
     The error of a range lies along its beam, so across the circle it is smaller by the cosine
     of the incidence: a point at the edge of a column tells its width better than one in front.
     """
-    for _ in range(REFINEMENTS):
+    for _ in range(GAUSS_NEWTON_STEPS):
         circle = gauss_newton(xs, ys, first, last, circle, start, end)
     return circle
 
@@ -116,7 +121,7 @@ def gauss_newton(
         ux, uy = dx / size, dy / size
         along = ux * xs[i] + uy * ys[i]
         incidence = along * along / (xs[i] * xs[i] + ys[i] * ys[i])
-        weight = 1.0 / (incidence + LEAST_COSINE)
+        weight = 1.0 / (incidence + MIN_SQUARED_COSINE)
         wx, wy, error = weight * ux, weight * uy, size - radius
         xx += wx * ux
         xy += wx * uy
@@ -138,7 +143,7 @@ def gauss_newton(
         bx += weight * nx * error
         by += weight * ny * error
         br -= weight * error
-    return solved((x, y, radius), (xx, xy, yy, xr, yr, rr), (bx, by, br))
+    return solve_step((x, y, radius), (xx, xy, yy, xr, yr, rr), (bx, by, br))
 
 
 @njit(cache=True, error_model="numpy")

@@ -1,4 +1,4 @@
-"""Corners: where two walls meet, and where a wall may turn out of sight."""
+"""Finds corners: where two walls meet, and where a wall may bend out of sight."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from semnav_env.features.elements import CornerKind
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
 
-OUTER, INNER, POTENTIAL = 0, 1, 2
+OUTER, INNER, POTENTIAL = int(CornerKind.OUTER), int(CornerKind.INNER), int(CornerKind.POTENTIAL)
 
-APART, FLAT, ASTRAY, PASSED = -1, -2, -3, -4
-"""Why two walls make no corner: their ends are too far from each other, they turn too little, their
-lines meet too far from the ends, or one goes on behind the other's end."""
+ENDS_APART, TOO_STRAIGHT, PLACE_TOO_FAR, WALL_GOES_ON = -1, -2, -3, -4
+"""Why two walls make no corner: their ends are too far from each other, the angle between them is
+too small, their lines meet too far from the ends, or one goes on behind the other's end."""
 
-NEXT_WALLS = 3
-"""So many walls after a wall are tried as the other side of its corner: an occluder or a stub may
-stand between the two."""
+PARTNER_TRIALS = 3
+"""Walls after a wall that are tried as the other side of its corner: a stub, or something in front
+of the corner, may come first."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -72,7 +73,7 @@ def join_ends(count: int, is_ring: bool, settings: Any, scratch: Any) -> None:
     joints = scratch.joints
     for k in range(count):
         joints[k].partner, joints[k].start_meets = -1, 0
-    for step in range(1, min(NEXT_WALLS, count - 1) + 1):
+    for step in range(1, min(PARTNER_TRIALS, count - 1) + 1):
         for k in range(count if is_ring else count - step):
             partner = k + step if k + step < count else k + step - count
             if joints[k].partner >= 0 or joints[partner].start_meets:
@@ -106,30 +107,32 @@ def full_corner(a: Any, b: Any, settings: Any) -> tuple[int, float, float]:
     """Kind and place of the corner where one wall ends and a later one starts.
 
     The place is the intersection of the lines (Barbret section 6.2.1), which must be near the
-    end of the first and the start of the second; the ends must be near each other and the turn
-    large enough (Weerakoon et al., section II D). Both walls have the scanner on their left, so a
-    left turn is a corner that points away from it (outer) and a right turn one that points at it
-    (inner): what Barbret (3.1) decides by distances. A wall that is seen to go on past the place,
-    while the other ends before it, is behind the other; the beams between pass to it.
+    end of the first and the start of the second; the ends must be near each other and the angle
+    between the walls large enough (Weerakoon et al., section II D). Both walls have the scanner on
+    their left. So where the second bends to the left, the corner points away from the scanner
+    (outer), and where it bends to the right, at the scanner (inner): what Barbret (3.1) decides by
+    distances. A wall that is seen to go on past the place, while the other ends before it, lies
+    behind the other; the beams between them pass to it.
 
     Returns:
-        The kind, or `APART`, `FLAT`, `ASTRAY` or `PASSED` if there is none, and the place.
+        The kind and the place; without a corner one of `ENDS_APART`, `TOO_STRAIGHT`,
+        `PLACE_TOO_FAR` and `WALL_GOES_ON` in place of the kind.
     """
     gap_x, gap_y = b.start_x - a.end_x, b.start_y - a.end_y
     reach = settings.corner_gap
     if gap_x * gap_x + gap_y * gap_y > 4.0 * reach * reach:
-        return APART, 0.0, 0.0
+        return ENDS_APART, 0.0, 0.0
     sine = a.along_x * b.along_y - a.along_y * b.along_x
     cosine = a.along_x * b.along_x + a.along_y * b.along_y
     if math.atan2(abs(sine), cosine) < settings.corner_angle or abs(sine) < 1e-3:
-        return FLAT, 0.0, 0.0
+        return TOO_STRAIGHT, 0.0, 0.0
     past_a = (gap_x * b.along_y - gap_y * b.along_x) / sine
     past_b = (gap_x * a.along_y - gap_y * a.along_x) / sine
     if abs(past_a) > reach or abs(past_b) > reach:
-        return ASTRAY, 0.0, 0.0
+        return PLACE_TOO_FAR, 0.0, 0.0
     beyond, short = settings.confidence * settings.sigma, settings.corner_fuse
     if (past_a < -beyond and past_b < -short) or (past_b > beyond and past_a > short):
-        return PASSED, 0.0, 0.0
+        return WALL_GOES_ON, 0.0, 0.0
     kind = OUTER if sine > 0.0 else INNER
     return kind, a.end_x + past_a * a.along_x, a.end_y + past_a * a.along_y
 

@@ -12,13 +12,13 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.corners import INNER, OUTER
 from semnav_env.features.kernels.segmentation import is_return
 
-NO_WALL, ASKEW, NARROW, TOO_NEAR, TOO_FAR, HIDDEN, REPEATED = 1, 2, 3, 4, 5, 6, 7
-"""Why a probe is no corridor."""
+NO_WALL_MET, NOT_SQUARE, TOO_NARROW, TOO_NEAR, TOO_FAR, HIDDEN, REPEATED = range(1, 8)
+"""Why a probe finds no corridor; 0 stands for no fault."""
 
-END_ON = 0.1
-"""Sine of the angle below which a probe passes along a wall instead of meeting it."""
+MIN_FACING_SINE = 0.1
+"""Sine of the angle between probe and wall below which the probe passes along it."""
 
-ROUNDING = 1e-6
+ROUNDING_MARGIN = 1e-6
 """More than rounding can add to a distance, metres."""
 
 
@@ -101,7 +101,7 @@ def find_near_walls(
 
     The two walls at the corner are not among them.
     """
-    reach = settings.corridor_probe + settings.corridor_wall_slack + ROUNDING
+    reach = settings.corridor_probe + settings.corridor_wall_slack + ROUNDING_MARGIN
     near = 0
     for k in range(walls):
         wall = scratch.pieces[scratch.wall_piece[k]]
@@ -125,10 +125,10 @@ def nearest_wall(
     settings: Any,
     scratch: Any,
 ) -> float:
-    """Distance along a probe to the first of the `near` walls that it meets.
+    """Distance along a probe to the first of the `near` walls that it meets, metres.
 
-    -`NO_WALL` if it meets none, and -`ASKEW` if it meets that wall from behind or too far from
-    square.
+    The negative of `NO_WALL_MET` if it meets none, and that of `NOT_SQUARE` if it meets that wall
+    from behind or too far from square.
     """
     nearest = settings.corridor_probe
     is_any = met = False
@@ -141,22 +141,26 @@ def nearest_wall(
         place = place if facing > 0.0 else -place
         slack = settings.corridor_wall_slack if tilt >= square else 0.0
         reach = (dy * wall.along_x - dx * wall.along_y) / facing
-        hit = (tilt >= END_ON) & (place >= -slack * tilt) & (place <= (wall.length + slack) * tilt)
+        hit = (
+            (tilt >= MIN_FACING_SINE)
+            & (place >= -slack * tilt)
+            & (place <= (wall.length + slack) * tilt)
+        )
         if hit & (reach > 0.0) & (reach <= nearest):  # one branch: they are hard to predict
             nearest = reach
             is_any, met = True, facing <= -square
     if met:
         return float(nearest)
-    return float(-ASKEW if is_any else -NO_WALL)
+    return float(-NOT_SQUARE if is_any else -NO_WALL_MET)
 
 
 @njit(cache=True, error_model="numpy")
 def corridor_fault(entry: Any, settings: Any) -> int:
-    """`NARROW`, or `TOO_NEAR` or `TOO_FAR` for where its midpoint is; 0 if nothing is wrong."""
+    """`TOO_NARROW`, or `TOO_NEAR` or `TOO_FAR` for where its midpoint is; 0 if nothing is wrong."""
     width = math.hypot(entry.end_x - entry.start_x, entry.end_y - entry.start_y)
     away = 0.5 * math.hypot(entry.start_x + entry.end_x, entry.start_y + entry.end_y)
     if width < 2.0 * settings.corridor_half_width:
-        return NARROW
+        return TOO_NARROW
     if away < settings.corridor_distance_min:
         return TOO_NEAR
     return TOO_FAR if away > settings.corridor_distance_max else 0

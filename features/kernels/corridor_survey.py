@@ -14,52 +14,55 @@ from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.heading import prevailing_heading
-from semnav_env.features.kernels.narrow_places import is_narrow_place
-from semnav_env.features.kernels.probing import (
-    BEHIND,
-    DOORWAY,
-    REACH,
-    SPACING,
+from semnav_env.features.kernels.corridor_rays import (
+    DOORWAY_DEPTH,
+    MAX_SIDE_DISTANCE,
+    PROBE_SPACING,
+    PROBED_BEHIND,
     farthest_way,
     in_frame,
     probe,
     shift,
-    usual_distances,
+    typical_distances,
     way_ahead,
     way_back,
 )
+from semnav_env.features.kernels.heading import prevailing_heading
+from semnav_env.features.kernels.narrowings import is_narrowing
 
-AHEAD = 40.0
+PROBED_AHEAD = 40.0
 """How far ahead of the robot the sides are probed, metres."""
 
-PROBES = round((BEHIND + AHEAD) / SPACING) + 1
-"""How many probes a side has."""
+PROBE_COUNT = round((PROBED_BEHIND + PROBED_AHEAD) / PROBE_SPACING) + 1
+"""Number of probes of a side."""
 
-RECESS = 1.5
-"""A side may step back this far and still be the side, metres; farther is an opening or a gap."""
+MAX_SIDE_STEP = 1.5
+"""Farthest that a side may step back and still be the side, metres; more is an opening or a gap."""
 
-LEVEL = 0.05
-"""A side that steps back by less from one probe to the next runs on, metres."""
+MAX_LEVEL_STEP = 0.05
+"""A side runs on if it steps back by less than this from one probe to the next, metres."""
 
-RECENT = 2.0
-"""A side steps back from where it lay in this stretch before, metres."""
+RECENT_LENGTH = 2.0
+"""Whether a side steps back is judged by where it lay on this length before, metres."""
 
-OPENING_WIDTH = 1.35
-"""Where a side steps back for longer than this it may be an opening, metres; shorter, a doorway."""
+MIN_OPENING_WIDTH = 1.35
+"""Least length for which a side steps back at an opening, metres; a doorway is shorter."""
 
-NARROW_OPENING = 1.25
-"""Shorter than that but longer than this it is one if walls lead out of both edges, metres."""
+MIN_EDGED_OPENING_WIDTH = 1.25
+"""Least length of an opening from both of whose edges walls lead out, metres."""
 
-LEAF = 1.2
-"""Longer than any door leaf, metres: so far a wall leads out at an edge of an opening."""
+MAX_LEAF_LENGTH = 1.2
+"""A wall must lead out this far at an edge of an opening, metres: farther than any door leaf."""
+
+EDGE_START, EDGE_TOLERANCE = 0.6, 0.25
+"""A wall that leads out of an opening begins at most this far behind the side, and lies at most
+that far from the edge along the axis, metres."""
 
 MAX_OPENINGS = 32
 """More openings along a corridor are left out."""
 
-
 Frame: TypeAlias = tuple[float, float, float]
-"""Of an axis or a robot: x, y of its origin and its heading, metres and radians."""
+"""Pose of an axis or a robot: x, y in metres and heading in radians."""
 
 
 @njit(cache=True)
@@ -94,19 +97,19 @@ def survey(
     offset, straight = way_ahead(local)
     shift(local, offset)
     back = way_back(local)
-    left, right = usual_distances(local, back, straight)
-    if left < REACH and right < REACH:
+    left, right = typical_distances(local, back, straight)
+    if left < MAX_SIDE_DISTANCE and right < MAX_SIDE_DISTANCE:
         centre = 0.5 * (left - right)
         offset += centre
         shift(local, centre)
-        left, right = usual_distances(local, back, straight)
+        left, right = typical_distances(local, back, straight)
     x, y = x - math.sin(heading) * offset, y + math.cos(heading) * offset
     end = farthest_way(local, left, right)
     openings = np.empty((MAX_OPENINGS, 4))
-    sides = np.empty((2, PROBES))
+    sides = np.empty((2, PROBE_COUNT))
     count = 0
     for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
-        raw, side = probe(local, sign, back, PROBES), sides[row]
+        raw, side = probe(local, sign, back, PROBE_COUNT), sides[row]
         count = _follow(raw, local, sign, usual, (back, end), side, openings, count)
     return (x, y, heading), 0.5 * (left + right), end, sides, openings[:count]
 
@@ -130,7 +133,7 @@ def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
     along = ((x - door[0]) * dx + (y - door[1]) * dy) / length
     beside = ((x - door[0]) * dy - (y - door[1]) * dx) / length
     across = abs(math.cos(heading) * dx + math.sin(heading) * dy) < math.sqrt(0.5) * length
-    return bool(across and 0.0 < along < length and abs(beside) < DOORWAY)
+    return bool(across and 0.0 < along < length and abs(beside) < DOORWAY_DEPTH)
 
 
 @njit(cache=True)
@@ -146,7 +149,7 @@ def _solid(
         if stands_in(doors[i], *pose):
             continue
         doubtful = not certain[i] and _is_across(doors[i], pose[2])
-        if doubtful and is_narrow_place(doors[i], known):
+        if doubtful and is_narrowing(doors[i], known):
             continue
         solid[count] = doors[i]
         count += 1
@@ -190,13 +193,17 @@ def _follow(
     """
     back, end = stretch
     side[:] = np.inf
-    last = PROBES if math.isinf(end) else min(PROBES, int((end + BEHIND) / SPACING) + 1)
+    last = (
+        PROBE_COUNT
+        if math.isinf(end)
+        else min(PROBE_COUNT, int((end + PROBED_BEHIND) / PROBE_SPACING) + 1)
+    )
     first, reference = -1, usual
-    for k in range(max(0, math.ceil((BEHIND - back) / SPACING)), last):
-        level = k > 0 and side[k - 1] < np.inf and raw[k] < side[k - 1] + LEVEL
+    for k in range(max(0, math.ceil((PROBED_BEHIND - back) / PROBE_SPACING)), last):
+        level = k > 0 and side[k - 1] < np.inf and raw[k] < side[k - 1] + MAX_LEVEL_STEP
         if first < 0 and not level:
             reference = _recent(side, k, usual)
-        if level or raw[k] <= reference + RECESS:
+        if level or raw[k] <= reference + MAX_SIDE_STEP:
             if first >= 0:
                 count = _note_opening(solid, sign, first, k, reference, openings, count)
             first = -1
@@ -215,7 +222,7 @@ def _recent(side: FloatArray, k: int, usual: float) -> float:
     That is the upper quartile: furniture stands before a side, and where an opening begins a few
     probes may meet the wall that leads out.
     """
-    lately = side[max(0, k - round(RECENT / SPACING)) : k]
+    lately = side[max(0, k - round(RECENT_LENGTH / PROBE_SPACING)) : k]
     seen = np.sort(lately[np.isfinite(lately)])
     return seen[3 * (len(seen) - 1) // 4] if len(seen) > 0 else usual
 
@@ -231,14 +238,14 @@ def _note_opening(
     count: int,
 ) -> int:
     """Note the probes [first, last) as an opening, if wide and walls lead out of its edges."""
-    near = (first - 0.5) * SPACING - BEHIND
-    far = (last - 0.5) * SPACING - BEHIND
-    if far - near < NARROW_OPENING or count == len(openings):
+    near = (first - 0.5) * PROBE_SPACING - PROBED_BEHIND
+    far = (last - 0.5) * PROBE_SPACING - PROBED_BEHIND
+    if far - near < MIN_EDGED_OPENING_WIDTH or count == len(openings):
         return count
     leading = 0
     for edge in (near, far):
         leading += _leads_out(solid, sign, edge, offset)
-    if leading < (1 if far - near >= OPENING_WIDTH else 2):
+    if leading < (1 if far - near >= MIN_OPENING_WIDTH else 2):
         return count
     openings[count] = max(sign, 0.0), near, far, offset
     return count + 1
@@ -254,7 +261,7 @@ def _leads_out(solid: FloatArray, sign: float, edge: float, offset: float) -> bo
         x1, y1, x2, y2 = solid[i, 0], sign * solid[i, 1], solid[i, 2], sign * solid[i, 3]
         if y2 < y1:
             x1, y1, x2, y2 = x2, y2, x1, y1
-        if not (y2 - y1 > abs(x2 - x1) and y1 < offset + 0.6 and y2 > offset + LEAF):
+        if not (y2 - y1 > abs(x2 - x1) and y1 < offset + 0.6 and y2 > offset + MAX_LEAF_LENGTH):
             continue
         beside = x1 + (x2 - x1) * max(0.0, offset - y1) / (y2 - y1)
         if abs(beside - edge) < 0.25:

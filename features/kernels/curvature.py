@@ -10,13 +10,13 @@ from numba import njit
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.lines import split_further
 
-LEAST_TURN = math.radians(20.0)
-"""A point where the arms turn by less is no corner."""
+MIN_TURN = math.radians(20.0)
+"""Least angle by which the arms turn at a corner, radians."""
 
-DEVIATIONS = 3.0
-"""Nor is one where they turn by fewer standard deviations than that."""
+MIN_TURN_DEVIATIONS = 3.0
+"""Least angle by which they turn, in standard deviations of that angle."""
 
-FORWARD, BACK, AHEAD, BEHIND, CURVATURE, NEEDED = range(6)
+NEXT_STEP, PREVIOUS_STEP, ARM_AHEAD, ARM_BEHIND, CURVATURE, MIN_CURVATURE = range(6)
 """Columns of the table: the points one step on and one step back, the ends of the two arms, the
 curvature, and that of the least turn which counts."""
 
@@ -47,13 +47,13 @@ def cut_where_it_turns(
     """
     table, limit = scratch.table, settings.split_distance
     for i in range(first, last + 1):
-        table[i - first, FORWARD] = step_from(xs, ys, i, last, 1, limit)
-        table[i - first, BACK] = step_from(xs, ys, i, first, -1, limit)
+        table[i - first, NEXT_STEP] = step_from(xs, ys, i, last, 1, limit)
+        table[i - first, PREVIOUS_STEP] = step_from(xs, ys, i, first, -1, limit)
     for i in range(first, last + 1):
-        table[i - first, AHEAD] = arm_from(xs, ys, first, i, FORWARD, limit, table)
-        table[i - first, BEHIND] = arm_from(xs, ys, first, i, BACK, limit, table)
+        table[i - first, ARM_AHEAD] = arm_from(xs, ys, first, i, NEXT_STEP, limit, table)
+        table[i - first, ARM_BEHIND] = arm_from(xs, ys, first, i, PREVIOUS_STEP, limit, table)
     for i in range(first, last + 1):
-        bend(xs, ys, first, i, settings, table)
+        write_curvature(xs, ys, first, i, settings, table)
     corners = find_peaks(first, last, table, scratch.vertices)
     corners = drop_shoulders(first, corners, table, scratch.vertices)
     for k in range(corners):
@@ -88,7 +88,7 @@ def arm_from(
 
 
 @njit(cache=True, error_model="numpy")
-def bend(
+def write_curvature(
     xs: FloatArray, ys: FloatArray, first: int, i: int, settings: Any, table: FloatArray
 ) -> None:
     """Write the curvature at point i and how much is needed there.
@@ -97,17 +97,17 @@ def bend(
     the deviation sigma sqrt(1/a^2 + 1/b^2 + (1/a + 1/b)^2). An arm that is no step long, at the
     end of a group, says nothing.
     """
-    ahead, behind = int(table[i - first, AHEAD]), int(table[i - first, BEHIND])
+    ahead, behind = int(table[i - first, ARM_AHEAD]), int(table[i - first, ARM_BEHIND])
     ax, ay = xs[ahead] - xs[i], ys[ahead] - ys[i]
     bx, by = xs[behind] - xs[i], ys[behind] - ys[i]
     a, b = math.hypot(ax, ay), math.hypot(bx, by)
-    table[i - first, CURVATURE], table[i - first, NEEDED] = 0.0, 1.0
+    table[i - first, CURVATURE], table[i - first, MIN_CURVATURE] = 0.0, 1.0
     if min(a, b) < settings.split_distance:
         return
     noise = math.sqrt(1.0 / (a * a) + 1.0 / (b * b) + (1.0 / a + 1.0 / b) ** 2)
-    least = max(LEAST_TURN, min(DEVIATIONS * settings.sigma * noise, math.pi))
+    least = max(MIN_TURN, min(MIN_TURN_DEVIATIONS * settings.sigma * noise, math.pi))
     table[i - first, CURVATURE] = 1.0 + (ax * bx + ay * by) / (a * b)
-    table[i - first, NEEDED] = 1.0 - math.cos(least)
+    table[i - first, MIN_CURVATURE] = 1.0 - math.cos(least)
 
 
 @njit(cache=True, error_model="numpy")
@@ -118,7 +118,7 @@ def find_peaks(first: int, last: int, table: FloatArray, peaks: Any) -> int:
     """
     count, inside = 0, False
     for i in range(first + 1, last):
-        curvature, needed = table[i - first, CURVATURE], table[i - first, NEEDED]
+        curvature, needed = table[i - first, CURVATURE], table[i - first, MIN_CURVATURE]
         if curvature < 0.5 * needed:
             inside = False
         elif not inside and curvature >= needed:
@@ -141,9 +141,9 @@ def drop_shoulders(first: int, count: int, table: FloatArray, peaks: Any) -> int
         peak = peaks[k]
         after = peaks[k + 1] if k + 1 < count else -1
         curvature = table[peak - first, CURVATURE]
-        is_shoulder = before >= table[peak - first, BEHIND] and before >= 0
+        is_shoulder = before >= table[peak - first, ARM_BEHIND] and before >= 0
         is_shoulder = is_shoulder and table[before - first, CURVATURE] > curvature
-        if not is_shoulder and 0 <= after <= table[peak - first, AHEAD]:
+        if not is_shoulder and 0 <= after <= table[peak - first, ARM_AHEAD]:
             is_shoulder = table[after - first, CURVATURE] > curvature
         before = peak
         peaks[kept] = peak

@@ -8,8 +8,8 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.curvature import cut_where_it_turns
-from semnav_env.features.kernels.dynamic import PIECE_PRICE, partition
 from semnav_env.features.kernels.lines import split
+from semnav_env.features.kernels.optimal_partition import PIECE_PRICE, partition
 from semnav_env.features.strategies import Segmentation
 
 _DYNAMIC = int(Segmentation.DYNAMIC)

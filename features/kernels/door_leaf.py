@@ -9,12 +9,14 @@ from numba import njit
 
 from semnav_env.features.kernels.layout import AT_END, AT_START, NO_LEAF
 
-HINGE = 0.12
-"""A leaf ends this near to its jamb, metres."""
-SHORTEST, LONGEST = 0.5, 1.15
-"""Length of what counts as a leaf, in widths of the opening: a part of it may be hidden."""
-NARROWEST = math.radians(20.0)
-"""Least angle of a leaf to the wall and to the closed door: less is no leaf but wall."""
+MAX_HINGE_GAP = 0.12
+"""Largest distance from an end of a leaf to the jamb that it hangs on, metres."""
+
+MIN_LENGTH_RATIO, MAX_LENGTH_RATIO = 0.5, 1.15
+"""Length of a leaf, in widths of the opening: a part of it may be hidden."""
+
+MIN_LEAF_ANGLE = math.radians(20.0)
+"""Least angle of a leaf to the wall and to the closed door, radians: what is flatter is wall."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -25,10 +27,10 @@ def find_leaf(gap: Any, pieces: int, scratch: Any) -> tuple[int, float]:
         `AT_START` or `AT_END` and radians, positive away from the scanner; `NO_LEAF` and 0 if
         no leaf is seen.
     """
-    hinge, angle, nearest = NO_LEAF, 0.0, HINGE
+    hinge, angle, nearest = NO_LEAF, 0.0, MAX_HINGE_GAP
     for k in range(pieces):
         piece = scratch.pieces[k]
-        if not SHORTEST * gap.width <= piece.length <= LONGEST * gap.width:
+        if not MIN_LENGTH_RATIO * gap.width <= piece.length <= MAX_LENGTH_RATIO * gap.width:
             continue
         for end in range(4):
             first, at_start = end % 2 == 0, end < 2
@@ -36,9 +38,12 @@ def find_leaf(gap: Any, pieces: int, scratch: Any) -> tuple[int, float]:
             jamb_x = gap.start_x if at_start else gap.end_x
             jamb_y = gap.start_y if at_start else gap.end_y
             distance = math.hypot(x - jamb_x, y - jamb_y)
-            turn = leaf_angle(gap, piece, first, at_start)
-            if distance < nearest and NARROWEST <= abs(turn) <= math.pi - NARROWEST:
-                hinge, angle, nearest = AT_START if at_start else AT_END, turn, distance
+            leaf_to_door = leaf_angle(gap, piece, first, at_start)
+            if (
+                distance < nearest
+                and MIN_LEAF_ANGLE <= abs(leaf_to_door) <= math.pi - MIN_LEAF_ANGLE
+            ):
+                hinge, angle, nearest = AT_START if at_start else AT_END, leaf_to_door, distance
     return hinge, angle
 
 

@@ -13,9 +13,12 @@ from semnav_env.features.kernels.door_evidence import measure_gap, measure_place
 from semnav_env.features.kernels.door_leaf import find_leaf
 from semnav_env.features.kernels.evidence_layout import BIAS_ROW, OFFSET_ROW, OUTPUT_ROW
 
-OPEN, KEPT, SUPPRESSED = 0, 1, 2
-LONGEST_SPACING = 0.3
-"""Metres; a jamb seen at a grazing angle is still taken to lie this close to the last point."""
+UNDECIDED, KEPT, SUPPRESSED = range(3)
+"""Values of a candidate's `state`."""
+
+MAX_BEAM_SPACING = 0.3
+"""Largest distance between neighbouring hits beside a jamb, metres. At a grazing angle hits are
+farther apart, but the jamb is still taken to lie this close to the last point."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -25,7 +28,7 @@ def find_doors(
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     groups: int,
     pieces: int,
     settings: Any,
@@ -34,7 +37,16 @@ def find_doors(
 ) -> int:
     """Every pair of jambs, scored; overlapping finds reduced to the best. Returns how many."""
     found = find_candidates(
-        ranges, directions, increment, range_min, limit, turn, groups, pieces, settings, scratch
+        ranges,
+        directions,
+        increment,
+        range_min,
+        limit,
+        beams_per_turn,
+        groups,
+        pieces,
+        settings,
+        scratch,
     )
     return keep_best(found, pieces, settings, scratch, doors)
 
@@ -46,7 +58,7 @@ def find_candidates(
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     groups: int,
     pieces: int,
     settings: Any,
@@ -55,7 +67,7 @@ def find_candidates(
     """Gaps that can be doors, with their evidence and score; returns how many."""
     starts, ends = find_jambs(groups, pieces, scratch)
     along_x, along_y, length = longest_wall(pieces, scratch)
-    widest = settings.door_width_max + settings.door_width_tolerance + 2.0 * LONGEST_SPACING
+    widest = settings.door_width_max + settings.door_width_tolerance + 2.0 * MAX_BEAM_SPACING
     found = low = 0
     for i in range(starts):
         start = scratch.start_jambs[i]
@@ -72,7 +84,16 @@ def find_candidates(
             if not measure_gap(ranges, directions, range_min, limit, gap, settings, evidence):
                 continue
             measure_walls(
-                ranges, directions, range_min, limit, turn, gap, pieces, settings, scratch, evidence
+                ranges,
+                directions,
+                range_min,
+                limit,
+                beams_per_turn,
+                gap,
+                pieces,
+                settings,
+                scratch,
+                evidence,
             )
             measure_place(gap, along_x, along_y, length, evidence)
             numbers = scratch.evidence[found : found + 1].view(np.float64)
@@ -203,7 +224,7 @@ def set_gap(start: Any, end: Any, increment: float, settings: Any, gap: Any) -> 
     square = x * x + y * y
     widest = settings.door_width_max + settings.door_width_tolerance
     narrowest = settings.door_width_min - settings.door_width_tolerance
-    if not (square >= narrowest**2) & (square <= (widest + 2.0 * LONGEST_SPACING) ** 2):
+    if not (square >= narrowest**2) & (square <= (widest + 2.0 * MAX_BEAM_SPACING) ** 2):
         return False
     width = math.sqrt(square)
     x, y = x / width, y / width
@@ -223,8 +244,8 @@ def set_gap(start: Any, end: Any, increment: float, settings: Any, gap: Any) -> 
 def beam_spacing(jamb: Any, distance: float, increment: float) -> float:
     """Distance between the hits of neighbouring beams near a jamb on the chord's line, metres."""
     square = jamb.x * jamb.x + jamb.y * jamb.y
-    if square * increment >= distance * LONGEST_SPACING:
-        return LONGEST_SPACING
+    if square * increment >= distance * MAX_BEAM_SPACING:
+        return MAX_BEAM_SPACING
     return float(square * increment / distance)
 
 
@@ -237,11 +258,11 @@ def keep_best(found: int, pieces: int, settings: Any, scratch: Any, doors: np.nd
     """
     candidates = scratch.candidates
     for i in range(found):
-        candidates[i].state = OPEN
+        candidates[i].state = UNDECIDED
     while True:
         best = -1
         for i in range(found):
-            if candidates[i].state == OPEN and (
+            if candidates[i].state == UNDECIDED and (
                 best < 0 or candidates[i].confidence > candidates[best].confidence
             ):
                 best = i
@@ -265,7 +286,7 @@ def suppress_near(candidates: np.ndarray, found: int, best: int, nearest: float)
         other = candidates[i]
         dx = chosen.start_x + chosen.end_x - other.start_x - other.end_x
         dy = chosen.start_y + chosen.end_y - other.start_y - other.end_y
-        if other.state == OPEN and dx * dx + dy * dy < (2.0 * nearest) ** 2:
+        if other.state == UNDECIDED and dx * dx + dy * dy < (2.0 * nearest) ** 2:
             other.state = SUPPRESSED
 
 

@@ -13,32 +13,33 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.normal_equations import solved
+from semnav_env.features.kernels.normal_equations import solve_step
 
-KNOWN_HITS = 5
-"""A remembered wall tells where the robot is once it was seen so often."""
+MIN_LANDMARK_SIGHTINGS = 5
+"""A remembered wall tells where the robot is once it was seen this often."""
 
-OVERLAP, MOST_OVERLAP = 0.4, 3.0
-"""Walls are compared where both are, if that is so long; longer than the second, metres, weighs no
-more."""
+MIN_OVERLAP, MAX_WEIGHING_OVERLAP = 0.4, 3.0
+"""Two walls are compared where both are, if that stretch is this long; what exceeds the second
+length adds no weight, metres."""
 
-BESIDE = 0.3
-"""Walls farther than this beside each other are two walls, metres."""
+MAX_LANDMARK_OFFSET = 0.3
+"""Two walls that lie farther than this beside each other are not the same wall, metres."""
 
-SLANT = math.cos(math.radians(10.0))
-"""Cosine of the angle from which on they are two as well."""
+MIN_PARALLEL_COSINE = math.cos(math.radians(10.0))
+"""Cosine of the largest angle between two sightings of the same wall."""
 
-ROUGH = 0.05
+WALL_DEVIATION = 0.05
 """Standard deviation of the distance between two sightings of a metre of wall, metres."""
 
-OUTLIER = 0.1
-"""What lies farther off than this counts less, metres."""
+OUTLIER_DISTANCE = 0.1
+"""Distance at which the weight of a sighting has fallen to one half, metres."""
 
-SHIFT, TURN = 0.01, 0.004
+DRIFT_DEVIATION, DRIFT_ANGLE_DEVIATION = 0.01, 0.004
 """Standard deviations of the drift from one scan to the next, metres and radians."""
 
 XX, XY, YY, XR, YR, RR, BX, BY, BR = range(9)
-"""Entries of the normal equations, as `solved` has them."""
+"""Entries of the normal equations: matrix and right-hand side for x, y and rotation, in the order
+in which `solve_step` takes them."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -61,14 +62,14 @@ def without_drift(walls: FloatArray, known: Any, pose: Pose) -> Pose:
         The corrected pose.
     """
     sums = np.zeros(9)
-    sums[XX] = sums[YY] = 1.0 / SHIFT**2
-    sums[RR] = 1.0 / TURN**2
+    sums[XX] = sums[YY] = 1.0 / DRIFT_DEVIATION**2
+    sums[RR] = 1.0 / DRIFT_ANGLE_DEVIATION**2
     for i in range(len(walls)):
         like, begin, end = _nearest_like(walls[i], known)
         if like >= 0:
             _add(walls[i], begin, end, known[like], pose, sums)
     xx, xy, yy, xr, yr, rr, bx, by, br = sums
-    return solved(pose, (xx, xy, yy, xr, yr, rr), (bx, by, br))
+    return solve_step(pose, (xx, xy, yy, xr, yr, rr), (bx, by, br))
 
 
 @njit(cache=True, error_model="numpy")
@@ -80,20 +81,20 @@ def _nearest_like(wall: FloatArray, known: Any) -> tuple[int, float, float]:
     """
     x1, y1, x2, y2 = wall
     ux, uy = x2 - x1, y2 - y1
-    nearest, like, begin, end = BESIDE, -1, 0.0, 0.0
+    nearest, like, begin, end = MAX_LANDMARK_OFFSET, -1, 0.0, 0.0
     for k in range(len(known)):
         old = known[k]
         dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
         dot, square = ux * dx + uy * dy, dx * dx + dy * dy
-        if dot < 0.0 or dot * dot < SLANT**2 * (ux * ux + uy * uy) * square:
+        if dot < 0.0 or dot * dot < MIN_PARALLEL_COSINE**2 * (ux * ux + uy * uy) * square:
             continue
-        if old.hits < KNOWN_HITS:
+        if old.hits < MIN_LANDMARK_SIGHTINGS:
             continue
         length = math.sqrt(square)
         first = ((x1 - old.start_x) * dx + (y1 - old.start_y) * dy) / length
         last = ((x2 - old.start_x) * dx + (y2 - old.start_y) * dy) / length
         low, high = max(first, 0.0), min(last, length)
-        if high - low < OVERLAP:
+        if high - low < MIN_OVERLAP:
             continue
         low, high = (low - first) / (last - first), (high - first) / (last - first)
         middle = 0.5 * (low + high)
@@ -115,12 +116,12 @@ def _add(
     length = math.sqrt(dx * dx + dy * dy)
     nx, ny = -dy / length, dx / length
     shared = (end - begin) * math.sqrt(ux * ux + uy * uy)
-    weight = 0.5 * min(shared, MOST_OVERLAP) / ROUGH**2
+    weight = 0.5 * min(shared, MAX_WEIGHING_OVERLAP) / WALL_DEVIATION**2
     for share in (begin, end):
         x, y = x1 + share * ux, y1 + share * uy
         off = nx * (x - old.start_x) + ny * (y - old.start_y)
         lever = ny * (x - pose[0]) - nx * (y - pose[1])
-        counts = weight / (1.0 + (off / OUTLIER) ** 2)
+        counts = weight / (1.0 + (off / OUTLIER_DISTANCE) ** 2)
         sums[XX] += counts * nx * nx
         sums[XY] += counts * nx * ny
         sums[YY] += counts * ny * ny

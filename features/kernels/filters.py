@@ -1,4 +1,4 @@
-"""Filters of the ranges before anything else, each only on request."""
+"""Filters that may be applied to the ranges before anything else; all are off by default."""
 
 from __future__ import annotations
 
@@ -8,13 +8,17 @@ from typing import Any
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.breakpoints import Reach, breakpoint_reach, incidence_factor
+from semnav_env.features.kernels.breakpoints import (
+    ThresholdTerms,
+    breakpoint_terms,
+    incidence_factor,
+)
 from semnav_env.features.kernels.segmentation import is_return
 
-MOST_VEILED = 2
-"""A veil of more beams in a row is a surface."""
+MAX_MIXED_PIXELS = 2
+"""Mixed pixels in a row; more points in a row are a surface."""
 
-ROUNDING = 1e-9
+ROUNDING_SHARE = 1e-9
 """More than rounding can add to a range, as a share of it."""
 
 
@@ -24,172 +28,185 @@ def filter_ranges(
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     settings: Any,
     scratch: Any,
 ) -> FloatArray:
-    """The ranges, without veils if `veil_angle` is set and as medians if `median_beams` is.
+    """The ranges, without mixed pixels if `veil_angle` is set and as medians if `median_beams` is.
 
-    In a full circle of `turn` beams the first comes after the last; else turn is 0. Beams beyond
-    it repeat others.
+    In a full circle of `beams_per_turn` beams, the first comes after the last, and beams beyond it
+    repeat the first ones. `beams_per_turn` is 0 for other scans.
     """
-    beams = turn if 0 < turn < len(ranges) else len(ranges)
+    beams = beams_per_turn if 0 < beams_per_turn < len(ranges) else len(ranges)
     if settings.veil_angle > 0.0:
         clear = scratch.clear[: len(ranges)]
         for i in range(beams):
-            veiled = is_veiled(ranges, i, increment, range_min, limit, turn, settings)
+            veiled = is_mixed_pixel(
+                ranges, i, increment, range_min, limit, beams_per_turn, settings
+            )
             clear[i] = math.nan if veiled else ranges[i]
-        repeat(ranges, beams, range_min, limit, clear)
+        repeat_first_beams(ranges, beams, range_min, limit, clear)
         ranges = clear
     if settings.median_beams > 0:
         smooth, half = scratch.smooth[: len(ranges)], settings.median_beams
-        reach = breakpoint_reach(increment, settings)
+        reach = breakpoint_terms(increment, settings)
         for i in range(beams):
-            smooth[i] = median(
-                ranges, i, increment, range_min, limit, turn, half, reach, scratch.window
+            smooth[i] = median_range(
+                ranges, i, increment, range_min, limit, beams_per_turn, half, reach, scratch.window
             )
-        repeat(ranges, beams, range_min, limit, smooth)
+        repeat_first_beams(ranges, beams, range_min, limit, smooth)
         ranges = smooth
     return ranges
 
 
 @njit(cache=True, error_model="numpy")
-def repeat(ranges: FloatArray, beams: int, range_min: float, limit: float, out: FloatArray) -> None:
-    """Let beams beyond a full turn be what the same beam of the turn is now, if it returned."""
+def repeat_first_beams(
+    ranges: FloatArray, beams: int, range_min: float, limit: float, out: FloatArray
+) -> None:
+    """Copy the filtered first beams to those beyond a full turn, which look the same way.
+
+    Where the first beam had no return, the later one keeps its own range.
+    """
     for i in range(beams, len(ranges)):
         seen = is_return(ranges[i - beams], range_min, limit)
         out[i] = out[i - beams] if seen else ranges[i]
 
 
 @njit(cache=True, error_model="numpy")
-def return_at(ranges: FloatArray, i: int, range_min: float, limit: float, turn: int) -> float:
+def return_at(
+    ranges: FloatArray, i: int, range_min: float, limit: float, beams_per_turn: int
+) -> float:
     """The range of beam i, counted around a full circle; NaN if there is no return."""
-    beam = i % turn if turn > 0 else i
+    beam = i % beams_per_turn if beams_per_turn > 0 else i
     if beam < 0 or beam >= len(ranges) or not is_return(ranges[beam], range_min, limit):
         return math.nan
     return float(ranges[beam])
 
 
 @njit(cache=True, error_model="numpy")
-def apart(first: float, second: float, angle: float) -> float:
+def point_distance(first: float, second: float, angle: float) -> float:
     """Distance between the points of two beams (law of cosines); NaN if one has no return."""
     sine = math.sin(0.5 * angle)
     return math.sqrt((first - second) ** 2 + 4.0 * first * second * sine * sine)
 
 
 @njit(cache=True, error_model="numpy")
-def slope(first: float, second: float, angle: float, incidence: float, slack: float) -> int:
-    """1 if a line through two points recedes flatter than `incidence`, -1 if it comes nearer so.
+def flat_slope_sign(
+    first: float, second: float, angle: float, incidence: float, slack: float
+) -> int:
+    """The sign of the range change between two beams that meet a line at a flat angle, else 0.
 
-    0 if it is met less flatly, by the law of sines with `slack` metres, or a return is missing.
+    1 if the line recedes flatter than `incidence`, radians, and -1 if it comes nearer so; by the
+    law of sines, with `slack` metres. 0 also if a return is missing.
     """
     reach = min(first, second) * incidence_factor(angle, incidence) + slack
-    if not apart(first, second, angle) > reach:
+    if not point_distance(first, second, angle) > reach:
         return 0
     return 1 if second > first else -1
 
 
 @njit(cache=True, error_model="numpy")
-def is_veiled(
+def is_mixed_pixel(
     ranges: FloatArray,
     i: int,
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     settings: Any,
 ) -> bool:
-    """Whether a beam ended between two surfaces, having met the edge of one and the other behind.
+    """Whether a beam ended in the air, having met the edge of one surface and another one behind.
 
-    Such mixed pixels hang in the air as a veil. From the near surface to the far one, the lines
-    between neighbours lie nearly along the beams, flatter than `veil_angle`. So they do on a wall
-    that is met as flatly; but a veil has one or two points, which are in line with no wall.
+    Its range is then a mixture of both. From the near surface to the far one, the lines between
+    neighbouring points lie nearly along the beams, flatter than `veil_angle`. The same holds on a
+    wall that is met as flatly; but mixed pixels are one or two points, in line with no wall.
     """
-    at = return_at(ranges, i, range_min, limit, turn)
+    at = return_at(ranges, i, range_min, limit, beams_per_turn)
     slack = 3.0 * settings.sigma
-    before = return_at(ranges, i - 1, range_min, limit, turn)
-    after = return_at(ranges, i + 1, range_min, limit, turn)
-    sense = slope(before, at, increment, settings.veil_angle, slack)
-    if sense == 0 or slope(at, after, increment, settings.veil_angle, slack) != sense:
+    before = return_at(ranges, i - 1, range_min, limit, beams_per_turn)
+    after = return_at(ranges, i + 1, range_min, limit, beams_per_turn)
+    sense = flat_slope_sign(before, at, increment, settings.veil_angle, slack)
+    if sense == 0 or flat_slope_sign(at, after, increment, settings.veil_angle, slack) != sense:
         return False
     veil = 1
     for way in (-1, 1):
         near, k = (before, -2) if way < 0 else (after, 2)
-        while veil <= MOST_VEILED:
-            beyond = return_at(ranges, i + k, range_min, limit, turn)
-            if way * slope(near, beyond, increment, settings.veil_angle, slack) != sense:
+        while veil <= MAX_MIXED_PIXELS:
+            beyond = return_at(ranges, i + k, range_min, limit, beams_per_turn)
+            if way * flat_slope_sign(near, beyond, increment, settings.veil_angle, slack) != sense:
                 break
             veil, near, k = veil + 1, beyond, k + way
-    if veil > MOST_VEILED:
+    if veil > MAX_MIXED_PIXELS:
         return False
-    return not any_wall_goes_on(ranges, i, increment, range_min, limit, turn, settings)
+    return not is_on_flat_wall(ranges, i, increment, range_min, limit, beams_per_turn, settings)
 
 
 @njit(cache=True, error_model="numpy")
-def any_wall_goes_on(
+def is_on_flat_wall(
     ranges: FloatArray,
     i: int,
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     settings: Any,
 ) -> bool:
     """Whether a beam and the three before it or after it end on one line that is met flatly."""
     for way in (-1, 1):
-        at = return_at(ranges, i, range_min, limit, turn)
-        first = return_at(ranges, i + way, range_min, limit, turn)
-        second = return_at(ranges, i + 2 * way, range_min, limit, turn)
-        third = return_at(ranges, i + 3 * way, range_min, limit, turn)
-        is_wall = goes_on(third, second, first, increment, settings)
-        if is_wall and goes_on(second, first, at, increment, settings):
+        at = return_at(ranges, i, range_min, limit, beams_per_turn)
+        first = return_at(ranges, i + way, range_min, limit, beams_per_turn)
+        second = return_at(ranges, i + 2 * way, range_min, limit, beams_per_turn)
+        third = return_at(ranges, i + 3 * way, range_min, limit, beams_per_turn)
+        is_wall = continues_line(third, second, first, increment, settings)
+        if is_wall and continues_line(second, first, at, increment, settings):
             return True
     return False
 
 
 @njit(cache=True, error_model="numpy")
-def goes_on(first: float, second: float, third: float, angle: float, settings: Any) -> bool:
-    """Whether three beams in a row end on one line that is met flatly, as far as noise lets tell.
+def continues_line(first: float, second: float, third: float, angle: float, settings: Any) -> bool:
+    """Whether three beams in a row end on one line that is met flatly, within the noise.
 
     On a line 1/r_1 + 1/r_3 = 2 cos(angle) / r_2.
     """
     flat = 2.0 * max(settings.veil_angle, 2.0 * angle)
-    sense = slope(first, second, angle, flat, 0.0)
+    sense = flat_slope_sign(first, second, angle, flat, 0.0)
     if sense == 0 or (third > second) != (sense > 0):
         return False
     inverse = 2.0 * math.cos(angle) / second - 1.0 / first
     gain = 1.0 + third * third * math.sqrt(4.0 / second**4 + 1.0 / first**4)
-    tolerance = 3.0 * settings.sigma * gain + ROUNDING * third * (1.0 + third / second)
+    tolerance = 3.0 * settings.sigma * gain + ROUNDING_SHARE * third * (1.0 + third / second)
     return bool(inverse > 0.0 and abs(1.0 / inverse - third) <= tolerance)
 
 
 @njit(cache=True, error_model="numpy")
-def median(
+def median_range(
     ranges: FloatArray,
     i: int,
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     half: int,
-    reach: Reach,
+    reach: ThresholdTerms,
     window: FloatArray,
 ) -> float:
     """The median of a beam and the `half` beams on either side, where that moves no edge.
 
-    That is within a surface, where all of these are joined by the breakpoint rule, and in a run
-    of at most `half` joined to nothing on either side: an outlier.
+    It moves none within a surface, where the breakpoint rule joins all of these beams, nor for an
+    outlier: a run of at most `half` beams that is joined to nothing on either side. Elsewhere the
+    range stays as it is.
     """
-    at = return_at(ranges, i, range_min, limit, turn)
-    left = joined_beams(ranges, i, -1, increment, range_min, limit, turn, half, reach)
-    right = joined_beams(ranges, i, 1, increment, range_min, limit, turn, half, reach)
+    at = return_at(ranges, i, range_min, limit, beams_per_turn)
+    left = joined_beams(ranges, i, -1, increment, range_min, limit, beams_per_turn, half, reach)
+    right = joined_beams(ranges, i, 1, increment, range_min, limit, beams_per_turn, half, reach)
     within = left == half and right == half
     alone = min(left, right) >= 0 and left + right < half
     if not (within or alone):
         return float(ranges[i])
     count = 0
     for k in range(i - half, i + half + 1):
-        value = return_at(ranges, k, range_min, limit, turn)
+        value = return_at(ranges, k, range_min, limit, beams_per_turn)
         if value == value:
             place = count
             while place > 0 and window[place - 1] > value:
@@ -208,23 +225,23 @@ def joined_beams(
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     half: int,
-    reach: Reach,
+    reach: ThresholdTerms,
 ) -> int:
     """How many of the next `half` beams one way are joined to beam i and one another.
 
     -1 if a beam without a return follows them: what is there is not known.
     """
     nearer, farther, previous, offset = reach
-    here = return_at(ranges, i, range_min, limit, turn)
+    here = return_at(ranges, i, range_min, limit, beams_per_turn)
     for k in range(half):
-        there = return_at(ranges, i + way * (k + 1), range_min, limit, turn)
+        there = return_at(ranges, i + way * (k + 1), range_min, limit, beams_per_turn)
         if not (here == here and there == there):
             return -1
         first = here if way > 0 else there
         most = nearer * min(here, there) + farther * max(here, there) + previous * first + offset
-        if apart(here, there, increment) > most:
+        if point_distance(here, there, increment) > most:
             return k
         here = there
     return half

@@ -9,14 +9,14 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 
-RAYS = 72
-"""Rays cast around the place."""
+RAY_COUNT = 72
+"""Number of rays around the place, one every 5 degrees."""
 
-BINS = 45
-"""Bins of 2 degrees, over the 90 degrees around the heading."""
+BIN_COUNT = 45
+"""Bins of the histogram of directions: of 2 degrees, over the 90 degrees around the heading."""
 
-SPREAD = math.radians(5.0)
-"""Walls so near to the commonest direction share in the mean."""
+MAX_SPREAD = math.radians(5.0)
+"""Walls within this angle of the most common direction share in the mean, radians."""
 
 
 @njit(cache=True)
@@ -33,21 +33,21 @@ def prevailing_heading(solid: FloatArray, walls: int, x: float, y: float, headin
     Returns:
         Radians; `heading` itself where no wall in view runs along it.
     """
-    turn = np.full(RAYS, np.inf)
-    length = np.zeros(RAYS)
-    for k in range(RAYS):
-        angle = heading + (k + 0.5) * (2.0 * math.pi / RAYS)
+    angles = np.full(RAY_COUNT, np.inf)
+    length = np.zeros(RAY_COUNT)
+    for k in range(RAY_COUNT):
+        angle = heading + (k + 0.5) * (2.0 * math.pi / RAY_COUNT)
         hit, distance = _first_hit(solid, x, y, math.cos(angle), math.sin(angle))
         if 0 <= hit < walls:
             along = math.atan2(solid[hit, 3] - solid[hit, 1], solid[hit, 2] - solid[hit, 0])
-            turn[k] = _fold(along - heading)
+            angles[k] = _fold(along - heading)
             length[k] = distance / max(abs(math.sin(along - angle)), 0.1)
-    centre = _commonest(turn, length)
+    centre = _commonest(angles, length)
     total, mean = 0.0, 0.0
-    for k in range(RAYS):
-        if abs(turn[k] - centre) < SPREAD:
+    for k in range(RAY_COUNT):
+        if abs(angles[k] - centre) < MAX_SPREAD:
             total += length[k]
-            mean += length[k] * turn[k]
+            mean += length[k] * angles[k]
     return heading + mean / total if total > 0.0 else heading
 
 
@@ -69,21 +69,21 @@ def _first_hit(solid: FloatArray, x: float, y: float, c: float, s: float) -> tup
 
 
 @njit(cache=True)
-def _fold(turn: float) -> float:
+def _fold(angles: float) -> float:
     """The same direction of a line, in [-pi/2, pi/2)."""
-    return turn - math.pi * math.floor(turn / math.pi + 0.5)
+    return angles - math.pi * math.floor(angles / math.pi + 0.5)
 
 
 @njit(cache=True)
-def _commonest(turn: FloatArray, length: FloatArray) -> float:
+def _commonest(angles: FloatArray, length: FloatArray) -> float:
     """The middle of the three neighbouring bins that hold most length; inf if all are empty."""
-    bins = np.zeros(BINS + 2)
-    for k in range(len(turn)):
-        if abs(turn[k]) < math.pi / 4:
-            bins[1 + int((turn[k] / (math.pi / 2) + 0.5) * BINS)] += length[k]
+    bins = np.zeros(BIN_COUNT + 2)
+    for k in range(len(angles)):
+        if abs(angles[k]) < math.pi / 4:
+            bins[1 + int((angles[k] / (math.pi / 2) + 0.5) * BIN_COUNT)] += length[k]
     best, most = -1, 0.0
-    for k in range(BINS):
+    for k in range(BIN_COUNT):
         near = bins[k] + bins[k + 1] + bins[k + 2]
         if near > most:
             best, most = k, near
-    return ((best + 0.5) / BINS - 0.5) * (math.pi / 2) if best >= 0 else np.inf
+    return ((best + 0.5) / BIN_COUNT - 0.5) * (math.pi / 2) if best >= 0 else np.inf

@@ -9,11 +9,11 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.door_memory import door_counts, doubt_doors, remember_door
+from semnav_env.features.kernels.door_memory import door_counts, doubt_unseen_doors, remember_door
 from semnav_env.features.kernels.drift import without_drift
 from semnav_env.features.kernels.layout import DOORS, WALLS
+from semnav_env.features.kernels.pass_through import is_passed_by_beams
 from semnav_env.features.kernels.remembered import Ends, place_for_new
-from semnav_env.features.kernels.seen_through import is_seen_through
 
 REMEMBERED_WALL = np.dtype(
     [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y")] + [("hits", "i8")]
@@ -24,23 +24,27 @@ COUNTERS = np.dtype([("walls", "i8"), ("doors", "i8"), ("scans", "i8")])
 """How many entries of the walls and of the doors are used, and how many scans were added; an array
 of shape (1,)."""
 
-WALL_HITS = 2
-"""A wall counts from so many sightings on."""
+MIN_WALL_SIGHTINGS = 2
+"""A wall counts from this many sightings on."""
 
-RECENT_HITS = 10
-"""Older sightings together weigh no more than so many: odometry drifts."""
+MAX_WEIGHING_SIGHTINGS = 10
+"""Older sightings together weigh no more than this many: odometry drifts."""
 
-TURNS, MISSED_HITS = 8, 3
-"""Every eighth scan looks whether beams pass through a wall; if so, it loses three sightings."""
+WALL_CHECK_PERIOD = 8
+"""Each scan asks an eighth of the walls, in turn, whether its beams pass through them: that spreads
+the work over scans."""
 
-SAME_DIRECTION = math.cos(math.radians(8.0))
-"""Walls that differ by less may be one."""
+PASSED_WALL_LOSS = 3
+"""Sightings that a wall loses when the beams of a scan pass through it."""
 
-SAME_LINE = 0.15
-"""Walls that lie less than this beside each other may be one, metres."""
+SAME_DIRECTION_COSINE = math.cos(math.radians(8.0))
+"""Cosine of the largest angle between two sightings of one wall."""
 
-WALL_GAP = 0.3
-"""Walls less than this apart along their line may be one, metres: nothing passes between them."""
+SAME_LINE_OFFSET = 0.15
+"""Largest distance across the line between two sightings of one wall, metres."""
+
+SAME_LINE_GAP = 0.3
+"""Largest gap along the line between two sightings of one wall, metres: nothing passes through."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -76,9 +80,15 @@ def remember(
         door = doors[i]
         ends = (door.start_x, door.start_y, door.end_x, door.end_y)
         used.doors = remember_door(placed(ends, pose), door.confidence, known_doors, used.doors)
-    doubt_doors(ranges, angle_min, angle_increment, pose, known_doors[: used.doors])
-    turn = used.scans % TURNS  # each scan looks at another eighth of the walls
-    doubt_walls(ranges, angle_min, angle_increment, pose, known_walls[turn : used.walls : TURNS])
+    doubt_unseen_doors(ranges, angle_min, angle_increment, pose, known_doors[: used.doors])
+    first = used.scans % WALL_CHECK_PERIOD  # each scan looks at another eighth of the walls
+    doubt_passed_walls(
+        ranges,
+        angle_min,
+        angle_increment,
+        pose,
+        known_walls[first : used.walls : WALL_CHECK_PERIOD],
+    )
     used.scans += 1
 
 
@@ -101,7 +111,7 @@ def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) 
 
 
 @njit(cache=True, error_model="numpy")
-def doubt_walls(
+def doubt_passed_walls(
     ranges: FloatArray,
     angle_min: float,
     angle_increment: float,
@@ -119,14 +129,14 @@ def doubt_walls(
     """
     for k in range(len(walls)):
         wall = walls[k]
-        if wall.hits > 0 and is_seen_through(ranges, angle_min, angle_increment, pose, wall):
-            wall.hits = max(min(wall.hits, RECENT_HITS) - MISSED_HITS, 0)
+        if wall.hits > 0 and is_passed_by_beams(ranges, angle_min, angle_increment, pose, wall):
+            wall.hits = max(min(wall.hits, MAX_WEIGHING_SIGHTINGS) - PASSED_WALL_LOSS, 0)
 
 
 @njit(cache=True, error_model="numpy")
 def wall_counts(walls: Any, k: int) -> bool:
     """Whether wall `k` of the remembered ones was seen often enough."""
-    return bool(walls[k].hits >= WALL_HITS)
+    return bool(walls[k].hits >= MIN_WALL_SIGHTINGS)
 
 
 @njit(cache=True, error_model="numpy")
@@ -193,7 +203,7 @@ def remember_wall(wall: Ends, memory: Any, used: int) -> int:
         old = memory[k]
         dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
         dot = dx * ux + dy * uy
-        aligned = dot > 0.0 and dot * dot > SAME_DIRECTION**2 * (dx * dx + dy * dy)
+        aligned = dot > 0.0 and dot * dot > SAME_DIRECTION_COSINE**2 * (dx * dx + dy * dy)
         if aligned and _on_one_line(old, wall):
             _fuse_wall(old, wall)
             return used
@@ -212,12 +222,12 @@ def _on_one_line(old: Any, wall: Ends) -> bool:
     length = math.hypot(dx, dy)
     first = ((x1 - old.start_x) * dx + (y1 - old.start_y) * dy) / length
     last = ((x2 - old.start_x) * dx + (y2 - old.start_y) * dy) / length
-    if first > length + WALL_GAP or last < -WALL_GAP:
+    if first > length + SAME_LINE_GAP or last < -SAME_LINE_GAP:
         return False
     middle = 0.5 * (max(first, 0.0) + min(last, length))
     share = (middle - first) / max(last - first, 1e-9)
     x, y = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
-    return bool(abs((x - old.start_x) * dy - (y - old.start_y) * dx) < SAME_LINE * length)
+    return bool(abs((x - old.start_x) * dy - (y - old.start_y) * dx) < SAME_LINE_OFFSET * length)
 
 
 @njit(cache=True, error_model="numpy")
@@ -225,7 +235,7 @@ def _fuse_wall(old: Any, wall: Ends) -> None:
     """The line is the mean weighted by length and sightings; its extent is the union of both."""
     x1, y1, x2, y2 = wall
     dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
-    hits = min(old.hits, RECENT_HITS)
+    hits = min(old.hits, MAX_WEIGHING_SIGHTINGS)
     weight = hits * math.hypot(dx, dy)
     share = weight / (weight + math.hypot(x2 - x1, y2 - y1))
     ux, uy = hits * dx + x2 - x1, hits * dy + y2 - y1

@@ -6,7 +6,7 @@ from numba import njit
 
 
 @njit(cache=True, error_model="numpy")
-def solved(
+def solve_step(
     guess: tuple[float, float, float],
     normal: tuple[float, float, float, float, float, float],
     right: tuple[float, float, float],

@@ -1,4 +1,4 @@
-"""A second fit of every line that lets go of points which do not belong to it."""
+"""Fits every line a second time, with less weight on points that do not belong to it."""
 
 from __future__ import annotations
 
@@ -11,15 +11,17 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.layout import ROUND
 from semnav_env.features.kernels.lines import fit, offset
 
-BIWEIGHT = 4.685
-"""Tukey's constant: points farther off than so many deviations do not count; where no point is
-wrong, the estimate is 95 percent as sharp as least squares."""
+BIWEIGHT_DEVIATIONS = 4.685
+"""Tukey's constant: points farther off than this many standard deviations do not count. Where no
+point is wrong the estimate is 95 percent as efficient as least squares."""
 
-LOSS = 1.271
-"""Weighted residuals are smaller than plain ones, and the fit is a little less sharp: squared ones
-times this give the variance of the line, E[psi^2] / E[psi']^2 over E[w r^2] / E[w] for normal r."""
+VARIANCE_FACTOR = 1.271
+"""Factor from weighted squared residuals to the variance of the line.
 
-STEPS = 2
+Weighted residuals are smaller than plain ones, and the fit is a little less efficient: the factor
+is E[psi^2] / E[psi']^2 over E[w r^2] / E[w] for normally distributed r."""
+
+REWEIGHTINGS = 2
 """How often the weights are computed anew."""
 
 
@@ -34,7 +36,7 @@ def refit_robustly(count: int, settings: Any, scratch: Any) -> None:
     for k in range(count):
         piece = scratch.pieces[k]
         if piece.points >= settings.wall_beams and not piece.flags & ROUND:
-            for _ in range(STEPS):
+            for _ in range(REWEIGHTINGS):
                 reweight(scratch.xs, scratch.ys, settings, piece)
 
 
@@ -46,7 +48,7 @@ def reweight(xs: FloatArray, ys: FloatArray, settings: Any, piece: Any) -> None:
     points make it larger, and a grazing wall smaller. `points` is then how many points count.
     """
     deviation = min(settings.sigma, math.sqrt(piece.scatter / piece.points))
-    farthest = BIWEIGHT * max(deviation, 1e-3 * settings.split_distance)
+    farthest = BIWEIGHT_DEVIATIONS * max(deviation, 1e-3 * settings.split_distance)
     x0, y0 = piece.mean_x, piece.mean_y
     points, total = 0, 0.0
     sx = sy = sxx = sxy = syy = 0.0
@@ -70,4 +72,4 @@ def reweight(xs: FloatArray, ys: FloatArray, settings: Any, piece: Any) -> None:
     piece.xy = scale * (sxy - sx * sy / total)
     piece.yy = scale * (syy - sy * sy / total)
     fit(xs, ys, piece)
-    piece.scatter *= LOSS
+    piece.scatter *= VARIANCE_FACTOR

@@ -45,35 +45,35 @@ JOINT = np.dtype(
 """The full corner at the end of a wall: place, kind and the wall that starts there, or -1; and
 whether the wall's own start is part of one."""
 
-JAMBS, DOOR_CANDIDATES = 1024, 128
+MAX_JAMBS, MAX_DOOR_CANDIDATES = 1024, 128
 """Entries beyond these are left out, in beam order."""
 
+MAX_MISSING_BEAMS = 10
+"""Beams that a full circle may lack: the largest `dropout_beams`."""
 
-MISSING = 10
-"""A full circle may lack so many beams: the most that `dropout_beams` allows."""
-
-
-MEDIAN_BEAMS = 4
-"""A median is over so many beams on either side at most: fewer than a wall has."""
+MAX_MEDIAN_BEAMS = 4
+"""Largest number of beams on either side in a median: fewer than a wall has."""
 
 
 class Scratch(NamedTuple):
-    """Working memory for scans of up to n beams; contents do not matter between calls.
+    """Working memory of the extraction; what it holds does not matter between calls.
+
+    Below, n is the number of beams and `MAX_MISSING_BEAMS` more.
 
     Attributes:
-        clear: ranges without veils, shape (n,).
+        clear: ranges without mixed pixels, shape (n,).
         smooth: medians of ranges, shape (n,).
         window: ranges of one median in order, shape (9,).
-        ring_ranges: a full circle unrolled twice over, shape (2 n,), n beams and `MISSING` more.
-        ring_directions: cosine and sine of its beams, shape (2 n, 2).
+        circle_ranges: a full circle unrolled twice over, shape (2 n,).
+        circle_directions: unit vectors of its beams, shape (2 n, 2).
         xs: x of the valid points in beam order, metres, shape (2 n,): in a full circle those of
             the first half turn come once more.
         ys: y of the valid points, shape (2 n,).
         beams: their beam indices, shape (2 n,).
         group_first: first point of each connected group, shape (n + 1,).
         stack: split points still to be visited, shape (n,).
-        table: sums and costs of one group's points, for `kernels.dynamic`, or
-            what `kernels.curvature` knows of them, shape (n + 1, 8).
+        table: rows for one group's points, whose columns `kernels.optimal_partition` or
+            `kernels.curvature` names, shape (n + 1, 8).
         vertices: the break points of one group, shape (n + 1,).
         pieces: straight pieces, dtype `PIECE`, shape (2 n,).
         start_jambs: where an opening may start, dtype `JAMB`.
@@ -91,8 +91,8 @@ class Scratch(NamedTuple):
     clear: FloatArray
     smooth: FloatArray
     window: FloatArray
-    ring_ranges: FloatArray
-    ring_directions: FloatArray
+    circle_ranges: FloatArray
+    circle_directions: FloatArray
     xs: FloatArray
     ys: FloatArray
     beams: NDArray[np.int64]
@@ -133,15 +133,15 @@ class Features(NamedTuple):
     counts: NDArray[np.int64]
 
 
-def allocate_scratch(beams: int, door_candidates: int = DOOR_CANDIDATES) -> Scratch:
+def allocate_scratch(beams: int, door_candidates: int = MAX_DOOR_CANDIDATES) -> Scratch:
     """Working memory for scans of up to that many beams; not filled, which would take longer."""
-    beams += MISSING
+    beams += MAX_MISSING_BEAMS
     return Scratch(
         clear=np.empty(beams),
         smooth=np.empty(beams),
-        window=np.empty(2 * MEDIAN_BEAMS + 1),
-        ring_ranges=np.empty(2 * beams),
-        ring_directions=np.empty((2 * beams, 2)),
+        window=np.empty(2 * MAX_MEDIAN_BEAMS + 1),
+        circle_ranges=np.empty(2 * beams),
+        circle_directions=np.empty((2 * beams, 2)),
         xs=np.empty(2 * beams),
         ys=np.empty(2 * beams),
         beams=np.empty(2 * beams, np.int64),
@@ -150,8 +150,8 @@ def allocate_scratch(beams: int, door_candidates: int = DOOR_CANDIDATES) -> Scra
         table=np.empty((beams + 1, 8)),
         vertices=np.empty(beams + 1, np.int64),
         pieces=np.empty(2 * beams, PIECE),
-        start_jambs=np.empty(JAMBS, JAMB),
-        end_jambs=np.empty(JAMBS, JAMB),
+        start_jambs=np.empty(MAX_JAMBS, JAMB),
+        end_jambs=np.empty(MAX_JAMBS, JAMB),
         candidates=np.empty(door_candidates, CANDIDATE),
         evidence=np.empty(door_candidates, EVIDENCE),
         scorer=default_scorer(),

@@ -9,10 +9,10 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.breakpoints import breakpoint_reach
+from semnav_env.features.kernels.breakpoints import breakpoint_terms
 
-SMALLEST = 5e-324
-"""The smallest positive number: no range of zero is a return."""
+SMALLEST_FLOAT = 5e-324
+"""The smallest positive number: a range of zero is no return."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -41,9 +41,9 @@ def group_points(
     """
     xs, ys, beams, group_first = scratch.xs, scratch.ys, scratch.beams, scratch.group_first
     longest_step = settings.dropout_beams + 1
-    nearer, farther, previous, offset = breakpoint_reach(increment, settings)
+    nearer, farther, previous, offset = breakpoint_terms(increment, settings)
     plain = farther == 0.0 and previous == 0.0
-    lowest = max(range_min, SMALLEST)
+    lowest = max(range_min, SMALLEST_FLOAT)
     points = groups = np.uint64(0)  # unsigned, or every index is tested for counting from the end
     last_x = last_y = last_range = 0.0
     last_beam = -longest_step - 1
@@ -78,6 +78,6 @@ def group_points(
 @njit(cache=True, error_model="numpy")
 def bridge_reach(angle: float, before: float, after: float, settings: Any) -> float:
     """How far points on either side of a few missing returns may be apart, metres."""
-    nearer, farther, previous, offset = breakpoint_reach(angle, settings)
+    nearer, farther, previous, offset = breakpoint_terms(angle, settings)
     reach = nearer * min(before, after) + farther * max(before, after) + previous * before + offset
     return float(min(reach, settings.merge_gap))

@@ -1,4 +1,4 @@
-"""Walls: straight pieces fitted to every group, and which of them are walls."""
+"""Fits straight pieces to every group of points and chooses those that are walls."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from semnav_env.features.kernels.layout import (
 from semnav_env.features.kernels.lines import fit, gather, offset, refit
 from semnav_env.features.kernels.segmentation import is_return
 
-FEW_BEAMS, SHORT, CURVED = 1, 2, 3
-"""Why a piece is no wall."""
+TOO_FEW_BEAMS, TOO_SHORT, PART_OF_ARC = 1, 2, 3
+"""Why a piece is no wall; 0 stands for no fault."""
 
 PRIOR_POINTS = 4
-"""So many points' worth of residuals is the scanner's known `sigma` in the variance of a wall."""
+"""Weight of the scanner's known `sigma` in the variance of a wall, in points."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -107,15 +107,15 @@ def flag_pieces(
     ranges: FloatArray,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     groups: int,
     count: int,
     scratch: Any,
 ) -> None:
     """Set the flags of pieces at the ends of groups: rupture (2.1) or break (2.2).
 
-    In a full circle of `turn` beams, which `ranges` holds twice, the last beam comes before the
-    first one; else turn is 0.
+    In a full circle of `beams_per_turn` beams, which `ranges` holds twice, the last beam comes
+    before the first one. `beams_per_turn` is 0 for other scans.
     """
     pieces, beams, group_first = scratch.pieces, scratch.beams, scratch.group_first
     group = 0
@@ -124,7 +124,7 @@ def flag_pieces(
         while piece.first >= group_first[group + 1]:
             group += 1
         before, after = beams[piece.first] - 1, beams[piece.last] + 1
-        before = before + turn if before < 0 and turn > 0 else before
+        before = before + beams_per_turn if before < 0 and beams_per_turn > 0 else before
         piece.flags = 0
         if piece.first == group_first[group] and before >= 0:
             seen = is_return(ranges[before], range_min, limit)
@@ -147,12 +147,12 @@ def point_variance(scatter: float, points: int, sigma: float) -> float:
 
 @njit(cache=True, error_model="numpy")
 def wall_fault(piece: Any, settings: Any) -> int:
-    """Why a piece is no wall: `FEW_BEAMS`, `SHORT` or `CURVED`; 0 if it is one."""
+    """Why a piece is no wall: `TOO_FEW_BEAMS`, `TOO_SHORT` or `PART_OF_ARC`; 0 if it is one."""
     if piece.points < settings.wall_beams:
-        return FEW_BEAMS
+        return TOO_FEW_BEAMS
     if piece.length < settings.wall_length:
-        return SHORT
-    return CURVED if piece.flags & ROUND else 0
+        return TOO_SHORT
+    return PART_OF_ARC if piece.flags & ROUND else 0
 
 
 @njit(cache=True, error_model="numpy")

@@ -1,4 +1,4 @@
-"""Which known line a new one may be: nearest neighbours among the lines' parameters."""
+"""Finds the known lines that a new one may be: nearest neighbours among the lines' parameters."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.mapping.lines import Line
 
 _METRES_PER_RADIAN = 2.0
-"""How lines that differ in direction compare with lines that differ in distance."""
+"""Difference in distance that counts as much as a radian of difference in direction, metres."""
 
 
 class LineIndex:

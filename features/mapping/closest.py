@@ -1,4 +1,4 @@
-"""Which points of two scans belong together: the nearest ones, found in beam order."""
+"""Pairs the points of two scans: each with the nearest one, found in beam order."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def pair(
     """
     c, s = math.cos(pose[2]), math.sin(pose[2])
     n = reference.shape[1]
-    turn = 2.0 * math.pi
+    full_turn = 2.0 * math.pi
     per_radian = 1.0 / angle_increment
     sines = np.empty(n)
     quarter = 0
@@ -47,11 +47,13 @@ def pair(
         x = pose[0] + c * scan[X, j] - s * scan[Y, j]
         y = pose[1] + s * scan[X, j] + c * scan[Y, j]
         towards = math.atan2(y, x) - angle_min
-        towards -= turn * math.floor(towards / turn)
+        towards -= full_turn * math.floor(towards / full_turn)
         beam = int(towards * per_radian + 0.5)
         if beam >= n:
             beam = (
-                n - 1 if towards - n * angle_increment < 0.5 * (turn - n * angle_increment) else 0
+                n - 1
+                if towards - n * angle_increment < 0.5 * (full_turn - n * angle_increment)
+                else 0
             )
         squared = x * x + y * y
         best, nearest = -1, far * far

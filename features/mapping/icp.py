@@ -1,4 +1,4 @@
-"""The kernel of the scan matcher: iterated closest points."""
+"""The kernel of the scan matcher: iterative closest points (ICP)."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ SETTINGS = np.dtype(
 )
 """What the kernel reads of `MatchSettings`."""
 
-_NEAR = 0.15
-"""Points are paired at least up to this distance, metres: that of two beams on a far wall."""
+_MIN_PAIR_DISTANCE = 0.15
+"""Points up to this far apart are always paired, metres: that of two beams on a far wall."""
 
-_COARSE = 4
-"""While far from the solution only each so-manieth beam is paired."""
+_COARSE_STRIDE = 4
+"""While the solution is far, only every fourth beam is paired."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -65,13 +65,13 @@ def align(
         settings: `SETTINGS`, shape (1,).
         pose: x, y, heading of the scan in the reference: in, the first guess; out, the match.
         information: out, shape (3, 3): what the pairs say about the pose.
-        report: out, shape (8,); the weak direction is (0, 0) where there is none.
+        report: out, shape (`REPORT_SIZE`,); the weak direction is (0, 0) where there is none.
     """
     s = settings[0]
     guess = pose.copy()
     pairs = np.full(scan.shape[1], -1, np.int64)
     gate, far = np.inf, s.max_distance
-    stride = _COARSE
+    stride = _COARSE_STRIDE
     normal_matrix, gradient = np.empty((3, 3)), np.empty(3)
     report[CONVERGED] = 0.0
     step = np.empty(3)
@@ -89,13 +89,13 @@ def align(
         for k in range(3):
             pose[k] += step[k]
         gate = s.outliers * max(1.0, spread)
-        far = min(far, max(_NEAR, s.outliers * report[RESIDUAL]))
+        far = min(far, max(_MIN_PAIR_DISTANCE, s.outliers * report[RESIDUAL]))
         report[ITERATIONS] = iteration + 1
-        move, turn = math.hypot(step[0], step[1]), abs(step[2])
+        distance, heading_change = math.hypot(step[0], step[1]), abs(step[2])
         if stride > 1:
-            if move < 20.0 * s.tolerance_position and turn < 20.0 * s.tolerance_angle:
+            if distance < 20.0 * s.tolerance_position and heading_change < 20.0 * s.tolerance_angle:
                 stride = 1
-        elif move < s.tolerance_position and turn < s.tolerance_angle:
+        elif distance < s.tolerance_position and heading_change < s.tolerance_angle:
             report[CONVERGED] = 1.0
             break
     pair(reference, scan, angle_min, angle_increment, pose, 1, far, pairs)

@@ -9,8 +9,8 @@ import numpy as np
 from semnav_env.features.elements import Door, Wall
 from semnav_env.features.frames import Point, Pose, relative, to_parent, wrap_angle
 from semnav_env.features.mapping.association import LineIndex
-from semnav_env.features.mapping.doubles import without_doubles
-from semnav_env.features.mapping.evidence import REACH
+from semnav_env.features.mapping.duplicate_walls import without_duplicates
+from semnav_env.features.mapping.line_cells import MAX_BEAM_LENGTH
 from semnav_env.features.mapping.lines import Line, gap, line_of
 from semnav_env.features.mapping.map_doors import MapDoors
 from semnav_env.features.mapping.map_settings import MapSettings
@@ -18,8 +18,8 @@ from semnav_env.features.mapping.map_wall import MapWall
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Scene
 
-_TIDY = 50
-"""After so many scans at a time what proved false is forgotten."""
+_CLEANUP_PERIOD = 50
+"""Scans after which walls that proved false are forgotten."""
 
 
 class LineMap:
@@ -64,7 +64,7 @@ class LineMap:
             if (wall := self._walls[k]) is not None:
                 wall.observe(scan, pose)
         self._doors.add(scene.doors, scan, pose)
-        if self.scans % _TIDY == 0:
+        if self.scans % _CLEANUP_PERIOD == 0:
             self._tidy()
 
     @property
@@ -78,7 +78,7 @@ class LineMap:
             for stretch in wall.solid(s.wall_hits, s.wall_share, s.gap)
             if stretch[1] - stretch[0] >= s.wall_length
         ]
-        return without_doubles(there)
+        return without_duplicates(there)
 
     @property
     def doors(self) -> tuple[Door, ...]:
@@ -130,8 +130,8 @@ class LineMap:
 
     def _moved(self, last: Pose, pose: Pose) -> bool:
         s = self._settings
-        x, y, turn = relative(last, pose)
-        return math.hypot(x, y) >= s.least_move or abs(turn) >= s.least_turn
+        x, y, heading_change = relative(last, pose)
+        return math.hypot(x, y) >= s.least_move or abs(heading_change) >= s.least_turn
 
     def _tidy(self) -> None:
         """Forget what proved false: seen long ago and never again, or seen through all along."""
@@ -139,7 +139,8 @@ class LineMap:
         kept = [
             wall
             for wall in self._walls
-            if wall is not None and (self.scans - wall.born < _TIDY or wall.solid(fewest, 0.0, 0.0))
+            if wall is not None
+            and (self.scans - wall.born < _CLEANUP_PERIOD or wall.solid(fewest, 0.0, 0.0))
         ]
         self._walls = []
         for wall in kept:
@@ -153,7 +154,7 @@ class LineMap:
         along = c * (point[0] - x) + s * (point[1] - y)
         along = np.minimum(np.maximum(along, first), last)
         off = np.hypot(x + along * c - point[0], y + along * s - point[1])
-        return [int(k) for k in np.flatnonzero(off < REACH)]
+        return [int(k) for k in np.flatnonzero(off < MAX_BEAM_LENGTH)]
 
     def _candidates(self, new: MapWall, index: LineIndex) -> list[int]:
         """Numbers of the walls that may be one with a new one, by direction and stretch."""
@@ -172,9 +173,9 @@ class LineMap:
         s, known = self._settings, self._walls[k]
         if known is None:
             return False
-        turn = abs(wrap_angle(new.line.heading - known.line.heading))
+        heading_change = abs(wrap_angle(new.line.heading - known.line.heading))
         spread = math.sqrt(known.line.angle_variance + new.line.angle_variance + s.angle**2)
-        if turn > s.angle_tolerance + s.confidence * spread:
+        if heading_change > s.angle_tolerance + s.confidence * spread:
             return False
         stretch = known.stretch_of(new)
         if gap(known.extent, stretch) > s.gap:

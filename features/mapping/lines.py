@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from semnav_env.features.elements import Wall
 from semnav_env.features.frames import Point, Pose, to_parent, wrap_angle
 
-_LEAST_DEVIATION = 1e-3
-"""No line is better known than this, metres and radians."""
+_MIN_DEVIATION = 1e-3
+"""Least standard deviation of a line's offset and direction, metres and radians."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ def line_of(wall: Wall, frame: Pose, position: float = 0.0, angle: float = 0.0) 
     """
     offset, tilt = wall.offset_deviation, wall.angle_deviation
     if wall.centroid is None or not offset:
-        noise = max(wall.residual, _LEAST_DEVIATION) / math.sqrt(max(wall.beams, 2))
+        noise = max(wall.residual, _MIN_DEVIATION) / math.sqrt(max(wall.beams, 2))
         offset, tilt = noise, noise * math.sqrt(12.0) / max(wall.length, 1e-6)
     middle = (wall.start[0] + wall.end[0]) / 2, (wall.start[1] + wall.end[1]) / 2
     local = wall.centroid or middle
@@ -71,30 +71,30 @@ def line_of(wall: Wall, frame: Pose, position: float = 0.0, angle: float = 0.0) 
         x,
         y,
         wrap_angle(frame[2] + wall.heading),
-        max(offset, _LEAST_DEVIATION) ** 2 + position**2 + (angle * math.hypot(*local)) ** 2,
-        max(tilt, _LEAST_DEVIATION) ** 2 + angle**2,
+        max(offset, _MIN_DEVIATION) ** 2 + position**2 + (angle * math.hypot(*local)) ** 2,
+        max(tilt, _MIN_DEVIATION) ** 2 + angle**2,
     )
 
 
 def fuse(a: Line, b: Line) -> Line:
     """The line that two estimates of one line agree on best, weighted by their covariances.
 
-    In the frame of `a` a line is c + t s at the place s along it. Of it `a` says c = 0 and t = 0,
-    and `b`, whose point lies at s and o to the left, says c + t s = o and t = its turn. The sum of
-    squared errors over their variances has its minimum where these normal equations hold, with
-    weights p, P of a's offset and angle and q, Q of b's:
+    In the frame of `a` a line is c + t s at the place s along it. `a` says c = 0 and t = 0. `b`,
+    whose point lies at s and o to the left, says c + t s = o and t = t_b, its heading in this
+    frame. The sum of squared errors over their variances is least where these normal equations
+    hold, with weights p, P of a's offset and angle and q, Q of b's:
 
-        (p + q) c + q s t = q o,    q s c + (P + Q + q s^2) t = q s o + Q turn.
+        (p + q) c + q s t = q o,    q s c + (P + Q + q s^2) t = q s o + Q t_b.
 
     Offset and angle of the result are uncorrelated at q s / (p + q).
     """
     s, o = a.along((b.x, b.y)), a.across((b.x, b.y))
-    turn = wrap_angle(b.heading - a.heading)
+    heading_change = wrap_angle(b.heading - a.heading)
     p, q = 1.0 / a.offset_variance, 1.0 / b.offset_variance
     pp, qq = 1.0 / a.angle_variance, 1.0 / b.angle_variance
     place = q * s / (p + q)
     known = pp + qq + p * place * s
-    tilt = (qq * turn + p * place * o) / known
+    tilt = (qq * heading_change + p * place * o) / known
     offset = (q * o - q * s * tilt) / (p + q)
     x, y = a.point(place)
     shift = offset + tilt * place

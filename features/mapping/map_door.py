@@ -1,4 +1,4 @@
-"""A door of the map: what its sightings agree on, and whether its opening stayed open."""
+"""A door of a map: the median of its sightings, and whether its doorway stayed open."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class MapDoor:
         self._agree()
 
     def absorb(self, other: MapDoor) -> None:
-        """Become the one door that both are; of what beams said the longer record stays."""
+        """Take over the sightings of another door, and its beam counts if they are more."""
         self.seen += map(self._alike, other.seen)
         self.belief += other.belief
         if other.passage.looks > self.passage.looks:
@@ -73,7 +73,7 @@ class MapDoor:
         return door if along >= 0.0 else door[[2, 3, 0, 1]]
 
     def _agree(self) -> None:
-        """Take the median of the sightings, and begin to count beams anew if it has moved away."""
+        """Take the median of the sightings; count beams anew if that has moved the door."""
         self.ends = np.median(self.seen, axis=0)
         if not self.passage.lies_along(self.ends):
             looks = self.passage.looks

@@ -1,4 +1,4 @@
-"""The doors of a line map: sightings joined, and those that the map believes in."""
+"""The doors of a line map: joins sightings, and says which doors count."""
 
 from __future__ import annotations
 

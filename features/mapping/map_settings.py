@@ -13,27 +13,27 @@ class MapSettings:
     Attributes:
         position: standard deviation of a scan's pose, metres.
         angle: standard deviation of its heading, radians.
-        least_move: a scan is added if the scanner has moved so far since the last, metres ...
-        least_turn: ... or turned so far, radians.
-        confidence: lines may be one if they differ by no more than so many standard deviations
-            and what the next two allow.
-        angle_tolerance: walls are not quite straight, radians.
-        offset_tolerance: nor quite flat, metres.
-        gap: of two stretches of one line that are farther apart nothing is known in between: they
-            stay two walls, metres. Narrower than anything that a robot passes.
-        wall_hits: a piece of wall counts when so many scans showed it.
-        wall_share: ... and at least this share of the scans whose beams ended on it showed it as
-            part of a wall; beams end on lines that only cut corners, too.
+        least_move: a scan is added if the scanner has moved this far since the last one, metres,
+        least_turn: or has turned this far, radians.
+        confidence: lines may be one if they differ by no more than this many standard deviations
+            and the next two tolerances.
+        angle_tolerance: of a line's direction, as walls are not quite straight, radians.
+        offset_tolerance: of its offset, as walls are not quite flat, metres.
+        gap: stretches of one line that are farther apart stay two walls, since nothing is known
+            of what is between them, metres. Narrower than anything that a robot passes.
+        wall_hits: a piece of wall counts when this many scans showed it, and if also ...
+        wall_share: ... this share of the scans whose beams ended on it showed it as part of a
+            wall: beams also end on lines that only cut corners.
         wall_length: shortest wall, metres.
         wall_reach: walls are taken from scenes up to this distance from the scanner, metres.
         door_jamb: two sightings are one door if both jambs agree to this, metres.
         door_reach: doors are taken from scenes up to this distance, metres.
-        door_apart: of doors whose middles are nearer to each other only one counts, metres: no
-            two fit there side by side, nor can one pass between them.
-        door_sightings: a door counts when it was seen so often, and looked through so often ...
-        door_share: ... and when the confidences of its sightings, with 0 for every scan that
-            looked through its opening and did not find it, have this mean.
-        door_open: share of its opening through which beams pass.
+        door_apart: of doors whose middles are nearer to each other only one counts, metres: two
+            do not fit side by side.
+        door_sightings: a door counts when it was seen and looked through this often, and if ...
+        door_share: ... its mean confidence is at least this, where every scan that looked through
+            its opening and did not find it has the confidence 0, and if ...
+        door_open: ... this share of the beams that came to its opening passed it.
 
     Raises:
         ValueError: a limit is negative or not finite; names it.

@@ -1,4 +1,4 @@
-"""A wall of the map: a line that was seen many times, and which pieces of it are solid."""
+"""A wall of a map: a line that was seen many times, and which pieces of it are solid."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from semnav_env.features.elements import Wall
 from semnav_env.features.frames import Point, Pose
-from semnav_env.features.mapping.evidence import CELL, Cells
+from semnav_env.features.mapping.line_cells import CELL_LENGTH, LineCells
 from semnav_env.features.mapping.lines import Line, fuse
 from semnav_env.features.scan import Scan
 
@@ -33,7 +33,7 @@ class MapWall:
     extent: Stretch
     born: int = 0
     sightings: int = 1
-    cells: Cells = field(default_factory=Cells)
+    cells: LineCells = field(default_factory=LineCells)
 
     @classmethod
     def of(cls, line: Line, start: Point, end: Point, born: int = 0) -> MapWall:
@@ -62,10 +62,10 @@ class MapWall:
         self.cells.add(other.cells, self.line.along((other.line.x, other.line.y)))
         # Places are counted from the line's point, which the fusion has moved along.
         shift = self.line.along((line.x, line.y))
-        whole = round(shift / CELL) * CELL
+        whole = round(shift / CELL_LENGTH) * CELL_LENGTH
         x, y = line.point(whole - shift)
         self.line = Line(x, y, line.heading, line.offset_variance, line.angle_variance)
-        self.cells.base -= round(shift / CELL)
+        self.cells.base -= round(shift / CELL_LENGTH)
         self.extent = reach[0] - whole, reach[1] - whole
         self.cells.cover(*self.extent)
         self.born = min(self.born, other.born)
@@ -94,7 +94,7 @@ class MapWall:
             if joined:
                 hole = slice(joined[-1][1], first)
                 length = first - joined[-1][1]
-                limit = 2 if seen_through[hole].any() else widest_gap / CELL
+                limit = 2 if seen_through[hole].any() else widest_gap / CELL_LENGTH
                 if length <= limit:
                     joined[-1] = (joined[-1][0], stop)
                     continue
@@ -103,7 +103,7 @@ class MapWall:
 
     def _stretch(self, first: int, stop: int) -> Stretch:
         """Cells as places; the outermost end where the wall was last seen to end."""
-        low, high = (self.cells.base + first) * CELL, (self.cells.base + stop) * CELL
+        low, high = (self.cells.base + first) * CELL_LENGTH, (self.cells.base + stop) * CELL_LENGTH
         return max(low, float(self.extent[0])), min(high, float(self.extent[1]))
 
     def as_wall(self, stretch: Stretch) -> Wall:

@@ -1,4 +1,4 @@
-"""Where a scan was taken, told from another scan: point-to-line iterated closest points."""
+"""Finds the pose of a scan relative to another one, by iterative closest points (point to line)."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from semnav_env.features.mapping.steps import (
     INLIERS,
     ITERATIONS,
     PAIRS,
+    REPORT_SIZE,
     RESIDUAL,
     WEAK_X,
     WEAK_Y,
@@ -129,7 +130,11 @@ def match_surfaces(
     settings: MatchSettings = DEFAULT_MATCH_SETTINGS,
 ) -> Match:
     """`match_scans` for scans that were made ready before; raises the same."""
-    pose, information, report = np.array(guess, dtype=np.float64), np.empty((3, 3)), np.zeros(8)
+    pose, information, report = (
+        np.array(guess, dtype=np.float64),
+        np.empty((3, 3)),
+        np.zeros(REPORT_SIZE),
+    )
     align(
         reference.table,
         scan.table,

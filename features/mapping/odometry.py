@@ -1,4 +1,4 @@
-"""Odometry without wheels: each scan matched with a keyframe."""
+"""Odometry from scans alone: each scan is matched with a keyframe."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class KeyframeRule:
     """When a scan becomes the next keyframe.
 
     Attributes:
-        distance: from the last keyframe, metres.
-        angle: turned since, radians.
-        inliers: a smaller share of the scan's points lies on the keyframe.
-        trusted: with a smaller share a scan counts as not matched.
-        lost: so many scans in a row could not be matched; one that can't be is no keyframe.
+        distance: from the last keyframe from which on a scan becomes one, metres.
+        angle: the same for the heading change, radians.
+        inliers: it also becomes one if a smaller share of its points lies on the keyframe.
+        trusted: with a smaller share than this a scan counts as not matched.
+        lost: of this many scans in a row that were not matched the last becomes a keyframe.
     """
 
     distance: float = 0.5
@@ -50,8 +50,8 @@ class ScanOdometry:
 
     Every scan is matched with the last keyframe rather than with its predecessor, so that errors
     add up only from keyframe to keyframe; where the keyframe shows too little of what the scan
-    shows, as behind a door, the predecessor becomes the keyframe. The first guess is that it moves
-    on as it did.
+    shows, as behind a door, the predecessor becomes the keyframe. The first guess assumes the same
+    motion as between the two scans before.
 
     Args:
         settings: of the matches.
@@ -129,10 +129,10 @@ class ScanOdometry:
             return True
         if self.match is None:
             return self._lost_in_a_row >= self._rule.lost
-        x, y, turn = self.match.pose
+        x, y, heading_change = self.match.pose
         return (
             math.hypot(x, y) > self._rule.distance
-            or abs(turn) > self._rule.angle
+            or abs(heading_change) > self._rule.angle
             or self.match.inliers < self._rule.inliers
         )
 

@@ -28,7 +28,7 @@ class MatchSettings:
             where the scans do not.
         guess_angle: standard deviation of its heading, radians.
         tolerance_position: a smaller step ends the search, metres.
-        tolerance_angle: the same for its turn, radians.
+        tolerance_angle: the same for its rotation, radians.
         max_iterations: of the search.
         undetermined: the place along a direction counts as undetermined if the scans say less
             about it than this share of what they say about the direction across.

@@ -1,4 +1,4 @@
-"""One step of the scan matcher: which motion lays the pairs on each other."""
+"""One step of the scan matcher: the motion that moves each point onto its partner."""
 
 from __future__ import annotations
 
@@ -23,12 +23,16 @@ from semnav_env.features.mapping.surface import (
 )
 
 PAIRS, INLIERS, RESIDUAL, CHI_SQUARED, WEAK_X, WEAK_Y, ITERATIONS, CONVERGED = range(8)
-"""Entries of the kernel's report."""
+"""Entries of the kernel's report: points of the scan, pairs that fit, their root mean square
+distance (m), sum of their weighted squared distances, weak direction (unit vector or zero),
+iterations made, and whether the last step was small enough."""
 
-_ALIKE = math.cos(math.radians(40.0))
-"""Paired surfaces face the same way to this angle."""
+REPORT_SIZE = CONVERGED + 1
 
-_HOLD = 1e10
+_MIN_FACING_COSINE = math.cos(math.radians(40.0))
+"""Cosine of the largest angle between the normals of paired surfaces."""
+
+_WEAK_GUESS_WEIGHT = 1e10
 """Weight of the first guess along a weak direction, 1 / m^2: more than any scan's."""
 
 
@@ -45,11 +49,11 @@ def linearise(
     gradient: FloatArray,
     report: FloatArray,
 ) -> float:
-    """Gauss-Newton's normal equations of the weighted point-to-line error; the residual's RMS.
+    """Write the normal equations of the weighted point-to-line error; returns its weighted RMS.
 
-    Pairs whose residual exceeds the gate are marked -1. A line's direction is uncertain, too:
-    noisy normals of a wall point a little along it and so pretend to know where along it the
-    scan lies. What they pretend on average is taken off the matrix.
+    Pairs whose residual exceeds the gate are marked -1. A line's direction is uncertain, too: noisy
+    normals of a wall point a little along it and so add information on where along it the scan
+    lies, which is not there. Its expected value is subtracted from the matrix.
     """
     c, s = math.cos(pose[2]), math.sin(pose[2])
     matrix[:] = 0.0
@@ -70,20 +74,20 @@ def linearise(
         variance = reference[VARIANCE, i] + scan[VARIANCE, j] + settings.roughness**2
         weight = 1.0 / variance
         if (
-            nx * mx + ny * my < _ALIKE
+            nx * mx + ny * my < _MIN_FACING_COSINE
             or error * error * weight > gate * gate
             or abs(beside) > reference[SPACING, i] + scan[SPACING, j]
         ):
             pairs[j] = -1
             continue
         inliers += 1
-        turn = ny * px - nx * py
-        _add(matrix, weight, nx, ny, turn)
+        lever = ny * px - nx * py
+        _add(matrix, weight, nx, ny, lever)
         tilt = -weight * reference[TILT, i]
         _add(matrix, tilt, ny, -nx, -(nx * px + ny * py))
         gradient[0] -= weight * nx * error
         gradient[1] -= weight * ny * error
-        gradient[2] -= weight * turn * error
+        gradient[2] -= weight * lever * error
         squares += error * error
         chi += weight * error * error
     report[PAIRS], report[INLIERS] = total, inliers
@@ -108,13 +112,14 @@ def _add(matrix: FloatArray, weight: float, a: float, b: float, c: float) -> Non
 def find_weak(matrix: FloatArray, share: float, report: FloatArray) -> None:
     """Report the direction along which the matrix says too little about the place, if any.
 
-    The heading is free: of the matrix's part for the place what a turn explains is taken off.
-    The direction is the minor axis of what is left, if its value is at most `share` of the major.
+    The heading is free, so what a rotation explains is taken off the matrix's part for the place
+    (its Schur complement). The direction is the minor axis of what is left, if its eigenvalue is at
+    most `share` of the major one.
     """
-    turn = max(matrix[2, 2], 1e-12)
-    a = matrix[0, 0] - matrix[0, 2] * matrix[0, 2] / turn
-    b = matrix[0, 1] - matrix[0, 2] * matrix[1, 2] / turn
-    d = matrix[1, 1] - matrix[1, 2] * matrix[1, 2] / turn
+    rotation = max(matrix[2, 2], 1e-12)
+    a = matrix[0, 0] - matrix[0, 2] * matrix[0, 2] / rotation
+    b = matrix[0, 1] - matrix[0, 2] * matrix[1, 2] / rotation
+    d = matrix[1, 1] - matrix[1, 2] * matrix[1, 2] / rotation
     middle, half = 0.5 * (a + d), math.hypot(0.5 * (a - d), b)
     weak = middle - half <= share * (middle + half)
     angle = 0.5 * math.atan2(-2.0 * b, d - a)
@@ -131,10 +136,10 @@ def add_guess(
     settings: Any,
     report: FloatArray,
 ) -> None:
-    """The first guess as one more observation; along a weak direction it alone decides."""
+    """Add the first guess as one more observation; along a weak direction it alone decides."""
     x, y = report[WEAK_X], report[WEAK_Y]
-    _add(matrix, _HOLD, x, y, 0.0)
-    off = _HOLD * (x * (guess[0] - pose[0]) + y * (guess[1] - pose[1]))
+    _add(matrix, _WEAK_GUESS_WEIGHT, x, y, 0.0)
+    off = _WEAK_GUESS_WEIGHT * (x * (guess[0] - pose[0]) + y * (guess[1] - pose[1]))
     gradient[0] += off * x
     gradient[1] += off * y
     for k in range(3):

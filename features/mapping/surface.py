@@ -1,4 +1,4 @@
-"""A scan as the scan matcher needs it: points, and the line through each one's neighbours."""
+"""A scan as the matcher needs it: points, each with the line through its neighbours."""
 
 from __future__ import annotations
 
@@ -16,27 +16,30 @@ normal towards the scanner, distance to the farther neighbour (m), variance of t
 the line (m^2), variance of the line's direction (rad^2), and the range (m; 0 where there is no
 point with a line)."""
 
-ROWS = 10
+ROWS = RANGE + 1
 
-_FLATTEST = math.radians(4.0)
-"""Neighbours that a wall at a flatter incidence would be needed for are not joined."""
+_MIN_INCIDENCE = math.radians(4.0)
+"""Neighbours that only a wall at a flatter incidence could join are not joined, radians."""
 
-_MEDIAN_OF_NORMAL = 0.6745
-"""Median of the size of a standard normal variable."""
+_NORMAL_MEDIAN = 0.6745
+"""Median of the absolute value of a standard normal variable."""
 
-_LEAST_NOISE, _MOST_NOISE = 0.003, 0.05
-"""What `range_noise` takes for possible, metres."""
+_MIN_NOISE, _MAX_NOISE = 0.003, 0.05
+"""Limits of what `range_noise` returns, metres."""
 
-_FEWEST = 3
+_MIN_LINE_POINTS = 3
 """Points of a line."""
+
+_STACK_SIZE = 64
+"""Pieces of one run that can wait to be split; a run with more is not split further."""
 
 
 @njit(cache=True, error_model="numpy")
 def range_noise(ranges: FloatArray, limits: tuple[float, float]) -> Any:
-    """The standard deviation of the ranges' noise, metres, told from the scan itself.
+    """The standard deviation of the ranges' noise, metres, estimated from the scan itself.
 
-    Along a wall the second difference of the ranges, r[i-1] - 2 r[i] + r[i+1], is all but noise
-    of six times its variance; the median of its size takes no notice of corners and jumps.
+    Along a wall the second difference of the ranges, r[i-1] - 2 r[i] + r[i+1], is almost only
+    noise, of six times the variance. The median of its absolute value ignores corners and jumps.
     """
     sizes = np.empty(len(ranges))
     count = 0
@@ -46,7 +49,7 @@ def range_noise(ranges: FloatArray, limits: tuple[float, float]) -> Any:
             sizes[count] = abs(ranges[i - 1] - 2.0 * ranges[i] + ranges[i + 1])
             count += 1
     median = np.median(sizes[:count]) if count > 10 else 0.0
-    return min(max(median / (_MEDIAN_OF_NORMAL * math.sqrt(6.0)), _LEAST_NOISE), _MOST_NOISE)
+    return min(max(median / (_NORMAL_MEDIAN * math.sqrt(6.0)), _MIN_NOISE), _MAX_NOISE)
 
 
 @njit(cache=True, error_model="numpy")
@@ -95,11 +98,11 @@ def sense_surface(
 @njit(cache=True, error_model="numpy")
 def _parted(ranges: FloatArray, i: int, j: int, increment: float, sigma: float) -> Any:
     """Whether the surface jumps between two beams (Borges and Aldon 2004, eq. (5) of Weerakoon)."""
-    turn = increment * (j - i)
-    flattest = max(_FLATTEST, 2.0 * turn)
+    angle_between = increment * (j - i)
+    flattest = max(_MIN_INCIDENCE, 2.0 * angle_between)
     near, far = min(ranges[i], ranges[j]), max(ranges[i], ranges[j])
-    limit = near * math.sin(turn) / math.sin(flattest - turn) + 4.0 * sigma
-    apart = near * near + far * far - 2.0 * near * far * math.cos(turn)
+    limit = near * math.sin(angle_between) / math.sin(flattest - angle_between) + 4.0 * sigma
+    apart = near * near + far * far - 2.0 * near * far * math.cos(angle_between)
     return j - i > 3 or apart > limit * limit
 
 
@@ -115,18 +118,18 @@ def _fit_pieces(
     window: int,
 ) -> None:
     """Split a run of joined points where it bends, and fit each piece."""
-    stack = np.empty((64, 2), np.int64)
+    stack = np.empty((_STACK_SIZE, 2), np.int64)
     stack[0] = first, stop
     used = 1
     while used > 0:
         used -= 1
         a, b = stack[used]
         bend = _bend(out, index, a, b, 4.0 * sigma)
-        if bend > 0 and used < 62:
+        if bend > 0 and used < _STACK_SIZE - 2:
             stack[used] = bend, b
             stack[used + 1] = a, bend
             used += 2
-        elif b - a >= _FEWEST:
+        elif b - a >= _MIN_LINE_POINTS:
             _fit_piece(out, index, a, b, ranges, directions, sigma, window)
 
 

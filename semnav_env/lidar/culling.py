@@ -15,10 +15,10 @@ from semnav_env.features.frames import FloatArray
 GRID = np.dtype([("x", "f8"), ("y", "f8"), ("cell", "f8"), ("columns", "i8"), ("rows", "i8")])
 """The lower left corner, the side of a cell in metres, and how many cells: shape (1,)."""
 
-CELL = 2.0
-"""Side of a cell, metres; larger in a plan that would need more than `MOST_CELLS` of them."""
+CELL_SIZE = 2.0
+"""Side of a cell, metres; larger in a plan that would need more than `MAX_CELLS` of them."""
 
-MOST_CELLS = 10_000
+MAX_CELLS = 10_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,10 +58,12 @@ class Culling:
 
 def _grid(segments: FloatArray) -> np.ndarray:
     if len(segments) == 0:
-        return np.array([(0.0, 0.0, CELL, 1, 1)], GRID)
+        return np.array([(0.0, 0.0, CELL_SIZE, 1, 1)], GRID)
     points = segments.reshape(-1, 2)
     low, extent = points.min(axis=0), np.ptp(points, axis=0)
-    cell = max(CELL, math.sqrt(float(extent.prod()) / MOST_CELLS), float(extent.max()) / MOST_CELLS)
+    cell = max(
+        CELL_SIZE, math.sqrt(float(extent.prod()) / MAX_CELLS), float(extent.max()) / MAX_CELLS
+    )
     columns, rows = (extent // cell).astype(np.int64) + 1
     return np.array([(*low, cell, columns, rows)], GRID)
 

@@ -12,7 +12,7 @@ from semnav_env.features.frames import FloatArray, Pose, compose
 from semnav_env.features.lidar_spec import CosinesSines, LidarSpec, lidar_spec
 from semnav_env.features.scan import Scan
 from semnav_env.lidar.culling import Culling
-from semnav_env.lidar.moving import NOTHING, cast_moving
+from semnav_env.lidar.moving import NO_MOVING_THINGS, cast_moving
 from semnav_env.lidar.noise import corrupt
 from semnav_env.lidar.raster import cast
 from semnav_env.maps.floor_plan import FloorPlan
@@ -65,7 +65,7 @@ class Lidar:
         floor_plan: FloorPlan,
         spec: str | LidarSpec = "tim561",
         mount: Pose = (0.0, 0.0, 0.0),
-        moving: tuple[FloatArray, FloatArray] = NOTHING,
+        moving: tuple[FloatArray, FloatArray] = NO_MOVING_THINGS,
     ) -> None:
         self.spec = lidar_spec(spec)
         self.mount = mount

@@ -10,7 +10,7 @@ from numba import njit
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.lidar_spec import CosinesSines
 
-NOTHING = (np.zeros((0, 3)), np.zeros((0, 4)))
+NO_MOVING_THINGS = (np.zeros((0, 3)), np.zeros((0, 4)))
 """Discs and segments of a place in which nothing moves."""
 
 

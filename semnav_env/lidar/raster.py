@@ -19,14 +19,14 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.lidar_spec import CosinesSines
 from semnav_env.lidar.culling import cell_of
 
-_TURN = 2.0 * math.pi
+_FULL_TURN = 2.0 * math.pi
 _ANGLE_ERROR = 2e-4
 """More than the error of `_coarse_atan2`, radians."""
 
-_EPS = 1e-12
+_END_TOLERANCE = 1e-12
 """How far a beam may pass an end of a segment and still meet it, m: closes shared vertices."""
 
-_UNSEEN = -1e9
+_NO_SPAN = -1e9
 """In place of the span of a segment that no beam can meet."""
 
 _AX, _AY, _BX, _BY, _NX, _NY, _FIRST, _SPAN = range(8)
@@ -64,11 +64,11 @@ def cast(
     _prepare(x, y, heading, ends, start, stop, sensor, table)
     farthest = 1.0 / sensor[0].range_max
     guard = 1.0 + _ANGLE_ERROR / sensor[0].angle_increment
-    turn = _TURN / sensor[0].angle_increment
+    beams_per_turn = _FULL_TURN / sensor[0].angle_increment
     out[:] = farthest
     for k in range(table.shape[1]):
-        if table[_SPAN, k] > _UNSEEN:
-            _draw(table, k, beams, guard, turn, out)
+        if table[_SPAN, k] > _NO_SPAN:
+            _draw(table, k, beams, guard, beams_per_turn, out)
     for i in range(np.uint64(out.shape[0])):
         inverse = out[i]
         out[i] = 1.0 / inverse if inverse > farthest else np.inf
@@ -120,19 +120,24 @@ def _prepare(
         nx, ny = (by - ay) / cross, (ax - bx) / cross
         towards_a = _coarse_atan2(ay, ax)
         span = _coarse_atan2(by, bx) - towards_a
-        span = span + _TURN if span < -1.0 else span
+        span = span + _FULL_TURN if span < -1.0 else span
         first = towards_a - angle_min
-        first = first + _TURN if first < _ANGLE_ERROR else first
+        first = first + _FULL_TURN if first < _ANGLE_ERROR else first
         # Edge-on, or its whole line is out of range.
         unseen = (cross < 1e-30) | (nx * nx + ny * ny < farthest_squared)
         axs[k], ays[k], bxs[k], bys[k], nxs[k], nys[k] = ax, ay, bx, by, nx, ny
         firsts[k] = first * beams_per_radian
-        spans[k] = _UNSEEN if unseen else span * beams_per_radian
+        spans[k] = _NO_SPAN if unseen else span * beams_per_radian
 
 
 @njit(cache=True)
 def _draw(
-    table: FloatArray, k: int, beams: CosinesSines, guard: float, turn: float, out: FloatArray
+    table: FloatArray,
+    k: int,
+    beams: CosinesSines,
+    guard: float,
+    beams_per_turn: float,
+    out: FloatArray,
 ) -> None:
     """Raise the reciprocal ranges in `out` to those of one segment."""
     (cos, sin), last_beam = beams, np.int64(out.shape[0]) - 1
@@ -143,14 +148,14 @@ def _draw(
     while stop >= 0.0:  # once more a turn below: the segment may lie across angle_min
         first = math.ceil(start) if start > 0.0 else 0
         last = math.floor(stop) if stop < last_beam else last_beam
-        while first <= last and ax * sin[first] - ay * cos[first] < -_EPS:
+        while first <= last and ax * sin[first] - ay * cos[first] < -_END_TOLERANCE:
             first += 1
-        while first <= last and cos[last] * by - sin[last] * bx < -_EPS:
+        while first <= last and cos[last] * by - sin[last] * bx < -_END_TOLERANCE:
             last -= 1
         if first <= last:
             for i in range(np.uint64(first), np.uint64(last + 1)):
                 inverse = nx * cos[i] + ny * sin[i]
                 so_far = out[i]
                 out[i] = inverse if inverse > so_far else so_far
-        start -= turn
-        stop -= turn
+        start -= beams_per_turn
+        stop -= beams_per_turn

@@ -11,7 +11,7 @@ import pymunk
 
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.features.frames import Contact, FloatArray, Pose, wrap_angle
-from semnav_env.lidar.moving import NOTHING
+from semnav_env.lidar.moving import NO_MOVING_THINGS
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 from semnav_env.world.bodies import driving_joints, robot_body, solid_space
@@ -166,7 +166,7 @@ class World:
     @property
     def moving_shapes(self) -> tuple[FloatArray, FloatArray]:
         """Discs of people, shape (n, 3), and leaves, shape (m, 4), as a lidar takes them."""
-        return NOTHING if self.moving is None else self.moving.shapes
+        return NO_MOVING_THINGS if self.moving is None else self.moving.shapes
 
     def social(self) -> dict[str, Any]:
         """How near people and robot came since the reset; empty where only the robot moves."""

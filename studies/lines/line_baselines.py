@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from semnav_env.features import ExtractorSettings, extract
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.dynamic_refine import refine_vertices
+from semnav_env.features.kernels.polyline_refinement import refine_vertices
 from semnav_env.features.scan import Scan
 
 Lines = tuple[FloatArray, ...]

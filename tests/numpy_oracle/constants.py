@@ -17,7 +17,7 @@ PRIOR_POINTS = 4
 """`walls`: weight of the known sigma in the variance of a wall, in points."""
 
 PIECE_PRICE = 20.0
-"""`dynamic`: what one more piece must gain, in minus twice the log likelihood."""
+"""`optimal_partition`: what one more piece must gain, in minus twice the log likelihood."""
 
 MERGE_CHI_SQUARE = 13.8
 """`merging`: quantile 0.999 of chi-square with two degrees of freedom."""
@@ -38,7 +38,7 @@ ROUNDING = 1e-9
 """`filters`: more than rounding can add to a range, as a share of it."""
 
 FEWEST_BEAMS = 8
-"""`ring`: a circle of fewer beams is not taken for one."""
+"""`full_circle`: a circle of fewer beams is not taken for one."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class CurvaturePeaks:
 
 @dataclass(frozen=True)
 class ArcRuns:
-    """`round_runs`: which runs of pieces may be an arc."""
+    """`arc_candidates`: which runs of pieces may be an arc."""
 
     solid: int = 3
     most_turn: float = math.cos(math.radians(110.0))

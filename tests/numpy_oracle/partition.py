@@ -1,4 +1,4 @@
-"""The most likely partition of a group in plain NumPy; see `kernels.dynamic`."""
+"""The most likely partition of a group in plain NumPy; see `kernels.optimal_partition`."""
 
 from __future__ import annotations
 

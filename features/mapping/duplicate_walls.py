@@ -1,4 +1,4 @@
-"""Walls of a map that are already there: of several that lie on each other the longest stays."""
+"""Removes walls of a map that lie on longer ones."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from semnav_env.features.elements import Wall
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.scene import ends_of
 
-_BESIDE = 0.08
+_MAX_OFFSET = 0.08
 """A place this near to a longer wall is on it, metres."""
 
-_ALIKE = math.cos(math.radians(35.0))
-"""Two walls that may be one face the same way to this angle."""
+_MIN_FACING_COSINE = math.cos(math.radians(35.0))
+"""Cosine of the largest angle between two walls that may be one: both must face the same way."""
 
-_SHARE = 0.7
-"""A wall is a double if this share of it lies on longer ones."""
+_MIN_COVERED_SHARE = 0.7
+"""A wall is a duplicate if this share of it lies on longer ones."""
 
-_STEP = 0.1
-"""Between the places that are looked at, metres."""
+_SAMPLE_SPACING = 0.1
+"""Distance between the places of a wall that are looked at, metres."""
 
 
-def without_doubles(walls: Sequence[Wall]) -> tuple[Wall, ...]:
+def without_duplicates(walls: Sequence[Wall]) -> tuple[Wall, ...]:
     """The walls that do not lie on longer ones, in their order.
 
     Poses that are a few centimetres off, and corners cut by a single scan, leave short lines along
@@ -47,11 +47,11 @@ def _covered(wall: FloatArray, longer: FloatArray) -> bool:
     length = math.hypot(along[0], along[1])
     direction = longer[:, 2:] - longer[:, :2]
     squared = np.sum(direction**2, axis=1)
-    facing = direction @ along > _ALIKE * length * np.sqrt(squared)
+    facing = direction @ along > _MIN_FACING_COSINE * length * np.sqrt(squared)
     direction, squared, origin = direction[facing], squared[facing], longer[facing, :2]
-    count = max(2, math.ceil(length / _STEP))
+    count = max(2, math.ceil(length / _SAMPLE_SPACING))
     shares = (np.arange(count) + 0.5) / count
     offset = (start + shares[:, None] * along)[:, None] - origin
     place = np.clip(np.sum(offset * direction, axis=2) / squared, 0.0, 1.0)
     apart = np.linalg.norm(offset - place[..., None] * direction, axis=2)
-    return bool(np.mean(np.any(apart < _BESIDE, axis=1)) >= _SHARE)
+    return bool(np.mean(np.any(apart < _MAX_OFFSET, axis=1)) >= _MIN_COVERED_SHARE)

@@ -1,4 +1,4 @@
-"""What the beams say of a stretch of line, piece by piece: something is there, or nothing is."""
+"""Counts, piece by piece along a line, the beams that end on it and those that pass it."""
 
 from __future__ import annotations
 
@@ -13,33 +13,31 @@ from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.mapping.lines import Line
 from semnav_env.features.scan import Scan
 
-CELL = 0.025
+CELL_LENGTH = 0.025
 """Length of a piece, metres."""
 
-_ON = 0.06
+_MAX_HIT_DISTANCE = 0.06
 """A beam that ends this near to the line ends on it, metres."""
 
-_THROUGH = 0.2
-"""A beam that ends this far behind the line went through it, metres ..."""
+_PASS_DEPTH, _OPENING_DEPTH = 0.2, 0.3
+"""A beam passed a wall, or an opening that a robot is to pass, if it ends this far behind the line,
+metres; no robot fits into less than the second."""
 
-_PASSABLE = 0.3
-"""... and if one is to pass there, so far: a robot does not fit between less."""
+_MIN_INCIDENCE_SINE = math.sin(math.radians(12.0))
+"""Sine of the angle between beam and line below which a beam does not count."""
 
-_FLATTEST = math.sin(math.radians(12.0))
-"""Sine of the flattest incidence at which a beam counts."""
+_MIN_LINE_DISTANCE = 0.15
+"""A scanner nearer to the line than this can tell nothing, metres."""
 
-_NEAREST = 0.15
-"""From nearer to the line than this nothing can be told, metres."""
-
-REACH = 8.0
+MAX_BEAM_LENGTH = 8.0
 """Beams count up to this distance, metres."""
 
 Counts = NDArray[np.int32]
 
 
 @dataclass(slots=True, eq=False)
-class Cells:
-    """Per piece of a line, how many scans say that something is there, and how many that not.
+class LineCells:
+    """For each piece of a line, how many scans show that something is there, and how many that not.
 
     Attributes:
         base: number of the first cell; cell k covers k CELL to (k + 1) CELL along the line.
@@ -55,7 +53,7 @@ class Cells:
 
     def cover(self, first: float, last: float) -> None:
         """Make room for the stretch from `first` to `last`, metres along the line."""
-        low, high = math.floor(first / CELL), math.floor(last / CELL) + 1
+        low, high = math.floor(first / CELL_LENGTH), math.floor(last / CELL_LENGTH) + 1
         if not len(self.hits):
             self.base = low
         before = max(0, self.base - low)
@@ -69,15 +67,15 @@ class Cells:
     def see(self, first: float, last: float) -> None:
         """Count a wall that was extracted from `first` to `last`, metres along the line."""
         self.cover(first, last)
-        low, high = round(first / CELL) - self.base, round(last / CELL) - self.base
+        low, high = round(first / CELL_LENGTH) - self.base, round(last / CELL_LENGTH) - self.base
         self.seen[max(low, 0) : high] += 1
 
-    def add(self, other: Cells, shift: float) -> None:
+    def add(self, other: LineCells, shift: float) -> None:
         """Add the counts of another line's cells, `shift` metres farther along than these."""
         if not len(other.hits):
             return
-        low = other.base + round(shift / CELL)
-        self.cover(low * CELL + 1e-9, (low + len(other.hits)) * CELL - 1e-9)
+        low = other.base + round(shift / CELL_LENGTH)
+        self.cover(low * CELL_LENGTH + 1e-9, (low + len(other.hits)) * CELL_LENGTH - 1e-9)
         place = slice(low - self.base, low - self.base + len(other.hits))
         self.seen[place] += other.seen
         self.hits[place] += other.hits
@@ -90,9 +88,9 @@ class Cells:
             line: along which the cells lie, from its point (x, y).
             scan: the scan.
             pose: of the lidar in the frame of the line.
-            opening: ask whether one can pass, seen from either side, rather than whether there
-                is a wall: what lies a little behind the line is in the way, too, and a beam
-                without a return went through.
+            opening: count for an opening, which is seen from either side, instead of a wall. What
+                lies a little behind the line then blocks it, too, and a beam without a return
+                passed it.
         """
         limits = scan.range_min, scan.range_max
         angles = scan.angle_min, scan.angle_increment
@@ -122,31 +120,33 @@ def _observe(
     hits: Counts,
     passes: Counts,
 ) -> None:
-    """Follow the beam nearest to each cell's middle to the line; see `Cells.observe`."""
+    """Follow the beam nearest to each cell's middle to the line; see `LineCells.observe`."""
     c, s = math.cos(line[2]), math.sin(line[2])
     dx, dy = pose[0] - line[0], pose[1] - line[1]
     along, across = c * dx + s * dy, c * dy - s * dx
-    if abs(across) < _NEAREST:
+    if abs(across) < _MIN_LINE_DISTANCE:
         return
     side = 1.0 if across > 0.0 else -1.0
-    deep = _PASSABLE if opening else _THROUGH
+    deep = _OPENING_DEPTH if opening else _PASS_DEPTH
     for k in range(len(hits)):
-        place = (base + k + 0.5) * CELL
+        place = (base + k + 0.5) * CELL_LENGTH
         towards = math.atan2(-across, place - along) + line[2] - pose[2] - angles[0]
         towards -= 2.0 * math.pi * math.floor(towards / (2.0 * math.pi))
         beam = int(towards / angles[1] + 0.5)
         if beam >= len(ranges):
             continue
         sine = math.sin(angles[0] + beam * angles[1] + pose[2] - line[2])
-        if abs(sine) < _FLATTEST or abs(across) > REACH * abs(sine):
+        if abs(sine) < _MIN_INCIDENCE_SINE or abs(across) > MAX_BEAM_LENGTH * abs(sine):
             continue
         reach = ranges[beam]
         if not limits[0] <= reach < limits[1]:
-            # Below zero it was too near to tell.
+            # A negative infinite range was too near to tell (REP 117).
             passes[k] += opening and not reach < 0.0
             continue
         front = side * (across + reach * sine)
         if front < -deep:
             passes[k] += 1
-        elif front <= _ON and (opening or (side > 0.0 and front >= -_ON)):
+        elif front <= _MAX_HIT_DISTANCE and (
+            opening or (side > 0.0 and front >= -_MAX_HIT_DISTANCE)
+        ):
             hits[k] += 1

@@ -12,38 +12,40 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 
-SPACING = 0.1
+PROBE_SPACING = 0.1
 """Distance between the probes of the sides along the axis, metres."""
 
-BEHIND = 2.0
+PROBED_BEHIND = 2.0
 """How far behind the robot the sides are probed, metres."""
 
-NEAR = 8.0
-"""Where the corridor is as wide as usual: not farther ahead than this, metres."""
+WIDTH_RANGE = 8.0
+"""The typical width of a corridor is taken from probes up to this far ahead, metres."""
 
-REACH = 6.0
-"""A side farther than this is none, metres."""
+MAX_SIDE_DISTANCE = 6.0
+"""What a ray meets farther off than this is no side of the corridor, metres."""
 
 BODY_WIDTH = 0.7
 """A corridor ends where no way of this width goes on, metres."""
 
-FURNITURE = 1.5
-"""What stands in the way of going on before a side is at most this deep, metres."""
+MAX_FURNITURE_DEPTH = 1.5
+"""Greatest depth of furniture that stands before a side, metres."""
 
-DOORWAY = 0.5
-"""Nearer than this to a door that lies across the way, one stands in the doorway, metres."""
+DOORWAY_DEPTH = 0.5
+"""Distance from a door across the way within which a robot stands in the doorway, metres."""
 
-SILL = 0.1
-"""A wall nearer than this is the one in whose doorway one stands, not one ahead, metres."""
+MIN_WALL_DISTANCE = 0.1
+"""A wall nearer than this is the one in whose doorway the robot stands and not one ahead of it,
+metres."""
 
-LANE = 0.1
-"""Distance between the lanes, metres."""
+LANE_SPACING = 0.1
+"""Distance between the lanes, which are lines along the axis, metres."""
 
-ASIDE = 0.85
-"""Ways that begin so far beside the robot still count as ahead of it, metres."""
+MAX_WAY_OFFSET = 0.85
+"""Farthest beside the robot that a way may begin and still count as ahead of it, metres."""
 
-ALONG = math.sin(math.radians(15.0))
-"""A wall nearer to the axis in direction runs along the corridor and does not end it."""
+MIN_END_SINE = math.sin(math.radians(15.0))
+"""Sine of the least angle to the axis of a wall that ends the corridor; flatter ones run along
+it."""
 
 
 @njit(cache=True)
@@ -60,26 +62,26 @@ def in_frame(segments: FloatArray, x: float, y: float, heading: float) -> FloatA
 
 @njit(cache=True)
 def probe(local: FloatArray, sign: float, back: float, count: int) -> FloatArray:
-    """How far the first `count` rays go to one side, at most `REACH`, metres; inf beyond.
+    """How far the first `count` rays go to one side, metres; inf beyond `MAX_SIDE_DISTANCE`.
 
     Args:
         local: segments in the frame of the axis, shape (n, 4).
         sign: 1 for the left side, -1 for the right.
         back: how far the corridor goes back, metres; no ray starts behind that.
-        count: of rays; ray k starts at x = k * `SPACING` - `BEHIND`.
+        count: of rays; ray k starts at x = k * `PROBE_SPACING` - `PROBED_BEHIND`.
     """
     side = np.full(count, np.inf)
-    start = max(0, math.ceil((BEHIND - back) / SPACING))
+    start = max(0, math.ceil((PROBED_BEHIND - back) / PROBE_SPACING))
     for i in range(len(local)):
         x1, y1, x2, y2 = local[i, 0], sign * local[i, 1], local[i, 2], sign * local[i, 3]
         if max(y1, y2) < 0.0 or abs(x2 - x1) < 1e-9:
             continue
         slope = (y2 - y1) / (x2 - x1)
-        first = math.ceil((min(x1, x2) + BEHIND) / SPACING)
-        last = math.floor((max(x1, x2) + BEHIND) / SPACING)
+        first = math.ceil((min(x1, x2) + PROBED_BEHIND) / PROBE_SPACING)
+        last = math.floor((max(x1, x2) + PROBED_BEHIND) / PROBE_SPACING)
         for k in range(max(first, start), min(last, count - 1) + 1):
-            distance = y1 + slope * (k * SPACING - BEHIND - x1)
-            if 0.0 <= distance < side[k] and distance <= REACH:
+            distance = y1 + slope * (k * PROBE_SPACING - PROBED_BEHIND - x1)
+            if 0.0 <= distance < side[k] and distance <= MAX_SIDE_DISTANCE:
                 side[k] = distance
     return side
 
@@ -92,7 +94,7 @@ def shift(local: FloatArray, offset: float) -> None:
 
 
 @njit(cache=True)
-def usual_distances(local: FloatArray, back: float, straight: float) -> tuple[float, float]:
+def typical_distances(local: FloatArray, back: float, straight: float) -> tuple[float, float]:
     """How far the left and the right side usually lie from the axis, metres.
 
     Args:
@@ -100,9 +102,9 @@ def usual_distances(local: FloatArray, back: float, straight: float) -> tuple[fl
         back: how far it goes back, metres.
         straight: how far it goes on, metres.
     """
-    middle = round(REACH / LANE)
-    lanes = _lanes(local, -middle * LANE, 2 * middle + 1, DOORWAY)
-    count = int((min(straight, NEAR) + BEHIND) / SPACING) + 1
+    middle = round(MAX_SIDE_DISTANCE / LANE_SPACING)
+    lanes = _lanes(local, -middle * LANE_SPACING, 2 * middle + 1, DOORWAY_DEPTH)
+    count = int((min(straight, WIDTH_RANGE) + PROBED_BEHIND) / PROBE_SPACING) + 1
     left = _usual(probe(local, 1.0, back, count), _room(lanes[middle:], straight))
     right = _usual(probe(local, -1.0, back, count), _room(lanes[middle::-1], straight))
     return left, right
@@ -110,15 +112,15 @@ def usual_distances(local: FloatArray, back: float, straight: float) -> tuple[fl
 
 @njit(cache=True)
 def _usual(side: FloatArray, room: float) -> float:
-    """The usual distance of a side; `REACH` where none is seen.
+    """The usual distance of a side; `MAX_SIDE_DISTANCE` where none is seen.
 
     A third of the probes may meet furniture, and two thirds the depths of a junction. More of
     them do where a robot stands in the junction; so a side is not far beyond the `room` for
     going on, either.
     """
     seen = np.sort(side[np.isfinite(side)])
-    usual = seen[len(seen) // 3] if len(seen) > 0 else REACH
-    return room if usual > room + FURNITURE else usual
+    usual = seen[len(seen) // 3] if len(seen) > 0 else MAX_SIDE_DISTANCE
+    return room if usual > room + MAX_FURNITURE_DEPTH else usual
 
 
 @njit(cache=True)
@@ -127,7 +129,7 @@ def _room(lanes: FloatArray, straight: float) -> float:
     count = 0
     while count < len(lanes) and _goes_on(lanes[count], straight):
         count += 1
-    return max(count - 0.5, 0.5 * BODY_WIDTH / LANE) * LANE
+    return max(count - 0.5, 0.5 * BODY_WIDTH / LANE_SPACING) * LANE_SPACING
 
 
 @njit(cache=True)
@@ -137,12 +139,19 @@ def way_ahead(local: FloatArray) -> tuple[float, float]:
     Returns:
         How far it lies to the left of the robot, and how far it goes on, metres.
     """
-    ways = _ways(_lanes(local, -ASIDE, round(2.0 * ASIDE / LANE) + 1, SILL))
+    ways = _ways(
+        _lanes(
+            local,
+            -MAX_WAY_OFFSET,
+            round(2.0 * MAX_WAY_OFFSET / LANE_SPACING) + 1,
+            MIN_WALL_DISTANCE,
+        )
+    )
     farthest, middle = ways.max(), (len(ways) - 1) // 2
     for k in range(middle + 1):
         for way in (middle - k, middle + k):
             if _goes_on(ways[way], farthest):
-                return (way - middle) * LANE, ways[way]
+                return (way - middle) * LANE_SPACING, ways[way]
     return 0.0, farthest
 
 
@@ -164,14 +173,21 @@ def way_back(local: FloatArray) -> float:
 @njit(cache=True)
 def farthest_way(local: FloatArray, left: float, right: float) -> float:
     """The farthest that any way for a body goes on between the sides, metres."""
-    ways = _ways(_lanes(local, LANE - right, max(1, int((left + right) / LANE) - 1), SILL))
+    ways = _ways(
+        _lanes(
+            local,
+            LANE_SPACING - right,
+            max(1, int((left + right) / LANE_SPACING) - 1),
+            MIN_WALL_DISTANCE,
+        )
+    )
     return float(ways.max())
 
 
 @njit(cache=True)
 def _ways(lanes: FloatArray) -> FloatArray:
     """How far each way goes on that is as wide as a body: several lanes beside each other."""
-    width = min(len(lanes), round(BODY_WIDTH / LANE))
+    width = min(len(lanes), round(BODY_WIDTH / LANE_SPACING))
     ways = np.empty(len(lanes) - width + 1)
     for k in range(len(ways)):
         ways[k] = lanes[k : k + width].min()
@@ -180,17 +196,17 @@ def _ways(lanes: FloatArray) -> FloatArray:
 
 @njit(cache=True)
 def _lanes(local: FloatArray, start: float, count: int, nearest: float) -> FloatArray:
-    """How far each lane goes on from x = `nearest`; they lie at y = start + k * `LANE`."""
+    """How far each lane goes on from x = `nearest`; they lie at y = start + k * `LANE_SPACING`."""
     lanes = np.full(count, np.inf)
     for i in range(len(local)):
         x1, y1, x2, y2 = local[i, 0], local[i, 1], local[i, 2], local[i, 3]
-        if max(x1, x2) < nearest or abs(y2 - y1) <= ALONG * math.hypot(x2 - x1, y2 - y1):
+        if max(x1, x2) < nearest or abs(y2 - y1) <= MIN_END_SINE * math.hypot(x2 - x1, y2 - y1):
             continue
         slope = (x2 - x1) / (y2 - y1)
-        first = max(math.ceil((min(y1, y2) - start) / LANE), 0)
-        last = min(math.floor((max(y1, y2) - start) / LANE), count - 1)
+        first = max(math.ceil((min(y1, y2) - start) / LANE_SPACING), 0)
+        last = min(math.floor((max(y1, y2) - start) / LANE_SPACING), count - 1)
         for k in range(first, last + 1):
-            x = x1 + slope * (start + k * LANE - y1)
+            x = x1 + slope * (start + k * LANE_SPACING - y1)
             if x >= nearest:
                 lanes[k] = min(lanes[k], x)
     return lanes

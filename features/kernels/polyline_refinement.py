@@ -18,11 +18,18 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray
 
 Vector: TypeAlias = tuple[float, float]
-System: TypeAlias = tuple[float, float, float, float, float]
 
-STEPS, HALVINGS, SWEEPS = 4, 6, 100
-DAMPING, TINY = 1e-3, 1e-9
-SETTLED = 1e-5
+System: TypeAlias = tuple[float, float, float, float, float]
+"""Normal equations of one vertex: matrix xx, xy, yy and gradient x, y."""
+
+GAUSS_NEWTON_STEPS, STEP_HALVINGS, MAX_SWEEPS = 4, 6, 100
+"""Steps of one vertex, halvings of a step that does not improve, and sweeps over all vertices."""
+
+DAMPING, MIN_DIAGONAL = 1e-3, 1e-9
+"""Added to the diagonal of the normal equations, as a share of it and absolutely, so that they can
+always be solved."""
+
+MIN_SWEEP_GAIN = 1e-5
 """A sweep over all vertices that gains less is the last, square metres."""
 
 
@@ -52,11 +59,11 @@ def refine_vertices(
             vertices[k, axis] = ranges[chosen[k]] * directions[chosen[k], axis]
         last = k + 1 == count or starts[k + 1]
         border[k] = chosen[k] + 1 if last else chosen[k]
-    for _ in range(SWEEPS):
+    for _ in range(MAX_SWEEPS):
         gain = 0.0
         for k in range(count):
             gain += move_vertex(directions, ranges, vertices, border, starts, chosen[k], k)
-        if gain < SETTLED:
+        if gain < MIN_SWEEP_GAIN:
             break
     return vertices
 
@@ -84,11 +91,11 @@ def move_vertex(
     ray = (directions[beam, 0], directions[beam, 1])
     at, middle = (vertices[k, 0], vertices[k, 1]), border[k]
     cost = start = two_sided_cost(directions, ranges, low, middle, high, before, at, after)
-    for _ in range(STEPS):
+    for _ in range(GAUSS_NEWTON_STEPS):
         system = normal_equations(directions, ranges, low, middle, high, before, at, after)
         step_x, step_y = free_step(system) if left and right else step_along(system, ray)
         moved = False
-        for _ in range(HALVINGS):
+        for _ in range(STEP_HALVINGS):
             to = (at[0] + step_x, at[1] + step_y)
             if is_in_order(before, to, after, ray, left, right):
                 new = first_after(directions, low, high, to) if left and right else border[k]
@@ -214,7 +221,7 @@ def one_sided_equations(
 def free_step(system: System) -> Vector:
     """The damped Gauss-Newton step of a vertex that may move anywhere."""
     xx, xy, yy, x, y = system
-    xx, yy = xx * (1.0 + DAMPING) + TINY, yy * (1.0 + DAMPING) + TINY
+    xx, yy = xx * (1.0 + DAMPING) + MIN_DIAGONAL, yy * (1.0 + DAMPING) + MIN_DIAGONAL
     determinant = xx * yy - xy * xy
     return (xy * y - yy * x) / determinant, (xy * x - xx * y) / determinant
 
@@ -224,5 +231,5 @@ def step_along(system: System, ray: Vector) -> Vector:
     """The same for a vertex that may only move along its beam."""
     xx, xy, yy, x, y = system
     curvature = xx * ray[0] ** 2 + 2.0 * xy * ray[0] * ray[1] + yy * ray[1] ** 2
-    length = -(x * ray[0] + y * ray[1]) / (curvature * (1.0 + DAMPING) + TINY)
+    length = -(x * ray[0] + y * ray[1]) / (curvature * (1.0 + DAMPING) + MIN_DIAGONAL)
     return length * ray[0], length * ray[1]

@@ -12,21 +12,21 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
 from semnav_env.features.kernels.segmentation import is_return
 
-FEWEST_BEAMS = 8
-"""A circle of fewer beams is not taken for one."""
+MIN_CIRCLE_BEAMS = 8
+"""A scan of fewer beams per turn is not taken for a full circle."""
 
 
 @njit(cache=True, error_model="numpy")
-def beams_of_turn(beams: int, increment: float, dropout_beams: int) -> int:
+def count_beams_per_turn(beams: int, increment: float, dropout_beams: int) -> int:
     """How many beams a full turn has if the scan covers it, else 0.
 
     A scan that repeats its first direction covers it, and so does one whose ends are no farther
     apart than a gap of missing returns that does not end a wall.
     """
-    turn = 2.0 * math.pi / increment
-    if turn > beams + dropout_beams + 0.5 or turn < FEWEST_BEAMS:
+    beams_per_turn = 2.0 * math.pi / increment
+    if beams_per_turn > beams + dropout_beams + 0.5 or beams_per_turn < MIN_CIRCLE_BEAMS:
         return 0
-    return int(turn + 0.5)
+    return int(beams_per_turn + 0.5)
 
 
 @njit(cache=True, error_model="numpy")
@@ -52,7 +52,7 @@ def unroll(
     increment: float,
     range_min: float,
     limit: float,
-    turn: int,
+    beams_per_turn: int,
     seam: int,
     scratch: Any,
 ) -> None:
@@ -61,9 +61,9 @@ def unroll(
     Missing beams have no return. If the last beam repeats the first direction it stands in for a
     first beam without return.
     """
-    given = min(len(ranges), turn)
-    for i in range(turn):
-        beam = seam + i if seam + i < turn else seam + i - turn
+    given = min(len(ranges), beams_per_turn)
+    for i in range(beams_per_turn):
+        beam = seam + i if seam + i < beams_per_turn else seam + i - beams_per_turn
         distance, x, y = math.nan, directions[given - 1, 0], directions[given - 1, 1]
         if beam < given:
             distance, x, y = ranges[beam], directions[beam, 0], directions[beam, 1]
@@ -73,9 +73,9 @@ def unroll(
                 math.sin((beam - given + 1) * increment),
             )
             x, y = c * x - s * y, s * x + c * y
-        if beam == 0 and len(ranges) > turn and not is_return(distance, range_min, limit):
-            distance = ranges[turn]
-        for k in (i, i + turn):
+        if beam == 0 and len(ranges) > beams_per_turn and not is_return(distance, range_min, limit):
+            distance = ranges[beams_per_turn]
+        for k in (i, i + beams_per_turn):
             scratch.ring_ranges[k] = distance
             scratch.ring_directions[k, 0], scratch.ring_directions[k, 1] = x, y
 
@@ -89,7 +89,7 @@ def close_seam(pieces: int, scratch: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def repeat_pieces(pieces: int, points: int, turn: int, scratch: Any) -> int:
+def repeat_pieces(pieces: int, points: int, beams_per_turn: int, scratch: Any) -> int:
     """Append the pieces of the first half turn once more, a turn later, for gaps at the seam.
 
     Returns:
@@ -98,21 +98,21 @@ def repeat_pieces(pieces: int, points: int, turn: int, scratch: Any) -> int:
     xs, ys, beams = scratch.xs, scratch.ys, scratch.beams
     count = pieces
     for k in range(pieces):
-        if 2 * beams[scratch.pieces[k].first] >= turn:
+        if 2 * beams[scratch.pieces[k].first] >= beams_per_turn:
             break
         piece = scratch.pieces[count]
         scratch.pieces[count] = scratch.pieces[k]
         for i in range(piece.first, piece.last + 1):
             xs[points + i], ys[points + i] = xs[i], ys[i]
-            beams[points + i] = beams[i] + turn
+            beams[points + i] = beams[i] + beams_per_turn
         piece.first, piece.last = piece.first + points, piece.last + points
         count += 1
     return count
 
 
 @njit(cache=True, error_model="numpy")
-def turn_back(items: np.ndarray, count: int, turn: int, seam: int) -> None:
+def renumber_beams(items: np.ndarray, count: int, beams_per_turn: int, seam: int) -> None:
     """Number `first` and `last` beam of walls or arcs as the scan does."""
     for k in range(count):
-        items[k].first = (items[k].first + seam) % turn
-        items[k].last = (items[k].last + seam) % turn
+        items[k].first = (items[k].first + seam) % beams_per_turn
+        items[k].last = (items[k].last + seam) % beams_per_turn

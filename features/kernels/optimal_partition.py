@@ -1,4 +1,4 @@
-"""Straight pieces of a group of points: the most likely partition, by dynamic programming."""
+"""Cuts a group of points into the most likely straight pieces, by dynamic programming."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ PIECE_PRICE = 20.0
 """What one more piece must gain, in minus twice the log likelihood: by the Bayesian information
 criterion three parameters (a line and a cut) times the logarithm of 800 beams."""
 
-COST, BEFORE, TOTAL = 5, 6, 7
-"""Columns of the table after the five moments."""
+SUM_X, SUM_Y, SUM_XX, SUM_XY, SUM_YY, LEAST_COST, LAST_START, TRIAL_COST = range(8)
+"""Columns of the table: sums over the points before each row, the least cost F of these points,
+where the last piece of their best partition starts, and the cost of each start under trial."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -54,7 +55,7 @@ def partition(
     table, starts = scratch.table, scratch.stack
     accumulate(xs, ys, first, last, table)
     count = last - first + 1
-    table[0, COST] = -price
+    table[0, LEAST_COST] = -price
     kept = 0
     for i in range(1, count + 1):
         starts[kept] = i - 1
@@ -62,14 +63,14 @@ def partition(
         best, argument = math.inf, 0
         for k in range(kept):
             j = starts[k]
-            total = table[j, COST] + scatter(table, j, i) / variance
-            table[k, TOTAL] = total
+            total = table[j, LEAST_COST] + scatter(table, j, i) / variance
+            table[k, TRIAL_COST] = total
             if total < best:
                 best, argument = total, j
-        table[i, COST], table[i, BEFORE] = best + price, argument
+        table[i, LEAST_COST], table[i, LAST_START] = best + price, argument
         left = 0
         for k in range(kept):
-            if table[k, TOTAL] <= best + price:
+            if table[k, TRIAL_COST] <= best + price:
                 starts[left] = starts[k]
                 left += 1
         kept = left
@@ -79,25 +80,25 @@ def partition(
 @njit(cache=True, error_model="numpy")
 def accumulate(xs: FloatArray, ys: FloatArray, first: int, last: int, table: FloatArray) -> None:
     """Sums of x, y, xx, xy, yy of the points before each, about the first point."""
-    table[0, :5] = 0.0
+    table[0, SUM_X : SUM_YY + 1] = 0.0
     for i in range(first, last + 1):
         x, y = xs[i] - xs[first], ys[i] - ys[first]
         row = i - first
-        table[row + 1, 0] = table[row, 0] + x
-        table[row + 1, 1] = table[row, 1] + y
-        table[row + 1, 2] = table[row, 2] + x * x
-        table[row + 1, 3] = table[row, 3] + x * y
-        table[row + 1, 4] = table[row, 4] + y * y
+        table[row + 1, SUM_X] = table[row, SUM_X] + x
+        table[row + 1, SUM_Y] = table[row, SUM_Y] + y
+        table[row + 1, SUM_XX] = table[row, SUM_XX] + x * x
+        table[row + 1, SUM_XY] = table[row, SUM_XY] + x * y
+        table[row + 1, SUM_YY] = table[row, SUM_YY] + y * y
 
 
 @njit(cache=True, error_model="numpy")
 def scatter(table: FloatArray, first: int, end: int) -> float:
     """Squared distances of points first to end (exclusive) from their least squares line."""
     count = end - first
-    x, y = table[end, 0] - table[first, 0], table[end, 1] - table[first, 1]
-    xx = table[end, 2] - table[first, 2] - x * x / count
-    xy = table[end, 3] - table[first, 3] - x * y / count
-    yy = table[end, 4] - table[first, 4] - y * y / count
+    x, y = table[end, SUM_X] - table[first, SUM_X], table[end, SUM_Y] - table[first, SUM_Y]
+    xx = table[end, SUM_XX] - table[first, SUM_XX] - x * x / count
+    xy = table[end, SUM_XY] - table[first, SUM_XY] - x * y / count
+    yy = table[end, SUM_YY] - table[first, SUM_YY] - y * y / count
     return float(max(0.5 * (xx + yy - math.sqrt((xx - yy) ** 2 + 4.0 * xy * xy)), 0.0))
 
 
@@ -105,13 +106,13 @@ def scatter(table: FloatArray, first: int, end: int) -> float:
 def trace(first: int, last: int, table: FloatArray, vertices: Any) -> int:
     """The cuts of the cheapest partition, in order."""
     cuts = 2
-    i = int(table[last - first + 1, BEFORE])
+    i = int(table[last - first + 1, LAST_START])
     while i > 0:
         cuts += 1
-        i = int(table[i, BEFORE])
+        i = int(table[i, LAST_START])
     vertices[0], vertices[cuts - 1] = first, last
-    i = int(table[last - first + 1, BEFORE])
+    i = int(table[last - first + 1, LAST_START])
     for k in range(cuts - 2, 0, -1):
         vertices[k] = first + i
-        i = int(table[i, BEFORE])
+        i = int(table[i, LAST_START])
     return cuts

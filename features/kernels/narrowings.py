@@ -1,0 +1,165 @@
+"""Tells a corridor that narrows to the width of a door from a door across the corridor."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.features.frames import FloatArray
+
+SIDE_RANGE_MIN, SIDE_RANGE_MAX = 0.1, 3.0
+"""Distances before and behind the opening between which its sides are looked for, metres."""
+
+CELL_LENGTH = 0.1
+"""Length of the pieces in which a side is recorded, metres."""
+
+MIN_LONG_SIDES, MIN_SHORT_SIDES = 1.0, 0.5
+"""Sides lead up to the opening and away from it if this length of both is there on one side of the
+opening, and that length on the other, metres."""
+
+MIN_THROUGH_SIDE = 1.25
+"""A single side runs through if this length of it is there before and behind the opening, metres:
+longer than a door leaf."""
+
+MAX_SETBACK = 0.45
+"""How far outside the jambs both sides together may lie, metres. A corridor with a door across it
+is wider than the door by more than this."""
+
+CORRIDOR_RANGE, CORRIDOR_HALF_WIDTH = 8.0, 1.25
+"""Distances before and behind the opening, and beside its middle, within which the sides of a
+corridor that goes on are looked for, metres."""
+
+MIN_CORRIDOR_SIDE = 2.5
+"""A corridor goes on if this length of either side is there, before and behind the opening,
+metres."""
+
+SETBACK_STEPS = 10
+"""Steps from a jamb outward to `MAX_SETBACK` in which a side is recorded."""
+
+MAX_INTRUSION = 0.1
+"""How far a side may reach into the opening, metres: walls are rough."""
+
+MAX_SIDE_SLOPE = math.tan(math.radians(20.0))
+"""Largest slope of a side against the direction through the opening."""
+
+
+@njit(cache=True, error_model="numpy")
+def is_narrowing(door: FloatArray, solid: FloatArray) -> bool:
+    """Whether an opening across a corridor is no doorway, because the corridor goes on through it.
+
+    It goes on in three cases. (1) Sides about as far apart as the jambs lead up to the opening and
+    away from it: the corridor narrows, for instance between a pilaster and a wall; a corridor with
+    a door in it, or a room behind a door, is wider than the door. (2) One side runs through: the
+    corridor ends in a room or a lobby. (3) Both sides of the corridor go on behind the opening,
+    however much narrower that is, as between the corners of two alcoves.
+
+    Args:
+        door: the opening's jambs, shape (4,), metres.
+        solid: walls and doors, shape (n, 4), metres; the opening may be among them.
+    """
+    if door[0] == door[2] and door[1] == door[3]:
+        return False
+    close, far = _sides(door, solid)
+    if _goes_on(far):
+        return True
+    for here, beyond in ((close[0], close[1]), (close[1], close[0])):
+        if _runs(here, MIN_LONG_SIDES) and _runs(beyond, MIN_SHORT_SIDES):
+            return True
+        if _runs(here, MIN_THROUGH_SIDE) and _runs_through(here, beyond):
+            return True
+    return False
+
+
+@njit(cache=True, error_model="numpy")
+def _sides(door: FloatArray, solid: FloatArray) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Record where sides run along the direction through the opening.
+
+    Returns:
+        Two tables of flags. Their first two axes are: before or behind the opening; right or left
+        of it. Their last axis is the distance from the opening in pieces of `CELL_LENGTH`. The
+        first table, shape (2, 2, SETBACK_STEPS, n), has the sides up to `SIDE_RANGE_MAX`; its third
+        axis is how far outside the jamb they lie at most, in steps up to `MAX_SETBACK`. The second,
+        shape (2, 2, m), has those within `CORRIDOR_HALF_WIDTH` up to `CORRIDOR_RANGE`.
+    """
+    close = np.zeros(
+        (2, 2, SETBACK_STEPS, round((SIDE_RANGE_MAX - SIDE_RANGE_MIN) / CELL_LENGTH)),
+        dtype=np.bool_,
+    )
+    far = np.zeros((2, 2, round((CORRIDOR_RANGE - SIDE_RANGE_MIN) / CELL_LENGTH)), dtype=np.bool_)
+    x, y = 0.5 * (door[0] + door[2]), 0.5 * (door[1] + door[3])
+    dx, dy = door[2] - door[0], door[3] - door[1]
+    width = math.hypot(dx, dy)
+    c, s = dx / width, dy / width
+    for i in range(len(solid)):
+        across1 = c * (solid[i, 0] - x) + s * (solid[i, 1] - y)
+        across2 = c * (solid[i, 2] - x) + s * (solid[i, 3] - y)
+        along1 = c * (solid[i, 1] - y) - s * (solid[i, 0] - x)
+        along2 = c * (solid[i, 3] - y) - s * (solid[i, 2] - x)
+        if abs(across2 - across1) >= MAX_SIDE_SLOPE * abs(along2 - along1):
+            continue
+        side, aside = _beside(0.5 * (across1 + across2), 0.5 * width)
+        if -MAX_INTRUSION <= aside < CORRIDOR_HALF_WIDTH - 0.5 * width:
+            _mark(along1, along2, far[0, side])
+            _mark(-along1, -along2, far[1, side])
+        if -MAX_INTRUSION <= aside < MAX_SETBACK:
+            step = int(max(0.0, aside) / MAX_SETBACK * SETBACK_STEPS)
+            _mark(along1, along2, close[0, side, step])
+            _mark(-along1, -along2, close[1, side, step])
+    for step in range(1, SETBACK_STEPS):
+        close[:, :, step] |= close[:, :, step - 1]
+    return close, far
+
+
+@njit(cache=True, error_model="numpy")
+def _goes_on(far: NDArray[np.bool_]) -> bool:
+    """Whether both sides of a corridor are there before and behind the opening."""
+    for end in range(2):
+        for side in range(2):
+            if _length(far[end, side]) < MIN_CORRIDOR_SIDE:
+                return False
+    return True
+
+
+@njit(cache=True, error_model="numpy")
+def _beside(across: float, half: float) -> tuple[int, float]:
+    """On which side of the opening something lies, and how far outside the jamb, metres."""
+    return (1 if across > 0.0 else 0), abs(across) - half
+
+
+@njit(cache=True, error_model="numpy")
+def _mark(along1: float, along2: float, there: NDArray[np.bool_]) -> None:
+    """Mark the pieces that a segment covers, if it lies at positive distances from the opening."""
+    first = math.ceil((min(along1, along2) - SIDE_RANGE_MIN) / CELL_LENGTH - 0.5)
+    last = math.floor((max(along1, along2) - SIDE_RANGE_MIN) / CELL_LENGTH - 0.5)
+    for k in range(max(first, 0), min(last, len(there) - 1) + 1):
+        there[k] = True
+
+
+@njit(cache=True, error_model="numpy")
+def _runs_through(here: NDArray[np.bool_], beyond: NDArray[np.bool_]) -> bool:
+    """Whether one side runs on from this side of the opening to beyond it."""
+    for side in range(2):
+        if min(_length(here[side, -1]), _length(beyond[side, -1])) >= MIN_THROUGH_SIDE:
+            return True
+    return False
+
+
+@njit(cache=True, error_model="numpy")
+def _length(pieces: NDArray[np.bool_]) -> float:
+    """Length of the pieces that are there, metres; 1 nm more, against rounding in comparisons."""
+    return float(pieces.sum()) * CELL_LENGTH + 1e-9
+
+
+@njit(cache=True, error_model="numpy")
+def _runs(there: NDArray[np.bool_], length: float) -> bool:
+    """Whether both sides have a length, together less than `MAX_SETBACK` outside the jambs."""
+    aside = 0.0
+    for side in range(2):
+        step = 0
+        while step < SETBACK_STEPS and _length(there[side, step]) < length:
+            step += 1
+        aside += MAX_SETBACK * step / SETBACK_STEPS
+    return aside < MAX_SETBACK - 1e-9
