@@ -1,8 +1,8 @@
 """The corridor around a pose: its axis, its sides, its openings and its end.
 
-Commands speak of corridors, so this is where walls become places. The scene is probed by rays to
-the left and to the right of the corridor's axis, as a person would look along both sides; what the
-rays meet first is the corridor's side. Works on perceived (remembered) and true scenes alike.
+Commands speak of corridors, so this is where walls become places. Rays to the left and to the right
+of the corridor's axis probe the scene; what a ray meets first is the corridor's side. Perceived
+(remembered) and true scenes are treated alike.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class Corridor:
         left: distance from the axis to the left side at each probe, shape (n,); inf where it is
             not seen, has a gap or an opening, and beyond the corridor's ends.
         right: the same to the right.
-        half_width: usual distance from the axis to the sides, metres.
+        half_width: typical distance from the axis to the sides, metres.
         end: where the corridor ends along the axis, metres; inf if that is not seen.
         junctions: in order along the axis, those behind the pose included.
     """
@@ -104,7 +104,10 @@ class Corridor:
         return to_local(self.frame, point)[0]
 
     def place(self, along: float, offset: float = 0.0, heading_change: float = 0.0) -> Pose:
-        """The pose at a place along the axis, `offset` to its left, turned from its direction."""
+        """The pose at a place along the axis, `offset` metres to its left.
+
+        Its heading is that of the axis plus `heading_change`, radians.
+        """
         x, y = to_parent(self.frame, (along, offset))
         return x, y, wrap_angle(self.frame[2] + heading_change)
 
@@ -114,10 +117,10 @@ class Corridor:
         return float(side[probe]) if 0 <= probe < len(side) else math.inf
 
     def unseen(self, left: bool, start: float, stop: float, longer_than: float = 0.6) -> float:
-        """Where along [start, stop] the first stretch begins that may hide a door.
+        """Where along [start, stop] the first stretch begins that may hide a door, metres.
 
-        That is one without a side, longer than `longer_than` metres, that is no opening either.
-        Returns inf if there is none.
+        Such a stretch is longer than `longer_than` metres, and neither a side nor an opening is
+        seen there. Infinite if there is none.
         """
         side = (self.left if left else self.right).copy()
         for junction in self.junctions:
@@ -136,17 +139,17 @@ def corridor_at(scene: Scene, pose: Pose) -> Corridor:
     """The corridor that a robot at `pose` looks along, in the scene's frame.
 
     Args:
-        scene: walls and doors. Doors close their gaps here, for they are no openings; but not
-            one that the robot stands in, looking through it, nor a perceived one (without a name)
-            across a corridor that only narrows there.
-        pose: where and which way, in the scene's frame; the axis is the direction, within 45
-            degrees of the heading, that most of the wall in view runs along.
+        scene: walls and doors. A door closes its gap here, as it is no opening of the corridor;
+            except a door in which the robot stands, looking through it, and a perceived door
+            (without a name) across the corridor where that only narrows.
+        pose: in the scene's frame. The axis is the direction within 45 degrees of the heading
+            along which most of the wall in view runs.
     """
     named = np.array([door.name is not None for door in scene.doors], dtype=np.bool_)
     (x, y, heading), half_width, end, (left, right), rows = survey(
         ends_of(scene.walls), ends_of(scene.doors), named, *pose
     )
-    openings = [SideOpening(on_left > 0.0, *edges) for on_left, *edges in rows.tolist()]
+    openings = [SideOpening(*row) for row in rows.tolist()]
     frame = x, y, wrap_angle(heading)
     return Corridor(frame, left, right, half_width, end, _junctions(openings, end))
 

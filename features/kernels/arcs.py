@@ -10,6 +10,7 @@ from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.arc_candidates import end_of_run, is_bent_like_arc, may_be_column
+from semnav_env.features.kernels.arc_criterion import is_arc, straight_scatter
 from semnav_env.features.kernels.circles import (
     NO_RAY,
     Ray,
@@ -18,16 +19,12 @@ from semnav_env.features.kernels.circles import (
     refine_circle,
 )
 from semnav_env.features.kernels.layout import ROUND
-from semnav_env.features.kernels.lines import offset
 
 MAX_CIRCLE_DEVIATIONS = 3.0
 """Largest distance of a point from a circle that it may belong to, in standard deviations."""
 
 EDGE_DEVIATION = 0.25
 """Standard deviation of where a beam ends at an edge, on top of its spacing, in sigma."""
-
-RESIDUAL_FLOOR = 0.1
-"""Residuals below this share of sigma do not make a fit better: it keeps the logarithm finite."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -229,22 +226,6 @@ def edge_ray(
 
 
 @njit(cache=True, error_model="numpy")
-def straight_scatter(start: int, end: int, first: int, last: int, scratch: Any) -> float:
-    """Squared distances of points first to last to the nearer of the pieces beside them."""
-    xs, ys, pieces = scratch.xs, scratch.ys, scratch.pieces
-    total, done = 0.0, first
-    for k in range(start, end + 2):
-        before, after = pieces[max(k - 1, start)], pieces[min(k, end)]
-        for i in range(done, after.first if k <= end else last + 1):
-            a, b = offset(before, xs[i], ys[i]), offset(after, xs[i], ys[i])
-            total += min(a * a, b * b)
-        if k <= end:
-            total += after.scatter
-            done = after.last + 1
-    return total
-
-
-@njit(cache=True, error_model="numpy")
 def write_arc(
     circle: tuple[float, float, float],
     first: int,
@@ -266,37 +247,3 @@ def write_arc(
     arc.points = last - first + 1
     arc.residual = math.sqrt(scatter / arc.points)
     arc.first, arc.last = beams[first], beams[last]
-
-
-@njit(cache=True, error_model="numpy")
-def is_arc(arc: Any, straight: float, lines: int, settings: Any) -> bool:
-    """Whether an arc is round enough, and explains its points better than straight lines do.
-
-    Better is what has the lower n ln(S / n) + k ln(n) (Schwarz's criterion) for n points, the
-    sum S of their squared residuals and k parameters: three for an arc; two for each line and
-    one for each cut between lines. It needs no knowledge of the noise. Only from within a circle
-    one sees more than half of it.
-    """
-    n, span, finest = arc.points, extent(arc), (RESIDUAL_FLOOR * settings.sigma) ** 2
-    within = math.hypot(arc.centre_x, arc.centre_y) < arc.radius
-    gain = n * math.log((straight / n + finest) / (arc.residual * arc.residual + finest))
-    return bool(
-        (arc.points >= settings.arc_beams)
-        & (arc.radius >= settings.arc_radius_min)
-        & (arc.radius <= settings.arc_radius_max)
-        & (arc.residual <= settings.arc_residual)
-        & (span >= settings.arc_extent_min)
-        & (within | (span <= math.pi))
-        & (arc.radius * (1.0 - math.cos(0.5 * span)) >= settings.arc_sagitta_min)
-        & (gain + (3.0 * lines - 1.0 - 3.0) * math.log(n) > 0.0)
-    )
-
-
-@njit(cache=True, error_model="numpy")
-def extent(arc: Any) -> float:
-    """Angle that an arc spans about its centre, radians; see `elements.Arc.extent`."""
-    ax, ay = arc.start_x - arc.centre_x, arc.start_y - arc.centre_y
-    bx, by = arc.end_x - arc.centre_x, arc.end_y - arc.centre_y
-    heading_change = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
-    heading_change = -heading_change if arc.convex else heading_change
-    return heading_change if heading_change >= 0.0 else heading_change + 2.0 * math.pi

@@ -1,6 +1,7 @@
-"""Numba kernels that probe a corridor: by rays across its axis and by lanes along it.
+"""Probes a corridor by rays across its axis and by lanes along it.
 
-In the frame of the axis x runs along the corridor and y to its left; the robot lies at x = 0.
+In the frame of the axis x runs along the corridor and y to its left; the robot is at x = 0. A lane
+is a line along the axis; a way is as many lanes beside each other as a body is wide.
 """
 
 from __future__ import annotations
@@ -95,7 +96,7 @@ def shift(local: FloatArray, offset: float) -> None:
 
 @njit(cache=True)
 def typical_distances(local: FloatArray, back: float, straight: float) -> tuple[float, float]:
-    """How far the left and the right side usually lie from the axis, metres.
+    """Typical distances of the left and the right side from the axis, metres.
 
     Args:
         local: segments in the frame of the axis, which lies on a way ahead.
@@ -112,11 +113,11 @@ def typical_distances(local: FloatArray, back: float, straight: float) -> tuple[
 
 @njit(cache=True)
 def _usual(side: FloatArray, room: float) -> float:
-    """The usual distance of a side; `MAX_SIDE_DISTANCE` where none is seen.
+    """The typical distance of a side; `MAX_SIDE_DISTANCE` where none is seen.
 
-    A third of the probes may meet furniture, and two thirds the depths of a junction. More of
-    them do where a robot stands in the junction; so a side is not far beyond the `room` for
-    going on, either.
+    It is the lower tertile: up to a third of the probes may meet furniture, and up to two thirds
+    the far walls of a junction. If the robot stands in the junction more of them do; so the
+    distance is limited to little more than the `room` beside the axis in which ways go on.
     """
     seen = np.sort(side[np.isfinite(side)])
     usual = seen[len(seen) // 3] if len(seen) > 0 else MAX_SIDE_DISTANCE
@@ -125,7 +126,7 @@ def _usual(side: FloatArray, room: float) -> float:
 
 @njit(cache=True)
 def _room(lanes: FloatArray, straight: float) -> float:
-    """How far beside the first lane the others go on about as far as `straight`, metres."""
+    """Width of the lanes, from the first one on, that go on about as far as `straight`, metres."""
     count = 0
     while count < len(lanes) and _goes_on(lanes[count], straight):
         count += 1
@@ -134,7 +135,7 @@ def _room(lanes: FloatArray, straight: float) -> float:
 
 @njit(cache=True)
 def way_ahead(local: FloatArray) -> tuple[float, float]:
-    """The nearest way for a body that goes on about as far as any near x = 0.
+    """The nearest way for a body that goes on about as far as any way beside the robot.
 
     Returns:
         How far it lies to the left of the robot, and how far it goes on, metres.

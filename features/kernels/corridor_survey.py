@@ -1,7 +1,6 @@
-"""Numba kernels that look along the sides of a corridor.
+"""Surveys a corridor: puts an axis through it and follows its sides.
 
-`survey` puts an axis through the corridor. In its frame x runs along the corridor and y to its
-left; the robot lies at x = 0.
+In the frame of the axis x runs along the corridor and y to its left; the robot is at x = 0.
 """
 
 from __future__ import annotations
@@ -58,6 +57,10 @@ EDGE_START, EDGE_TOLERANCE = 0.6, 0.25
 """A wall that leads out of an opening begins at most this far behind the side, and lies at most
 that far from the edge along the axis, metres."""
 
+OPENING = np.dtype([("left", "?"), ("near", "f8"), ("far", "f8"), ("offset", "f8")])
+"""An opening: whether on the left side, its near and far edge along the axis, and the distance of
+its side from the axis, metres."""
+
 MAX_OPENINGS = 32
 """More openings along a corridor are left out."""
 
@@ -73,23 +76,22 @@ def survey(
     x: float,
     y: float,
     heading: float,
-) -> tuple[Frame, float, float, FloatArray, FloatArray]:
-    """Look along the corridor that a robot at (x, y, heading) stands in.
+) -> tuple[Frame, float, float, FloatArray, np.ndarray]:
+    """Find axis, sides, openings and end of the corridor that a robot at (x, y, heading) stands in.
 
     Args:
-        walls: shape (n, 4), metres.
-        doors: shape (m, 4); they close their gaps, but for one that the robot stands in, and for
-            doubtful ones across the corridor where that only narrows.
-        certain: which doors cannot be anything else, shape (m,).
+        walls: x1, y1, x2, y2, metres, shape (n, 4).
+        doors: the same, shape (m, 4). A door closes its gap, unless the robot stands in it, or it
+            is not certain and the corridor only narrows there.
+        certain: which doors are known to be doors, shape (m,).
         x: of the robot, metres.
         y: the same.
         heading: of the robot, radians.
 
     Returns:
-        The frame of the axis; the usual distance of the sides; where the corridor ends; the
-        distance of the left and of the right side at each probe, inf where there is none, shape
-        (2, PROBES); and for each opening 1 if on the left or 0, its near and far edge along the
-        axis, and the distance of its side, shape (n, 4).
+        The frame of the axis; half the typical width, metres; where the corridor ends along the
+        axis; the distance of the left and of the right side at each probe, inf where there is
+        none, shape (2, PROBE_COUNT); and the openings, dtype `OPENING`.
     """
     solid = _solid(walls, doors, certain, (x, y, heading))
     heading = prevailing_heading(solid, len(walls), x, y, heading)
@@ -105,7 +107,7 @@ def survey(
         left, right = typical_distances(local, back, straight)
     x, y = x - math.sin(heading) * offset, y + math.cos(heading) * offset
     end = farthest_way(local, left, right)
-    openings = np.empty((MAX_OPENINGS, 4))
+    openings = np.empty(MAX_OPENINGS, OPENING)
     sides = np.empty((2, PROBE_COUNT))
     count = 0
     for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
@@ -140,7 +142,7 @@ def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
 def _solid(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> FloatArray:
-    """The walls, then the doors that the robot does not stand in and that do part the corridor."""
+    """The walls, then the doors that close their gaps (see `survey`), shape (k, 4)."""
     known = np.concatenate((walls, doors))
     solid = np.empty((len(known), 4))
     solid[: len(walls)] = walls
@@ -172,10 +174,13 @@ def _follow(
     usual: float,
     stretch: tuple[float, float],
     side: FloatArray,
-    openings: FloatArray,
+    openings: np.ndarray,
     count: int,
 ) -> int:
     """Follow one side along the corridor; note the openings where it steps back.
+
+    `first` is the probe at which the side stepped back, -1 while it is followed; `reference` is
+    how far it lay before that.
 
     Args:
         raw: what the rays to that side met, metres.
@@ -217,10 +222,10 @@ def _follow(
 
 @njit(cache=True)
 def _recent(side: FloatArray, k: int, usual: float) -> float:
-    """How far a side lay just before probe k.
+    """Distance of a side just before probe k, metres; `usual` where it was not seen.
 
-    That is the upper quartile: furniture stands before a side, and where an opening begins a few
-    probes may meet the wall that leads out.
+    It is the upper quartile, because furniture stands before a side and makes distances too small,
+    and because the last probes before an opening may meet the wall that leads out.
     """
     lately = side[max(0, k - round(RECENT_LENGTH / PROBE_SPACING)) : k]
     seen = np.sort(lately[np.isfinite(lately)])
@@ -234,7 +239,7 @@ def _note_opening(
     first: int,
     last: int,
     offset: float,
-    openings: FloatArray,
+    openings: np.ndarray,
     count: int,
 ) -> int:
     """Note the probes [first, last) as an opening, if wide and walls lead out of its edges."""
@@ -247,23 +252,25 @@ def _note_opening(
         leading += _leads_out(solid, sign, edge, offset)
     if leading < (1 if far - near >= MIN_OPENING_WIDTH else 2):
         return count
-    openings[count] = max(sign, 0.0), near, far, offset
+    opening = openings[count]
+    opening.left, opening.near, opening.far, opening.offset = sign > 0.0, near, far, offset
     return count + 1
 
 
 @njit(cache=True)
 def _leads_out(solid: FloatArray, sign: float, edge: float, offset: float) -> bool:
-    """Whether a wall, or a door close to the edge, leads away from the axis at x = `edge`.
+    """Whether a wall or a door leads away from the axis at x = `edge`, from y = `offset` on.
 
-    It does so from y = `offset` on.
+    For the right side the frame is mirrored (`sign` is -1), so that y always grows outwards.
     """
     for i in range(len(solid)):
         x1, y1, x2, y2 = solid[i, 0], sign * solid[i, 1], solid[i, 2], sign * solid[i, 3]
         if y2 < y1:
             x1, y1, x2, y2 = x2, y2, x1, y1
-        if not (y2 - y1 > abs(x2 - x1) and y1 < offset + 0.6 and y2 > offset + MAX_LEAF_LENGTH):
+        is_along = y2 - y1 <= abs(x2 - x1)
+        if is_along or not (y1 < offset + EDGE_START and y2 > offset + MAX_LEAF_LENGTH):
             continue
         beside = x1 + (x2 - x1) * max(0.0, offset - y1) / (y2 - y1)
-        if abs(beside - edge) < 0.25:
+        if abs(beside - edge) < EDGE_TOLERANCE:
             return True
     return False

@@ -1,7 +1,7 @@
-"""Numba kernel that takes drift out of odometry: walls that are seen again lie where they lay.
+"""Corrects the drift of odometry: walls that are seen again must lie where they lay before.
 
-Mes 2021 (section 2.2) proposes to take out the drift of SPOT by a door that it detects; here every
-remembered wall is such a landmark, by the method below.
+Mes 2021 (section 2.2) proposes to correct the drift of SPOT by a door that it detects; here every
+remembered wall is such a landmark.
 """
 
 from __future__ import annotations
@@ -48,10 +48,12 @@ def without_drift(walls: FloatArray, known: Any, pose: Pose) -> Pose:
 
     One Gauss-Newton step towards the least
 
-        sum w_i d_i^2 + (dx^2 + dy^2) / SHIFT^2 + dtheta^2 / TURN^2:
+        sum w_i d_i^2 + (dx^2 + dy^2) / s^2 + dtheta^2 / t^2,
 
-    d_i are the distances of the ends of each shared stretch from the remembered line, and w_i grows
-    with its length. What the walls do not tell, such as the place along a bare corridor, stays.
+    where d_i are the distances of both ends of each shared stretch from the remembered line, w_i
+    grows with its length and falls for outliers, and s and t are `DRIFT_DEVIATION` and
+    `DRIFT_ANGLE_DEVIATION`. What the walls do not determine, such as the place along a corridor
+    without doors, stays as odometry has it.
 
     Args:
         walls: x1, y1, x2, y2 of the scan's walls as the pose places them, metres, shape (n, 4).
@@ -109,7 +111,11 @@ def _nearest_like(wall: FloatArray, known: Any) -> tuple[int, float, float]:
 def _add(
     wall: FloatArray, begin: float, end: float, old: Any, pose: Pose, sums: FloatArray
 ) -> None:
-    """Add to the normal equations what a stretch of a wall tells beside a remembered one."""
+    """Add both ends of a stretch of a wall beside a remembered one to the normal equations.
+
+    With the unit normal n of the remembered line and d = n . (p - q), a shift moves d by n, and a
+    rotation about the lidar moves it by the lever arm (p - lidar) x n.
+    """
     x1, y1, x2, y2 = wall
     ux, uy = x2 - x1, y2 - y1
     dx, dy = old.end_x - old.start_x, old.end_y - old.start_y

@@ -1,4 +1,4 @@
-"""The direction in which the walls around a place run."""
+"""Finds the direction along which most of the wall around a place runs."""
 
 from __future__ import annotations
 
@@ -70,13 +70,16 @@ def _first_hit(solid: FloatArray, x: float, y: float, c: float, s: float) -> tup
 
 @njit(cache=True)
 def _fold(angles: float) -> float:
-    """The same direction of a line, in [-pi/2, pi/2)."""
+    """The direction of a line (which has no sense of direction) in [-pi/2, pi/2), radians."""
     return angles - math.pi * math.floor(angles / math.pi + 0.5)
 
 
 @njit(cache=True)
 def _commonest(angles: FloatArray, length: FloatArray) -> float:
-    """The middle of the three neighbouring bins that hold most length; inf if all are empty."""
+    """The middle of the three neighbouring bins that hold most length, radians; inf without any.
+
+    The array of bins has an empty one at each end, so that every bin has two neighbours.
+    """
     bins = np.zeros(BIN_COUNT + 2)
     for k in range(len(angles)):
         if abs(angles[k]) < math.pi / 4:
