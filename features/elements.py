@@ -97,7 +97,7 @@ class SceneLeaf:
     """The open leaf of a door.
 
     Attributes:
-        hinge_at_start: it hangs at the door's start, else at its end.
+        hinge_at_start: whether it hangs at the door's start, or at its end.
         angle: between the leaf and the closed door, radians; pi / 2 stands square to it.
             Positive away from the scanner, negative towards it.
     """

@@ -1,4 +1,4 @@
-"""From a scan to a scene."""
+"""Turns a scan into a scene."""
 
 from __future__ import annotations
 
@@ -52,15 +52,16 @@ def extract(
     Args:
         scan: one sweep of a lidar.
         settings: every limit of the chain.
-        explain: add what was turned down, and why, as `rejections`; a thousand times slower.
+        explain: add the candidates that were turned down, and why, as `rejections`; a thousand
+            times slower.
 
     Returns:
-        The scene, features in beam order (of a full circle from some break on); empty where
-        the scan says nothing.
+        The scene, features in beam order; those of a full circle begin at a break between walls.
+        Empty where the scan shows nothing.
 
     Raises:
-        TypeError: bare ranges were given, which do not say where their beams point; or settings
-            that are none.
+        TypeError: `scan` is no `Scan`, such as bare ranges, which do not say where their beams
+            point; or `settings` are no `ExtractorSettings`.
     """
     if not isinstance(scan, Scan):
         raise TypeError(
@@ -96,9 +97,12 @@ def extract(
 
 @lru_cache(maxsize=16)
 def beam_directions(beams: int, angle_min: float, angle_increment: float) -> FloatArray:
-    """Cosine and sine of every beam of at most one full turn, shape (n, 2); do not write."""
-    beams_per_turn = 2.0 * math.pi / angle_increment * (1.0 + 1e-9) + 1.0
-    angles = angle_min + angle_increment * np.arange(int(min(beams, beams_per_turn)))
+    """Unit vectors of the beams of at most one full turn, lidar frame, shape (n, 2); do not write.
+
+    The beam that repeats the first direction is among them.
+    """
+    beams_per_turn = 2.0 * math.pi / angle_increment * (1.0 + 1e-9)
+    angles = angle_min + angle_increment * np.arange(int(min(beams, beams_per_turn + 1.0)))
     return np.stack((np.cos(angles), np.sin(angles)), axis=1)
 
 

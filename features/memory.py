@@ -1,4 +1,4 @@
-"""Scenes over time joined into one, so that a door that has left the view still counts."""
+"""Joins scenes over time, so that a door that has left the view still counts."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.door_memory import REMEMBERED_DOOR
 from semnav_env.features.kernels.drift import without_drift
-from semnav_env.features.kernels.layout import DOOR, DOORS, PIECES, WALL, WALLS
+from semnav_env.features.kernels.layout import COUNTS_SIZE, DOOR, DOORS, WALL, WALLS
 from semnav_env.features.kernels.memory import (
     COUNTERS,
     REMEMBERED_WALL,
@@ -24,16 +24,16 @@ from semnav_env.features.scene import Door, PlainWalls, Scene, ends_of
 ENDS = ("start_x", "start_y", "end_x", "end_y")
 
 MAX_WALLS, MAX_DOORS = 512, 64
-"""When so many are remembered, a new one replaces the one that was seen least."""
+"""Room for walls and doors; when it is full, a new one replaces the one that was seen least."""
 
 
 class SceneMemory:
-    """What was seen so far, in one fixed frame, such as that of odometry.
+    """Walls and doors that were seen so far, in one fixed frame, such as that of odometry.
 
-    A wall counts from its second sighting, until scans pass through it (`kernels.pass_through`).
-    A door counts while its sightings, by their confidence, outweigh the scans that looked at its
-    opening and found no door there, or found it filled (`kernels.door_memory`); of two doors in
-    one place, only the likelier one.
+    A wall counts from its second sighting until scans pass through it (`kernels.pass_through`). A
+    door counts while its sightings, by their confidence, outweigh the scans that looked at its
+    opening and found no door there, or found it filled (`kernels.door_memory`). Of two doors in
+    one place only the likelier one counts.
     """
 
     def __init__(self) -> None:
@@ -95,13 +95,15 @@ class SceneMemory:
             for name, column in zip(ENDS, ends_of(items).T, strict=True):
                 array[name] = column
         doors["confidence"] = [door.confidence for door in scene.doors]
-        counts = np.zeros(PIECES + 1, np.int64)
+        counts = np.zeros(COUNTS_SIZE, np.int64)
         counts[WALLS], counts[DOORS] = len(walls), len(doors)
         angles = scan.angle_min, scan.angle_increment
         self.update(walls, doors, counts, scan.ranges, angles, lidar_pose)
 
     def locate(self, scene: Scene, lidar_pose: Pose) -> Pose:
-        """Where a lidar is by the walls that it sees again (`kernels.drift`); call it before `see`.
+        """The pose of a lidar, corrected by the walls that it sees again (`kernels.drift`).
+
+        Call it before `see`.
 
         Args:
             scene: what was extracted from a scan, lidar frame.

@@ -21,7 +21,7 @@ def polylines(
     link: float = 1.0,
     refine: bool = True,
 ) -> tuple[FloatArray, ...]:
-    r"""The polylines of so many vertices that make a scan most likely.
+    r"""The polylines with a given number of vertices under which a scan is most likely.
 
     The likelihood is that of Schaefer, Buescher, Luft, Burgard, "A Maximum Likelihood Approach to
     Extract Polylines from 2-D Laser Range Scans" (IROS 2018): beams that meet a line have normal
@@ -36,9 +36,10 @@ def polylines(
     Args:
         scan: one sweep of a lidar.
         vertices: of all polylines together; fewer only where more do not improve the fit.
-        missed: what a beam that meets no line counts, metres; smaller leaves more beams out.
-        link: no line between neighbouring points that are farther apart, metres, nor over a
-            missing return.
+        missed: residual that counts for a beam that meets no line, metres; a smaller one leaves
+            more beams out.
+        link: largest distance between neighbouring points that a line may join, metres; no line
+            crosses a missing return.
         refine: move the vertices to the best places; otherwise they are points of the scan.
 
     Returns:

@@ -27,12 +27,12 @@ class Scan:
     NaN, infinity, zero, negative values and anything at or beyond `range_max` or below
     `range_min` mean "no return" (REP 117, and what drivers send in the wild).
 
-    A negative increment says that the scanner swept clockwise from `angle_min`; the scan is then
-    turned over, so that its attributes always run counter-clockwise.
+    A negative increment says that the scanner swept clockwise from `angle_min`; the order of the
+    beams is then reversed, so that the attributes always run counter-clockwise.
 
     Attributes:
-        ranges: distances in metres, shape (n,); any real array is accepted and copied; what a
-            masked array hides is no return.
+        ranges: distances in metres, shape (n,). Any array of real numbers is accepted and copied;
+            what is masked in a masked array is no return.
         angle_min: direction of beam 0 in radians, x forward, counter-clockwise.
         angle_increment: angle between beams in radians; positive, whatever sign it was given.
         range_min: shortest valid distance in metres.

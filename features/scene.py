@@ -1,4 +1,4 @@
-"""What a scan or a map says in words: walls, doors, corners, corridors and arcs.
+"""A scene: the walls, doors, corners, corridors and arcs that a scan or a map shows.
 
 The extractor and the floor plan give the same types, so perceived and true scenes can be
 compared and the same grounding serves both.

@@ -1,4 +1,4 @@
-"""Every limit of the feature extractor, with its unit and where it comes from."""
+"""Every limit of the feature extractor, with its unit and its source."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ class ExtractorSettings:
         rupture_range: a longer range counts as no return, metres (thesis (2.1): 6; the
             TiM561 reaches 10, and doors and junctions beyond 6 m are worth having).
         sigma: standard deviation of a range, metres (TiM561 data sheet: 0.02).
-        veil_angle: a beam that ended between two surfaces has no return if lines to both its
-            neighbours are met at less than this, radians; 0 keeps all. 5 to 10 degrees remove the
-            mixed pixels at edges and no wall (`kernels.filters`).
-        median_beams: a range is the median over so many beams on either side, where that moves
-            no edge; 0 takes it as it is.
+        veil_angle: removes mixed pixels, which are beams that ended between two surfaces: there
+            the lines to both neighbours are met at less than this angle, radians. 0 keeps all;
+            5 to 10 degrees remove the mixed pixels at edges and no wall (`kernels.filters`).
+        median_beams: number of beams on either side over which a range is the median, where that
+            moves no edge; 0 takes it as it is.
         breakpoint_rule: how far apart neighbouring points may be: "constant", "borges_aldon",
             "certad", "dietmayer", "santos", "lee" or "weerakoon"; the equations are in
             `kernels.breakpoints`. "certad" is the rule of the thesis (2.3), "borges_aldon", made
@@ -46,38 +46,38 @@ class ExtractorSettings:
             the far part of a corridor's walls). Not read by "constant", "dietmayer" and "lee".
         breakpoint_distance: C0 of "constant", "dietmayer" and "santos", metres.
         breakpoint_ratio: largest |r1 - r2| / (r1 + r2) of neighbouring ranges, for "lee".
-        dropout_beams: so many missing returns in a row do not end a wall.
+        dropout_beams: number of missing returns in a row that do not end a wall.
         segmentation: how a connected group is cut into straight pieces: "end_point_fit" (thesis
             2.4.4); "dynamic", the most likely partition (`kernels.optimal_partition`), which takes
             a hundred times as long; or "curvature", where the curvature function with adaptive
             arms peaks (`kernels.curvature`).
-        split_distance: a point farther from the chord is where "end_point_fit" cuts, metres
-            (thesis: 0.06; here four standard deviations). In "curvature" by how much the contour
-            along an arm may be longer than its chord.
+        split_distance: "end_point_fit" cuts at a point that is farther from the chord than this,
+            metres (thesis: 0.06; here four standard deviations). In "curvature" the contour along
+            an arm may be longer than its chord by this.
         wall_beams: fewest beams of a wall (thesis: 3).
         wall_length: shortest wall, metres.
-        merge_gap: widest gap that two collinear walls are joined across, metres; nothing that
-            is wanted as a wall has a gap that a robot could pass.
-        merge_offset: a step between two walls that is still taken for one wall, metres.
+        merge_gap: widest gap across which two collinear walls are joined, metres; less than any
+            gap that a robot could pass.
+        merge_offset: largest step between two walls that are taken for one, metres.
         robust_fit: fit every line once more with less weight on points that are off it.
-        confidence: how many standard deviations of a line fit are tolerated.
+        confidence: tolerated errors of a fitted line, in standard deviations.
         door_width_min: narrowest door, metres, see `rules.DoorRules`.
         door_width_max: widest door, metres, see `rules.DoorRules`.
         door_width_tolerance: added to both limits, metres, see `rules.DoorRules`; on top of it each
             jamb may lie one beam spacing inside the gap that was measured.
-        door_angle_tolerance: angle between a door and its wall on top of the fit's own
-            uncertainty, radians (thesis: 2 degrees in all; walls drawn or built a few centimetres
-            off need more).
-        door_point_tolerance: distance from the line of a wall to the jambs, on top of the fit's
-            uncertainty, metres.
-        door_wall_gap: a supporting wall may end this far before the jamb, metres; door frames
+        door_angle_tolerance: largest angle between a door and its wall beyond the uncertainty of
+            the fit, radians (thesis: 2 degrees in all; walls that are drawn or built a few
+            centimetres off need more).
+        door_point_tolerance: largest distance of the jambs from the line of the wall beyond the
+            uncertainty of the fit, metres.
+        door_wall_gap: how far before the jamb a supporting wall may end, metres; door frames
             break the fit.
-        door_depth: beams through the opening reach this far beyond its chord, along the beam,
-            metres. Along the beam rather than across the chord, so that an open leaf seen
-            through a grazing gap does not hide the door.
-        door_clear_fraction: share of the beams between the jambs that must do so.
-        door_recess: nothing but a recess is behind the chord unless some beam gets this far
-            across it, metres; a closed door lies less deep in its frame.
+        door_depth: beams through the opening reach this far beyond its chord, metres. The distance
+            is measured along the beam and not across the chord, so that an open leaf seen through
+            a grazing gap does not hide the door.
+        door_clear_fraction: least share of the beams between the jambs that reach so far.
+        door_recess: least depth across the chord that some beam must reach, metres: a closed door
+            lies less deep in its frame, and so does a niche.
         door_shadow: if a beam beside a jamb ends this far in front of the chord, metres, the jamb
             is only the edge of a shadow.
         door_beams: fewest beams through an opening.
@@ -92,8 +92,8 @@ class ExtractorSettings:
             one cannot be told from a wall with a bend in it.
         arc_beams: fewest beams of an arc.
         arc_residual: largest root mean square distance of the points of an arc, metres.
-        corner_angle: smallest turn between two walls that is a corner, radians (thesis: 50
-            degrees; Weerakoon et al.: 30).
+        corner_angle: smallest angle between the directions of two walls at a corner, radians
+            (thesis: 50 degrees; Weerakoon et al.: 30).
         corner_gap: walls are extended this far to their corner, metres; their ends may be twice
             as far apart.
         corner_fuse: corners closer together than this are one, metres.
@@ -108,8 +108,8 @@ class ExtractorSettings:
             4.8: 3).
 
     Raises:
-        ValueError: a limit is out of its range, or no strategy of that name; the message names
-            it and its range, or the names there are.
+        ValueError: a limit is out of its range, or there is no strategy of that name; the message
+            gives the range, or the names.
     """
 
     rupture_range: float = 10.0

@@ -1,7 +1,7 @@
-"""Why candidates were turned down: the kernels' own tests, asked once more about each.
+"""Explains why candidates were turned down, by the tests that the kernels themselves apply.
 
-The kernels keep no notes, as that would cost time at every scan. What they worked with is still in
-their working memory afterwards, so the same predicates are put to it again, one by one, and the
+The kernels record no reasons, as that would cost time at every scan. After a scan their candidates
+are still in the working memory; the same predicates are applied to each of them again, so that the
 reasons cannot differ from what was done.
 """
 

@@ -19,7 +19,7 @@ from semnav_env.features.kernels.corners import (
 
 
 def rejected_corners(trace: Trace) -> Iterator[Rejection]:
-    """The end of each wall and the starts of the next ones, as far as they make no corner."""
+    """Pairs of the end of a wall and the start of one of the next walls that make no corner."""
     count = len(trace.walls)
     for k in range(count):
         for step in range(1, min(PARTNER_TRIALS, count - 1) + 1):

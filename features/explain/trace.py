@@ -1,4 +1,4 @@
-"""What the kernels leave behind of a scan."""
+"""The working memory of the kernels after a scan."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from semnav_env.features.settings import ExtractorSettings
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """What `extract_arrays` looked at, left in its working memory and found.
+    """Inputs, working memory and results of `extract_arrays` for one scan.
 
     Attributes:
         ranges: metres; of a full circle unrolled, twice over.

@@ -1,4 +1,4 @@
-"""Corridors: probes from corners that end square on another wall."""
+"""Finds corridor probes: chords from corners that end square on another wall (Barbret 3.3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a group of points turns: the curvature function with adaptive arms."""
+"""Cuts a group of points at its corners by the curvature function with adaptive arms."""
 
 from __future__ import annotations
 

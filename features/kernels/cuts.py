@@ -1,4 +1,4 @@
-"""Where a connected group of points is cut into straight pieces, by the strategy that is set."""
+"""Cuts a connected group of points into straight pieces by the strategy of the settings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The open leaf of a door: a straight piece of about its width that ends at a jamb."""
+"""Finds the open leaf of a door: a straight piece of about its width that ends at a jamb."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ MIN_LEAF_ANGLE = math.radians(20.0)
 
 @njit(cache=True, error_model="numpy")
 def find_leaf(gap: Any, pieces: int, scratch: Any) -> tuple[int, float]:
-    """Which jamb the leaf hangs on, and its angle to the closed door; see `elements.Leaf`.
+    """Which jamb the leaf hangs on, and its angle to the closed door; see `elements.SceneLeaf`.
+
+    Both ends of every piece are compared with both jambs; the nearest pair wins.
 
     Returns:
         `AT_START` or `AT_END` and radians, positive away from the scanner; `NO_LEAF` and 0 if

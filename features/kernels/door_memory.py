@@ -1,4 +1,4 @@
-"""Doors over time: every sighting speaks for a door, every look that shows none against it."""
+"""Keeps doors over time: sightings raise the odds of a door, looks that show none lower them."""
 
 from __future__ import annotations
 
@@ -158,15 +158,15 @@ def doubt_unseen_doors(
     pose: tuple[float, float, float],
     doors: Any,
 ) -> None:
-    """Let a scan speak against the doors that it looks at and that were not seen in it.
+    """Lower the odds of the doors that a scan looks at without having shown them.
 
     Args:
         ranges: of the scan, metres, shape (n,).
         angle_min: of the scan, radians.
         angle_increment: of the scan, radians.
         pose: of the lidar in the memory's frame.
-        doors: `REMEMBERED_DOOR`, changed in place; `seen` says which the scan showed, and is
-            cleared.
+        doors: `REMEMBERED_DOOR`, changed in place; `seen` says which of them the scan showed, and
+            is cleared.
     """
     for k in range(len(doors)):
         door = doors[k]
@@ -186,7 +186,11 @@ def look_at(
     pose: tuple[float, float, float],
     door: Any,
 ) -> int:
-    """What a scan tells of a door's opening: `OPEN`, `FILLED` in it, or `UNKNOWN`."""
+    """What a scan tells of a door's opening: `OPEN`, `FILLED` or `UNKNOWN`.
+
+    It is filled if three in four of the beams end in it. It is open if half of them end behind it
+    and the scan also sees both flanks: only then would a door there have been found.
+    """
     dx, dy = door.end_x - door.start_x, door.end_y - door.start_y
     x, y = door.start_x - pose[0], door.start_y - pose[1]
     width = math.hypot(dx, dy)
@@ -194,6 +198,7 @@ def look_at(
     distance = abs(x * dy - y * dx) / width
     if away > MAX_LOOK_DISTANCE or distance < max(MIN_LINE_DISTANCE, MIN_INCIDENCE_COSINE * away):
         return UNKNOWN
+    # The opening spans the angle width * distance / away^2: fewer beams than looks tell nothing.
     if width * distance < LOOK_BEAMS * angle_increment * away * away:
         return UNKNOWN
     through = filled = 0

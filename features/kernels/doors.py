@@ -1,4 +1,4 @@
-"""Doors: gaps of door width between things in line, with room behind, told by a small scorer."""
+"""Finds doors: gaps of a door's width with room behind, which a small scorer takes for doors."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def find_doors(
     scratch: Any,
     doors: np.ndarray,
 ) -> int:
-    """Every pair of jambs, scored; overlapping finds reduced to the best. Returns how many."""
+    """Score every pair of jambs and write the best of those that overlap; returns how many."""
     found = find_candidates(
         ranges,
         directions,
@@ -65,7 +65,11 @@ def find_candidates(
     settings: Any,
     scratch: Any,
 ) -> int:
-    """Gaps that can be doors, with their evidence and score; returns how many."""
+    """Write gaps that can be doors, with their evidence and score; returns how many.
+
+    Starts and ends of openings are sorted by beam. So `low`, the first end that is far enough from
+    the start, only grows, and the inner loop stops at the last end that is near enough.
+    """
     starts, ends = find_jambs(groups, pieces, scratch)
     along_x, along_y, length = longest_wall(pieces, scratch)
     widest = settings.door_width_max + settings.door_width_tolerance + 2.0 * MAX_BEAM_SPACING

@@ -1,4 +1,4 @@
-"""A scan of a full circle: unrolled from a place where no wall is cut."""
+"""Unrolls a scan of a full circle from a place (the seam) where no wall is cut."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MIN_CIRCLE_BEAMS = 8
 
 @njit(cache=True, error_model="numpy")
 def count_beams_per_turn(beams: int, increment: float, dropout_beams: int) -> int:
-    """How many beams a full turn has if the scan covers it, else 0.
+    """Number of beams in a full turn if the scan covers one, else 0.
 
     A scan that repeats its first direction covers it, and so does one whose ends are no farther
     apart than a gap of missing returns that does not end a wall.
@@ -90,7 +90,9 @@ def close_seam(pieces: int, scratch: Any) -> None:
 
 @njit(cache=True, error_model="numpy")
 def repeat_pieces(pieces: int, points: int, beams_per_turn: int, scratch: Any) -> int:
-    """Append the pieces of the first half turn once more, a turn later, for gaps at the seam.
+    """Append the pieces of the first half turn once more, a full turn later.
+
+    So a gap that begins before the seam and ends behind it is found like any other.
 
     Returns:
         How many pieces there are with them.

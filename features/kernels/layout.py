@@ -1,4 +1,4 @@
-"""How kernels lay out a scene: one structured array per kind, and how many entries are used.
+"""How kernels lay out a scene: one structured array for each kind, and how many entries are used.
 
 Kernels write into arrays that the caller allocates once, so that a scan costs no allocation.
 """
@@ -31,7 +31,10 @@ NO_LEAF, AT_START, AT_END = range(3)
 """Values of `hinge`."""
 
 CORNER = np.dtype([("x", "f8"), ("y", "f8"), ("kind", "i8")])
+"""A corner; `kind` is the number of a `CornerKind`."""
+
 CORRIDOR = np.dtype(_ENDS)
+"""A corridor probe, from its corner to the wall that it meets."""
 
 ARC = np.dtype(
     [("centre_x", "f8"), ("centre_y", "f8"), ("radius", "f8"), *_ENDS, ("residual", "f8")]
@@ -43,5 +46,7 @@ CAPACITY = {"walls": 256, "doors": 64, "corners": 512, "corridors": 128, "arcs":
 """Entries beyond these are dropped, in beam order."""
 
 WALLS, DOORS, CORNERS, CORRIDORS, ARCS, PIECES = range(6)
-"""Places in the `counts` array, shape (6,), int64; the last is how many straight pieces there
-were in the end, in a full circle with those that were looked at twice."""
+"""Entries of the `counts` array, shape (`COUNTS_SIZE`,), int64: how many of each kind were found.
+The last is the number of straight pieces, with those of a full circle that are repeated."""
+
+COUNTS_SIZE = PIECES + 1

@@ -1,4 +1,4 @@
-"""Straight pieces of a group of points: iterative end-point fit and total least squares."""
+"""Fits straight pieces to a group of points: iterative end-point fit, total least squares."""
 
 from __future__ import annotations
 
@@ -44,7 +44,12 @@ def split_further(
     stack: NDArray[np.int64],
     vertices: NDArray[np.int64],
 ) -> int:
-    """Split what has been cut already: at the `height` points on the stack, the last one lowest."""
+    """Split further what has been cut already at the `height` points on the stack.
+
+    The stack holds the cuts that are still ahead, the nearest on top and the last point lowest;
+    `start` is the last vertex that is settled. Each round either cuts the stretch from `start` to
+    the top of the stack once more, or settles it.
+    """
     vertices[0] = start = first
     count = 1
     while height > 0:
@@ -67,7 +72,9 @@ def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float
     level = dx * ys[first] - dy * xs[first]
     best = limit * math.sqrt(dx * dx + dy * dy)
     found, i = -1, first + 1
-    while i < last:  # two at a time, as each comparison waits for the one before
+    # Two points at a time: each comparison of `best` waits for the one before it. Distances are
+    # compared before they are divided by the length of the chord, which is the same for all.
+    while i < last:
         a = abs(dx * ys[i] - dy * xs[i] - level)
         second = min(i + 1, last)
         b = abs(dx * ys[second] - dy * xs[second] - level)
@@ -100,7 +107,10 @@ def gather(xs: FloatArray, ys: FloatArray, first: int, last: int, piece: Any) ->
 
 @njit(cache=True, error_model="numpy")
 def refit(xs: FloatArray, ys: FloatArray, piece: Any) -> None:
-    """Bring moments and line up to date after `first` or `last` moved by a few points."""
+    """Bring moments and line up to date after `first` or `last` moved by a few points.
+
+    Adds the points that came in at either end and takes out those that left.
+    """
     if piece.first == piece.fitted_first and piece.last == piece.fitted_last:
         return
     for i in range(piece.first, piece.fitted_first):

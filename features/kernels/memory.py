@@ -1,4 +1,4 @@
-"""Numba kernels that join the walls and doors of many scans in one frame."""
+"""Joins the walls and doors of many scans in one frame."""
 
 from __future__ import annotations
 
@@ -94,13 +94,13 @@ def remember(
 
 @njit(cache=True, error_model="numpy")
 def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) -> Pose:
-    """Where the lidar is by what it sees again of the memory, if odometry says `pose`.
+    """The pose of the lidar, corrected by the remembered walls that the scan shows again.
 
     Args:
         walls: the scan's walls (`layout.WALL`), lidar frame.
         counts: entries used, by kind.
-        pose: of the lidar in the memory's frame.
-        memory: as `remember` has it.
+        pose: of the lidar by odometry, in the memory's frame.
+        memory: as in `remember`.
     """
     seen = np.empty((counts[WALLS], 4))
     for i in range(counts[WALLS]):
@@ -118,7 +118,9 @@ def doubt_passed_walls(
     pose: tuple[float, float, float],
     walls: Any,
 ) -> None:
-    """Let a scan speak against walls that its beams pass through: people walk on, odometry drifts.
+    """Take sightings from walls that the beams of a scan pass through.
+
+    Such walls were people who walked on, or lie where odometry has drifted since.
 
     Args:
         ranges: of the scan, metres, shape (n,).
@@ -184,7 +186,7 @@ def placed(ends: Ends, frame: tuple[float, float, float]) -> Ends:
 def remember_wall(wall: Ends, memory: Any, used: int) -> int:
     """Fuse a wall with the first remembered one that it continues or repeats, or add it.
 
-    That one faces the same side, along the same line, and overlaps it or ends just beside it.
+    Such a wall faces the same side, lies on the same line, and overlaps it or ends just beside it.
 
     Args:
         wall: in the memory's frame.
@@ -216,7 +218,11 @@ def remember_wall(wall: Ends, memory: Any, used: int) -> int:
 
 @njit(cache=True, error_model="numpy")
 def _on_one_line(old: Any, wall: Ends) -> bool:
-    """Whether two nearly parallel walls meet, and lie on one line where they do."""
+    """Whether two nearly parallel walls meet, and lie on one line where they do.
+
+    `first` and `last` are the ends of the new wall along the old one, and `middle` is the centre of
+    what they share, or of the gap between them; there the distance across is measured.
+    """
     x1, y1, x2, y2 = wall
     dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
     length = math.hypot(dx, dy)
@@ -232,7 +238,11 @@ def _on_one_line(old: Any, wall: Ends) -> bool:
 
 @njit(cache=True, error_model="numpy")
 def _fuse_wall(old: Any, wall: Ends) -> None:
-    """The line is the mean weighted by length and sightings; its extent is the union of both."""
+    """Fuse a wall with an old one: their mean line by length and sightings, over both extents.
+
+    (ux, uy) is the mean direction and (x, y) the mean of the midpoints; the ends of both walls are
+    projected on that line and the outermost ones kept.
+    """
     x1, y1, x2, y2 = wall
     dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
     hits = min(old.hits, MAX_WEIGHING_SIGHTINGS)

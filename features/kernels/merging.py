@@ -1,4 +1,4 @@
-"""Joining straight pieces that are one line, never across a gap that one could pass."""
+"""Joins straight pieces that lie on one line, but never across a gap that a robot could pass."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def joint_scatter(a: Any, b: Any) -> float:
 def merge_cost(a: Any, b: Any, settings: Any) -> float:
     """What joining two successive pieces adds to the squared residuals.
 
-    Infinite if they are not one line, or if one could pass the gap between them.
+    Infinite if they are not one line, or if a robot could pass the gap between them.
     """
     gap = (b.start_x - a.end_x) ** 2 + (b.start_y - a.end_y) ** 2
     if gap > settings.merge_gap**2:

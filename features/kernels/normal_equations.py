@@ -1,4 +1,4 @@
-"""Numba kernel that solves the normal equations of three unknowns."""
+"""Solves normal equations of three unknowns."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ def solve_step(
     normal: tuple[float, float, float, float, float, float],
     right: tuple[float, float, float],
 ) -> tuple[float, float, float]:
-    """A guess moved by the solution of its normal equations, by Cramer's rule.
+    """The guess plus the solution of its normal equations, by Cramer's rule.
 
     Args:
         guess: three unknowns x, y, r.

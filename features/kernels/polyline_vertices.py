@@ -1,4 +1,4 @@
-"""Which points of a scan make the best polylines of so many vertices, by dynamic programming.
+"""Chooses the points of a scan that make the best polylines, by dynamic programming.
 
 The objective is the likelihood of Schaefer et al. (IROS 2018, section III): the squared
 differences between measured and predicted ranges, along the beams, and a constant for every beam
@@ -54,7 +54,7 @@ def choose_vertices(
     vertices: int,
     missed: float,
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """The points that make the best polylines of at most so many vertices.
+    """The points that make the best polylines of at most a given number of vertices.
 
     D(v, i) is the least cost of the points before i with v vertices, L(v, i) that of the points
     up to i where i is at least the second vertex of a polyline:

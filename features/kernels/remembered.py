@@ -1,4 +1,4 @@
-"""What remembered walls and doors have in common."""
+"""Room for a new entry among remembered walls or doors."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Ends: TypeAlias = tuple[float, float, float, float]
 
 @njit(cache=True, error_model="numpy")
 def place_for_new(memory: Any, used: int) -> tuple[int, int]:
-    """Where a new entry goes, and how many are used then; a full memory gives up the rarest."""
+    """Place of a new entry, and how many are used then; a full memory replaces the rarest one."""
     if used < len(memory):
         return used, used + 1
     place = 0

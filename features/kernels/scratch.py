@@ -10,7 +10,15 @@ from numpy.typing import NDArray
 from semnav_env.features.door_scorer import default_scorer
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.evidence_layout import EVIDENCE
-from semnav_env.features.kernels.layout import ARC, CAPACITY, CORNER, CORRIDOR, DOOR, PIECES, WALL
+from semnav_env.features.kernels.layout import (
+    ARC,
+    CAPACITY,
+    CORNER,
+    CORRIDOR,
+    COUNTS_SIZE,
+    DOOR,
+    WALL,
+)
 
 PIECE = np.dtype(
     [(name, "f8") for name in ("mean_x", "mean_y", "xx", "xy", "yy", "along_x", "along_y")]
@@ -122,7 +130,7 @@ class Features(NamedTuple):
         corners: dtype `CORNER`.
         corridors: dtype `CORRIDOR`.
         arcs: dtype `ARC`.
-        counts: how many of each are used, shape (6,), int64; see `layout`.
+        counts: how many of each are used, shape (`COUNTS_SIZE`,), int64; see `layout`.
     """
 
     walls: np.ndarray
@@ -171,5 +179,5 @@ def allocate_features() -> Features:
         corners=np.zeros(CAPACITY["corners"], CORNER),
         corridors=np.zeros(CAPACITY["corridors"], CORRIDOR),
         arcs=np.zeros(CAPACITY["arcs"], ARC),
-        counts=np.zeros(PIECES + 1, np.int64),
+        counts=np.zeros(COUNTS_SIZE, np.int64),
     )

@@ -1,4 +1,4 @@
-"""From ranges to connected groups of points: ruptures and adaptive breakpoints."""
+"""Groups the points of a scan that are connected, by ruptures and adaptive breakpoints."""
 
 from __future__ import annotations
 

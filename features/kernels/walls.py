@@ -44,6 +44,7 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
         cuts = cut(xs, ys, first, last, settings, scratch)
         group_start = count
         for k in range(cuts - 1):
+            # A vertex between two pieces is left out of both at first: it may lie on neither line.
             low = vertices[k] + (1 if k > 0 else 0)
             high = vertices[k + 1] - (1 if k < cuts - 2 else 0)
             if high > low:
@@ -64,7 +65,8 @@ def settle_border(xs: FloatArray, ys: FloatArray, near: float, before: Any, afte
     """Move the border of two pieces until every point is with the line it is nearer to.
 
     The end-point fit finds a corner only to within its split distance. The points between the
-    pieces, a cut or a run too short for a line, join one of them if they are `near` its line.
+    pieces, a cut or a run too short for a line, join one of them if they are `near` its line. Where
+    none are left over, the border itself moves. Each piece keeps two points at least.
     """
     last, first = before.last, after.first
     while (

@@ -1,4 +1,4 @@
-"""For every place in a floor plan, the few segments that a lidar standing there can reach."""
+"""Lists, for every place in a floor plan, the few segments that a lidar there can reach."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ CELL_SIZE = 2.0
 """Side of a cell, metres; larger in a plan that would need more than `MAX_CELLS` of them."""
 
 MAX_CELLS = 10_000
+"""Largest number of cells: it bounds the memory that a plan takes."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.lidar_spec import CosinesSines
 
 NO_MOVING_THINGS = (np.zeros((0, 3)), np.zeros((0, 4)))
-"""Discs and segments of a place in which nothing moves."""
+"""Discs and segments where nothing moves."""
 
 
 @njit(cache=True, error_model="numpy")

@@ -9,7 +9,7 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.lidar.counter_rng import bits, normal, stream, uniform
 
 _WHOLE_EPISODE = -1
-"""In place of the step, in the key of what stays the same throughout an episode."""
+"""Takes the place of the step in the key of what stays the same throughout an episode."""
 
 
 @njit(cache=True)

@@ -21,13 +21,13 @@ from semnav_env.lidar.culling import cell_of
 
 _FULL_TURN = 2.0 * math.pi
 _ANGLE_ERROR = 2e-4
-"""More than the error of `_coarse_atan2`, radians."""
+"""Bound on the error of `_coarse_atan2`, radians; twice what it is."""
 
 _END_TOLERANCE = 1e-12
 """How far a beam may pass an end of a segment and still meet it, m: closes shared vertices."""
 
 _NO_SPAN = -1e9
-"""In place of the span of a segment that no beam can meet."""
+"""Value of the span, in beams, of a segment that no beam can meet."""
 
 _AX, _AY, _BX, _BY, _NX, _NY, _FIRST, _SPAN = range(8)
 """Rows of the table of prepared segments: a, b, n / (a x b), a's beam and the span in beams."""
@@ -123,7 +123,8 @@ def _prepare(
         span = span + _FULL_TURN if span < -1.0 else span
         first = towards_a - angle_min
         first = first + _FULL_TURN if first < _ANGLE_ERROR else first
-        # Edge-on, or its whole line is out of range.
+        # The segment is seen edge-on, or its whole line is out of range: |n / (a x b)| is the
+        # reciprocal of the line's distance.
         unseen = (cross < 1e-30) | (nx * nx + ny * ny < farthest_squared)
         axs[k], ays[k], bxs[k], bys[k], nxs[k], nys[k] = ax, ay, bx, by, nx, ny
         firsts[k] = first * beams_per_radian
@@ -145,9 +146,12 @@ def _draw(
     stop = table[_FIRST, k] + table[_SPAN, k] + guard
     ax, ay, bx, by = table[_AX, k], table[_AY, k], table[_BX, k], table[_BY, k]
     nx, ny = table[_NX, k], table[_NY, k]
-    while stop >= 0.0:  # once more a turn below: the segment may lie across angle_min
+    # All beams that meet the segment are among start to stop: `guard` covers the error of the
+    # angles. A further pass, a turn lower, takes the part of a segment that lies across angle_min.
+    while stop >= 0.0:
         first = math.ceil(start) if start > 0.0 else 0
         last = math.floor(stop) if stop < last_beam else last_beam
+        # Exactly, beam u meets the segment if a x u >= 0 and u x b >= 0.
         while first <= last and ax * sin[first] - ay * cos[first] < -_END_TOLERANCE:
             first += 1
         while first <= last and cos[last] * by - sin[last] * bx < -_END_TOLERANCE:
