@@ -75,7 +75,7 @@ class ExtractorSettings:
         door_depth: beams through the opening reach this far beyond its chord, metres. The distance
             is measured along the beam and not across the chord, so that an open leaf seen through
             a grazing gap does not hide the door.
-        door_clear_fraction: least share of the beams between the jambs that reach so far.
+        door_clear_fraction: least share of the beams between the jambs that reach `door_depth`.
         door_recess: least depth across the chord that some beam must reach, metres: a closed door
             lies less deep in its frame, and so does a niche.
         door_shadow: if a beam beside a jamb ends this far in front of the chord, metres, the jamb

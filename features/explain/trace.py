@@ -57,8 +57,8 @@ class Trace:
         beams_per_turn = count_beams_per_turn(beams, increment, settings.dropout_beams)
         limit = min(scan.range_max, settings.rupture_range)
         if beams_per_turn > 0:
-            ranges = scratch.ring_ranges[: 2 * beams_per_turn]
-            directions = scratch.ring_directions[: 2 * beams_per_turn]
+            ranges = scratch.circle_ranges[: 2 * beams_per_turn]
+            directions = scratch.circle_directions[: 2 * beams_per_turn]
         else:
             given, record = scan.ranges[:beams].copy(), settings.as_record()[0]
             ranges = filter_ranges(given, increment, scan.range_min, limit, 0, record, scratch)

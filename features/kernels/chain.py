@@ -80,8 +80,8 @@ def extract_arrays(
         seam, is_break = find_seam(pieces, scratch)
         unroll(ranges, directions, increment, range_min, limit, beams_per_turn, seam, scratch)
         sweep, rays = (
-            scratch.ring_ranges[: 2 * beams_per_turn],
-            scratch.ring_directions[: 2 * beams_per_turn],
+            scratch.circle_ranges[: 2 * beams_per_turn],
+            scratch.circle_directions[: 2 * beams_per_turn],
         )
         groups, pieces = find_pieces(
             sweep, rays, increment, range_min, limit, beams_per_turn, settings, scratch

@@ -76,8 +76,8 @@ def unroll(
         if beam == 0 and len(ranges) > beams_per_turn and not is_return(distance, range_min, limit):
             distance = ranges[beams_per_turn]
         for k in (i, i + beams_per_turn):
-            scratch.ring_ranges[k] = distance
-            scratch.ring_directions[k, 0], scratch.ring_directions[k, 1] = x, y
+            scratch.circle_ranges[k] = distance
+            scratch.circle_directions[k, 0], scratch.circle_directions[k, 1] = x, y
 
 
 @njit(cache=True, error_model="numpy")

@@ -79,11 +79,11 @@ class MapWall:
         """The stretches of the wall that are really there.
 
         Args:
-            fewest: so many scans must say so of a piece.
-            share: of the scans whose beams ended on it, at least this share must have shown it
-                as part of a wall.
-            widest_gap: pieces that are not, but that no beam went through, are bridged up to this
-                length, metres; pieces that were seen through only if they are no more than two.
+            fewest: least number of scans in which a piece was there.
+            share: least share of the scans whose beams ended on a piece that showed it as part of
+                a wall.
+            widest_gap: length up to which missing pieces are bridged that no beam passed, metres;
+                of pieces that beams passed at most two are bridged.
         """
         cells = self.cells
         support = np.maximum(cells.hits, cells.seen)

@@ -41,8 +41,8 @@ class Match:
         pose: of the scan in the frame of the reference, metres and radians.
         covariance: of `pose`, shape (3, 3), metres and radians. Along an undetermined direction
             it is that of the first guess.
-        undetermined: the direction, a unit vector in the frame of the reference, along which
-            the scans do not tell the place, as in a corridor without features; None if they do.
+        undetermined: the direction, a unit vector in the frame of the reference, along which the
+            scans do not determine the place, as in a corridor without features; None if they do.
         residual: root mean square distance of the paired points to their lines, metres.
         inliers: share of the scan's points that are paired in the end, 0 to 1.
         iterations: how many were made.
@@ -194,9 +194,9 @@ def without_place(information: FloatArray, direction: Point) -> FloatArray:
     """
     w = np.array(direction)
     coupling = float(information[:2, 2] @ w)
-    told = float(w @ information[:2, :2] @ w) - coupling**2 / max(information[2, 2], 1e-12)
+    known = float(w @ information[:2, :2] @ w) - coupling**2 / max(information[2, 2], 1e-12)
     rest = information.copy()
-    rest[:2, :2] -= told * np.outer(w, w)
+    rest[:2, :2] -= known * np.outer(w, w)
     return rest
 
 

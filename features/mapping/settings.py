@@ -1,4 +1,4 @@
-"""Every limit of the scan matcher, with its unit and where it comes from."""
+"""Every limit of the scan matcher, with its unit."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ class MatchSettings:
         sigma: standard deviation of a range, metres; None to tell it from each scan.
         roughness: standard deviation of how far a surface is from flat, metres; keeps grazing
             beams, whose noise runs along the wall, from counting for too much.
-        window: a line is fitted to at most so many neighbours on either side of a point.
+        window: largest number of neighbours on either side of a point to which its line is fitted.
         max_distance: points are paired up to this distance at first, metres.
-        outliers: a pair counts while its residual is below so many times the root mean square
-            of the last round (and at least four standard deviations).
+        outliers: a pair counts while its residual is below this multiple of the root mean square
+            of the last round, and of one standard deviation at least.
         point_to_point: pair points with points and move them by Procrustes' closed form,
             instead of points with lines by Gauss-Newton.
         guess_position: standard deviation of the first guess, metres, x and y; it decides only
@@ -30,8 +30,8 @@ class MatchSettings:
         tolerance_position: a smaller step ends the search, metres.
         tolerance_angle: the same for its rotation, radians.
         max_iterations: of the search.
-        undetermined: the place along a direction counts as undetermined if the scans say less
-            about it than this share of what they say about the direction across.
+        undetermined: the place along a direction counts as undetermined if the information of the
+            scans on it is less than this share of that on the direction across.
         fewest_pairs: with fewer pairs there is no match.
 
     Raises:
