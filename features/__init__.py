@@ -3,8 +3,11 @@
 Needs NumPy and Numba only, so it runs on a robot's own logs without the simulator.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from semnav_env.features.extract import extract
-from semnav_env.features.polyline import polylines
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import (
     Arc,
@@ -18,6 +21,9 @@ from semnav_env.features.scene import (
     Wall,
 )
 from semnav_env.features.settings import ExtractorSettings
+
+if TYPE_CHECKING:
+    from semnav_env.features.polyline import polylines
 
 __all__ = [
     "Arc",
@@ -34,3 +40,12 @@ __all__ = [
     "extract",
     "polylines",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import `polylines` when it is asked for: a simulator does not need it."""
+    if name != "polylines":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from semnav_env.features.polyline import polylines
+
+    return polylines
