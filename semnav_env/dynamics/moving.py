@@ -7,6 +7,7 @@ import math
 import numpy as np
 import shapely
 
+from semnav_env.dynamics.body_row import as_body
 from semnav_env.dynamics.crowd import Crowd
 from semnav_env.dynamics.doors import SwingingDoors
 from semnav_env.dynamics.leaves import swinging_leaves
@@ -91,14 +92,6 @@ class Moving:
                 people, shapely.distance(footprint(self._robot, pose), leaves).min(initial=math.inf)
             )
         )
-
-
-def as_body(robot: RobotSpec, pose: Pose, velocity: Twist) -> FloatArray:
-    """The robot as an array for kernels, see `nearest_on_body`."""
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    forward, left, yaw_rate = velocity
-    moved = c * forward - s * left, s * forward + c * left
-    return np.array([*pose, robot.length / 2, robot.width / 2, *moved, yaw_rate])
 
 
 def _turning_radius(robot: RobotSpec) -> float:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from semnav_env.dynamics.body_row import BODY_HEADING, BODY_X, BODY_Y, HALF_LENGTH, HALF_WIDTH
 from semnav_env.features.frames import FloatArray
 from semnav_env.lidar.culling import Culling, cell_of
 
@@ -39,14 +40,13 @@ def nearest_on_body(x: float, y: float, body: FloatArray) -> tuple[float, float]
     Args:
         x: metres.
         y: metres.
-        body: x, y, heading, half the length, half the width, velocity x, velocity y and yaw rate
-            of the robot in the world, shape (8,).
+        body: row of the robot, see `body_row.BODY_COLUMNS`, shape (8,).
     """
-    c, s = math.cos(body[2]), math.sin(body[2])
-    dx, dy = x - body[0], y - body[1]
-    ahead = min(max(c * dx + s * dy, -body[3]), body[3])
-    left = min(max(c * dy - s * dx, -body[4]), body[4])
-    return body[0] + c * ahead - s * left, body[1] + s * ahead + c * left
+    c, s = math.cos(body[BODY_HEADING]), math.sin(body[BODY_HEADING])
+    dx, dy = x - body[BODY_X], y - body[BODY_Y]
+    ahead = min(max(c * dx + s * dy, -body[HALF_LENGTH]), body[HALF_LENGTH])
+    left = min(max(c * dy - s * dx, -body[HALF_WIDTH]), body[HALF_WIDTH])
+    return body[BODY_X] + c * ahead - s * left, body[BODY_Y] + s * ahead + c * left
 
 
 @njit(cache=True, error_model="numpy")

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from semnav_env.dynamics.body_row import BODY_VX, BODY_VY
 from semnav_env.dynamics.nearby import MAX_WALL_PIECES, nearest_on_body, walls_near
 from semnav_env.dynamics.settings import MAX_SPEED_FACTOR
 from semnav_env.features.frames import FloatArray
@@ -60,7 +61,7 @@ def orca(
         if sees_robot:
             near_x, near_y = nearest_on_body(x, y, body)
             _static_half_plane(x - near_x, y - near_y, radius, PEOPLE_HORIZON, planes[count])
-            planes[count, 2] += planes[count, 0] * body[5] + planes[count, 1] * body[6]
+            planes[count, 2] += planes[count, 0] * body[BODY_VX] + planes[count, 1] * body[BODY_VY]
             count += 1
         for j in range(len(places)):
             if j != i:

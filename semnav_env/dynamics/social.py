@@ -10,6 +10,15 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from semnav_env.dynamics.body_row import (
+    BODY_HEADING,
+    BODY_VX,
+    BODY_VY,
+    BODY_X,
+    BODY_Y,
+    HALF_LENGTH,
+    HALF_WIDTH,
+)
 from semnav_env.dynamics.nearby import nearest_on_body
 from semnav_env.features.frames import FloatArray
 
@@ -110,13 +119,13 @@ def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArr
         discs: x, y and radius, metres, shape (n, 3).
         velocities: velocities of people, m/s, shape (n, 2).
     """
-    c, s = math.cos(body[2]), math.sin(body[2])
+    c, s = math.cos(body[BODY_HEADING]), math.sin(body[BODY_HEADING])
     found = np.empty(len(discs))
     for i in range(len(discs)):
-        dx, dy, radius = discs[i, 0] - body[0], discs[i, 1] - body[1], discs[i, 2]
-        vx, vy = velocities[i, 0] - body[5], velocities[i, 1] - body[6]
+        dx, dy, radius = discs[i, 0] - body[BODY_X], discs[i, 1] - body[BODY_Y], discs[i, 2]
+        vx, vy = velocities[i, 0] - body[BODY_VX], velocities[i, 1] - body[BODY_VY]
         x, y, u, v = c * dx + s * dy, c * dy - s * dx, c * vx + s * vy, c * vy - s * vx
-        half_x, half_y = body[3], body[4]
+        half_x, half_y = body[HALF_LENGTH], body[HALF_WIDTH]
         best = min(
             _into_box(x, y, u, v, half_x + radius, half_y),
             _into_box(x, y, u, v, half_x, half_y + radius),

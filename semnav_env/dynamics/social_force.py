@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from semnav_env.dynamics.body_row import BODY_VX, BODY_VY
 from semnav_env.dynamics.nearby import MAX_WALL_PIECES, nearest_on_body, walls_near
 from semnav_env.dynamics.settings import MAX_SPEED_FACTOR
 from semnav_env.features.frames import FloatArray
@@ -89,7 +90,7 @@ def social_force(
             distance = math.hypot(x - near_x, y - near_y)
             longer = (distance + radius) / max(distance, 1e-6)
             rx, ry = longer * (x - near_x), longer * (y - near_y)
-            fx, fy = _repulsion(rx, ry, body[5], body[6], wishes[i])
+            fx, fy = _repulsion(rx, ry, body[BODY_VX], body[BODY_VY], wishes[i])
             force_x, force_y = force_x + fx, force_y + fy
         count = walls_near(x, y, walls, leaves, points)
         fx, fy = _wall_repulsion(x, y, points, count)
