@@ -209,4 +209,21 @@ class IfThere(_SpokenClause):
         return language.say("if_not" if self.absent else "if", referent=self.what)
 
 
-Clause: TypeAlias = Follow | Turn | GoToDoor | GoToRoom | Leave | GoBack | Stop | IfThere
+class OwnClause(_SpokenClause):
+    """Base of clauses that are defined outside this package, see docs/extending.md.
+
+    `semnav_env.grounding.GroundedClause` derives from it and adds where a clause leads. The grammar
+    has no words for such a clause: a command with it is given as a `Command`.
+    """
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def stand_in(self) -> Clause:
+        """The clause of this package that a learner sees in its place, as its token."""
+
+
+Clause: TypeAlias = (
+    Follow | Turn | GoToDoor | GoToRoom | Leave | GoBack | Stop | IfThere | OwnClause
+)

@@ -77,7 +77,7 @@ def _countings(reading: Reading) -> list[tuple[Clause, ...]]:
     return countings
 
 
-def _counted_on(before: Clause, clause: Clause) -> Clause:
+def _counted_on(before: Clause, clause: Any) -> Clause:
     """The clause with its ordinal counted from where the clause before began."""
     first, second = reference_of(before), reference_of(clause)
     assert first is not None

@@ -17,6 +17,7 @@ from semnav_env.commands.clauses import (
     GoToRoom,
     IfThere,
     Leave,
+    OwnClause,
     Stop,
     Turn,
 )
@@ -104,6 +105,8 @@ def row_of(clause: Clause, rooms: Sequence[str]) -> Row:
             )
         case Stop(seconds):
             return (TokenVerb.STOP, 0, TOKEN_REFERENTS.index(SECONDS) if seconds else 0, seconds, 0)
+        case OwnClause(stand_in=known):
+            return row_of(known, rooms)
     raise TypeError(f"{clause!r} is no clause")
 
 

@@ -7,7 +7,7 @@ from dataclasses import fields
 from enum import Enum
 from typing import Any, get_args
 
-from semnav_env.commands.clauses import Approach, Clause, Turning
+from semnav_env.commands.clauses import Approach, Clause, OwnClause, Turning
 from semnav_env.commands.command import Command
 from semnav_env.commands.references import (
     DoorReference,
@@ -18,7 +18,9 @@ from semnav_env.commands.references import (
     Unit,
 )
 
-CLAUSE_KINDS: dict[str, Any] = {kind.__name__: kind for kind in get_args(Clause)}
+CLAUSE_KINDS: dict[str, Any] = {
+    kind.__name__: kind for kind in get_args(Clause) if kind is not OwnClause
+}
 REFERENCE_KINDS: dict[str, Any] = {kind.__name__: kind for kind in get_args(Reference)}
 
 

@@ -8,14 +8,18 @@ situation (`counted_doors`, `junctions`, `opposite`, `visible_doors`, `room_exit
 from semnav_env.grounding.errors import GroundingError, UnclearError
 from semnav_env.grounding.goal import Goal, GoalKind, PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.grounding.ground import ground
+from semnav_env.grounding.own_clause import GroundedClause
+from semnav_env.grounding.situation import Situation
 
 __all__ = [
     "Goal",
     "GoalKind",
+    "GroundedClause",
     "GroundingError",
     "PassGoal",
     "ReachGoal",
     "SeekGoal",
+    "Situation",
     "StopGoal",
     "UnclearError",
     "ground",

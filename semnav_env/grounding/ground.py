@@ -20,6 +20,7 @@ from semnav_env.grounding.corridor_goals import follow_goal, turn_goal
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, StopGoal
 from semnav_env.grounding.goals import door_goal, leave_goal, way_goal
+from semnav_env.grounding.own_clause import GroundedClause
 from semnav_env.grounding.situation import Situation
 from semnav_env.grounding.ways import Way
 from semnav_env.rules import Rules
@@ -82,4 +83,6 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
             raise GroundingError(f"{clause}: a condition leads nowhere by itself")
         case Stop():
             return StopGoal(situation.begin, str(clause), float(clause.seconds))
+        case GroundedClause():
+            return clause.goal(situation)
     raise TypeError(f"{clause!r} is no clause")

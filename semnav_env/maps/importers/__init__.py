@@ -5,7 +5,7 @@ from semnav_env.maps.importers.drawing import Drawing
 from semnav_env.maps.importers.dxf import load_dxf
 from semnav_env.maps.importers.imported import ImportedPlan, ImportReport
 from semnav_env.maps.importers.occupancy import OccupancyMap, OccupancySpec, read_occupancy
-from semnav_env.maps.importers.opening import import_map
+from semnav_env.maps.importers.opening import import_map, register_importer
 from semnav_env.maps.importers.segments import load_csv, load_vector_map
 from semnav_env.maps.importers.svg import load_svg
 from semnav_env.maps.importers.tracing import Tracing, trace
@@ -24,5 +24,6 @@ __all__ = [
     "load_svg",
     "load_vector_map",
     "read_occupancy",
+    "register_importer",
     "trace",
 ]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeAlias
 
 from semnav_env.maps.importers.building import load_building
 from semnav_env.maps.importers.documents import read_text
@@ -25,6 +27,33 @@ IMPORTED_FORMATS = (
 )
 """Formats that can be imported, as an error lists them."""
 
+KNOWN_SUFFIXES = frozenset(
+    (".yaml", ".yml", ".dxf", ".svg", ".json", ".csv", ".txt", *IMAGE_SUFFIXES)
+)
+"""Suffixes of the files that the package itself reads; nobody else may register them."""
+
+Importer: TypeAlias = Callable[[Path], Imported]
+"""Reads a file into a floor plan and the report of what was understood."""
+
+_registered: dict[str, Importer] = {}
+
+
+def register_importer(suffix: str, importer: Importer) -> None:
+    """Let `import_map` read files of another kind.
+
+    Args:
+        suffix: of their names, such as ".rooms".
+        importer: reads one; it replaces the one that was registered for the suffix before.
+
+    Raises:
+        ValueError: no suffix, or one of a kind that the package reads itself.
+    """
+    lowered = suffix.lower()
+    if not (lowered.startswith(".") and len(lowered) > 1) or lowered in KNOWN_SUFFIXES:
+        known = ", ".join(sorted(KNOWN_SUFFIXES))
+        raise ValueError(f"{suffix!r} is no suffix of a new kind; those of the package are {known}")
+    _registered[lowered] = importer
+
 
 def import_map(
     path: str | Path,
@@ -37,7 +66,7 @@ def import_map(
     Args:
         path: .yaml or .yml of ROS's map_server, with the labels beside it if there are any; its
             image alone; .json with the segments of a vector map or a house of HouseExpo; .csv or
-            .txt with segments; .dxf or .svg.
+            .txt with segments; .dxf or .svg; or a kind of `register_importer`.
         resolution: metres per pixel of an image alone.
         tracing: options for tracing walls from the pixels of an occupancy map.
         drawing: scale and layers of a drawing; of a house, only the scale is used.
@@ -50,6 +79,8 @@ def import_map(
     """
     where = Path(path)
     suffix = where.suffix.lower()
+    if suffix in _registered:
+        return _registered[suffix](where)
     if suffix in IMAGE_SUFFIXES:
         return trace(read_occupancy(where, resolution), tracing)
     if resolution is not None:
