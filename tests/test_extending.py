@@ -30,17 +30,18 @@ POSE = (-2.5, -0.3, 0.24)
 
 @dataclass(frozen=True)
 class Advance(GroundedClause):
-    """Drive on by a metre, where there is a corridor."""
+    """Drive on by some metres, where there is so much of a corridor."""
 
+    metres: float
     stand_in: ClassVar[Clause] = Follow()
 
     def say(self, language: object) -> str:
         return "advance"
 
     def goal(self, situation: Situation) -> Goal:
-        if situation.corridor.end < 1.0:
+        if situation.corridor.end < self.metres:
             raise GroundingError("no room to advance")
-        return ReachGoal(compose(situation.begin, (1.0, 0.0, 0.0)), 0.3, because="advance")
+        return ReachGoal(compose(situation.begin, (self.metres, 0.0, 0.0)), 0.3, because="advance")
 
 
 def read_rooms(path: Path) -> Imported:
@@ -71,7 +72,7 @@ class RangesLog(LogReader):
 
 def test_an_own_clause_is_carried_out_and_judged() -> None:
     env = SemNavEnv(observation="all")
-    command = Command((Advance(), *parse("go through the first door on the right").clauses))
+    command = Command((Advance(1.0), *parse("go through the first door on the right").clauses))
     _, info = env.reset(seed=0, options={"command": command, "pose": POSE})
     assert info["command"] == "advance and go through the first door on the right"
     assert env.belief.goal.because == "advance"
@@ -83,14 +84,14 @@ def test_an_own_clause_is_carried_out_and_judged() -> None:
 
 
 def test_an_own_clause_has_the_token_of_its_stand_in() -> None:
-    assert np.array_equal(encode(Command((Advance(),))), encode(Command((Follow(),))))
+    assert np.array_equal(encode(Command((Advance(1.0),))), encode(Command((Follow(),))))
 
 
 def test_an_own_clause_that_cannot_be_carried_out_is_refused() -> None:
     env = SemNavEnv()
-    corner = {"command": Command((Advance(),)), "pose": (-2.5, -0.3, 0.24 + np.pi / 2)}
+    far = {"command": Command((Advance(200.0),)), "pose": POSE}
     with pytest.raises(GroundingError, match="no room to advance"):
-        env.reset(seed=0, options=corner)
+        env.reset(seed=0, options=far)
 
 
 def test_an_own_clause_without_a_goal_cannot_be_made() -> None:
