@@ -21,7 +21,7 @@ from semnav_env.features.readers import LogReader, LogRecord
 from semnav_env.features.scan import Scan
 from semnav_env.grounding import Goal, GroundedClause, GroundingError, ReachGoal, Situation
 from semnav_env.maps import FloorPlan, FloorPlanError, Region, Surface, load_floor_plan
-from semnav_env.maps.importers import Imported, ImportReport, import_map, register_importer
+from semnav_env.maps.importers import ImportedPlan, ImportReport, import_map, register_importer
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = (ROOT / "docs" / "extending.md").read_text()
@@ -44,14 +44,14 @@ class Advance(GroundedClause):
         return ReachGoal(compose(situation.begin, (self.metres, 0.0, 0.0)), 0.3, because="advance")
 
 
-def read_rooms(path: Path) -> Imported:
+def read_rooms(path: Path) -> ImportedPlan:
     """A file with the width and the depth of one room."""
     width, depth = map(float, path.read_text().split())
     corners = ((0.0, 0.0), (width, 0.0), (width, depth), (0.0, depth), (0.0, 0.0))
     inside = Region("hall", box(0.0, 0.0, width, depth))
     outline = box(-1.0, -1.0, width + 1.0, depth + 1.0)
     plan = FloorPlan(path.stem, (Surface(corners),), (), (), (inside,), (), outline)
-    return Imported(plan, ImportReport((str(path),), "rooms", {"rooms": 1}))
+    return ImportedPlan(plan, ImportReport((str(path),), "rooms", {"rooms": 1}))
 
 
 class RangesLog(LogReader):

@@ -32,7 +32,7 @@ KNOWN_SUFFIXES = frozenset(
 )
 """Suffixes of the files that the package itself reads; nobody else may register them."""
 
-Importer: TypeAlias = Callable[[Path], Imported]
+Importer: TypeAlias = Callable[[Path], ImportedPlan]
 """Reads a file into a floor plan and the report of what was understood."""
 
 _registered: dict[str, Importer] = {}
