@@ -246,3 +246,9 @@ def test_every_package_is_listed_for_installation():
 def test_no_module_is_a_drawer_for_odds_and_ends():
     drawers = {"utils", "util", "helpers", "helper", "misc", "common"}
     assert not [m.place for m in MODULES.values() if drawers & set(m.name.split("."))]
+
+
+def test_kernels_use_neither_fastmath_nor_prange():
+    """Either may change the last bits of a result from machine to machine."""
+    marks = ("fastmath=", "parallel=True", "prange")
+    assert not [m.place for m in MODULES.values() if any(k in m.path.read_text() for k in marks)]
