@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from semnav_env.env import SemNavEnv
-from tests.episodes import actions, digest, fresh, rollout, rounded_digest
+from tests.support.episodes import actions, digest, fresh, rollout, rounded_digest
+from tests.support.paths import GOLDEN, ROOT
 
-GOLDEN = Path(__file__).parent / "golden" / "thousand_steps.json"
-ROOT = Path(__file__).resolve().parents[1]
+GOLDEN = GOLDEN / "thousand_steps.json"
 
 
 @pytest.mark.parametrize("robot", ["wheelchair", "spot"])
@@ -54,7 +54,7 @@ def test_a_copy_in_a_new_process_goes_on_bit_for_bit(tmp_path: Path) -> None:
     env, steps = fresh(), actions(160, 2)
     list(rollout(env, steps[:80]))
     (tmp_path / "env.pickle").write_bytes(pickle.dumps((env, steps[80:])))
-    command = [sys.executable, "-m", "tests.episodes", str(tmp_path / "env.pickle")]
+    command = [sys.executable, "-m", "tests.support.episodes", str(tmp_path / "env.pickle")]
     printed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert json.loads(printed) == digest(rollout(env, steps[80:]))
 

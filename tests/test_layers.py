@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
+from tests.support.paths import ROOT
+
 LAYERS = ("features", "semnav_env", "agents", "scripts")
 INSTALLED = {
     layer: "semnav_env" if layer == "semnav_env" else f"semnav_env.{layer}" for layer in LAYERS

@@ -1,4 +1,4 @@
-"""Draws the situations of tests/rules.json.
+"""Draws the situations of tests/support/rules.json.
 
 Beside what a row means stands the row's name; the arrows are where its command is given. Rows that
 are answered with an error stand in the title.
@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from semnav_env.features.frames import Point, Pose
 from semnav_env.maps import FloorPlan, Material
 from studies.figures import IMAGES
-from tests.situations import ROWS, TABLE, Row, situation
+from tests.support.situations import ROWS, TABLE, Row, situation
 
 PAGE_COLUMNS = 3
 """Panels beside each other on a page."""

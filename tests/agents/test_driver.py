@@ -1,0 +1,226 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from semnav_env.agents.planning.doorway import barriers_across, target_behind
+from semnav_env.agents.planning.driver import Driver
+from semnav_env.agents.planning.follower import PathProgress, follow
+from semnav_env.agents.planning.guard import safe_share
+from semnav_env.agents.planning.obstacles import points_of_segments
+from semnav_env.agents.planning.planner import DriveTarget, plan
+from semnav_env.agents.planning.track import PathTrack
+from semnav_env.robots import SPOT, WHEELCHAIR
+from tests.support.kinematics import (
+    HALLWAY_STARTS,
+    Kinematics,
+    around,
+    corridor_with_door,
+    drive_knowing,
+    drive_seeing,
+    hallway_task,
+    room_with_pillar,
+)
+from tests.support.raycaster import polyline
+
+ROBOTS = pytest.mark.parametrize("robot", [WHEELCHAIR, SPOT], ids=lambda robot: robot.name)
+NOTHING = np.empty((0, 2))
+
+
+@ROBOTS
+@pytest.mark.parametrize("name", HALLWAY_STARTS)
+def test_with_everything_known_doors_are_passed_on_the_path(robot, name):
+    segments, start, target = hallway_task(name)
+    drive = drive_knowing(segments, robot, around(start, np.random.default_rng(1)), target)
+    assert drive.arrived
+    assert drive.clearance > 0
+    assert drive.deviation < 0.06
+    assert drive.plans == 1
+
+
+@pytest.mark.parametrize(
+    ("robot", "name"), [(WHEELCHAIR, "north"), (WHEELCHAIR, "south_2"), (SPOT, "south_1")]
+)
+def test_with_noise_and_drift_doors_are_passed_without_contact(robot, name):
+    segments, start, target = hallway_task(name)
+    for seed in range(2):
+        rng = np.random.default_rng(seed)
+        drive = drive_seeing(segments, robot, around(start, rng), target, rng)
+        assert drive.arrived
+        assert drive.clearance > 0
+        assert math.dist(drive.pose[:2], target.pose[:2]) < target.position_tolerance + 0.25
+
+
+@ROBOTS
+def test_a_door_on_the_side_of_a_narrow_corridor_is_entered(robot):
+    segments, door = corridor_with_door(1.65, 1.0)
+    drive = drive_knowing(segments, robot, (0.0, 0.8, 0.0), target_behind(door, (0.0, 0.8)))
+    assert drive.arrived
+    assert drive.clearance > 0.03
+
+
+@ROBOTS
+def test_a_pillar_is_passed(robot):
+    target = DriveTarget((5.0, 2.2, 0.0))
+    drive = drive_knowing(room_with_pillar(), robot, (1.0, 1.9, 0.0), target)
+    assert drive.arrived
+    assert drive.clearance > 0.05
+    assert math.dist(drive.pose[:2], target.pose[:2]) < 0.15
+
+
+@ROBOTS
+def test_an_open_corridor_is_driven_at_cruising_speed(robot):
+    walls = np.concatenate((polyline((-2, -1.2), (12, -1.2)), polyline((-2, 1.2), (12, 1.2))))
+    drive = drive_knowing(walls, robot, (0.0, 0.0, 0.0), DriveTarget((9.0, 0.0, 0.0)))
+    assert drive.arrived
+    assert drive.seconds < 13.0
+
+
+@ROBOTS
+@pytest.mark.parametrize("offset", [0.08, -0.08])
+def test_a_robot_beside_its_path_comes_back_to_it(robot, offset):
+    path = plan(NOTHING, (0.0, 0.0, 0.0), DriveTarget((5.0, 0.0, 0.0)), robot)
+    track, progress = PathTrack(path, robot), PathProgress()
+    world = Kinematics(np.array([[(99, 99), (99, 98)]]), robot, (0.0, offset, 0.0), rng())
+    for _ in range(40):
+        steering = follow(track, progress, world.pose, tuple(world.velocity.tolist()))
+        progress = steering.progress
+        world.step(steering.twist)
+    assert abs(world.pose[1]) < 0.015
+    assert abs(world.pose[2]) < math.radians(2.0)
+
+
+def test_a_turn_on_the_spot_stays_on_the_spot():
+    path = plan(
+        NOTHING, (0.0, 0.0, 0.0), DriveTarget((0.18, 0.18, math.pi / 2), 0.03, 0.05), WHEELCHAIR
+    )
+    track, progress = PathTrack(path, WHEELCHAIR), PathProgress()
+    world = Kinematics(np.array([[(99, 99), (99, 98)]]), WHEELCHAIR, (0.0, 0.0, 0.0), rng())
+    for _ in range(120):
+        steering = follow(track, progress, world.pose, tuple(world.velocity.tolist()))
+        progress = steering.progress
+        if steering.done:
+            break
+        world.step(steering.twist)
+    assert steering.done
+    assert math.dist(world.pose[:2], path.end[:2]) < 0.03
+    assert abs(world.pose[2] - path.end[2]) < 0.03
+
+
+def test_commands_keep_to_the_limits_of_the_follower():
+    segments, start, target = hallway_task("south_1")
+    path = plan(points_of_segments(segments.reshape(-1, 4)), start, target, WHEELCHAIR)
+    track = PathTrack(path, WHEELCHAIR)
+    assert track.speed.max() <= track.settings.cruise
+    assert track.speed[-1] == 0.0
+    bends = np.abs(track.curvature) * np.minimum(track.speed[1:], track.speed[:-1])
+    assert bends.max() <= track.settings.turn_rate + 1e-9
+
+
+def test_a_wall_that_appears_on_the_path_is_driven_around():
+    driver, pose = Driver(WHEELCHAIR), (0.0, 0.0, 0.0)
+    target = DriveTarget((5.0, 0.0, 0.0))
+    driver.drive(NOTHING, target, pose)
+    before = driver.path
+    box = points_of_segments(polyline((2.0, -0.3), (2.0, 0.3)).reshape(-1, 4))
+    for _ in range(driver.check_every):
+        driver.drive(box, target, pose)
+    assert driver.path is not before
+    assert driver.path.complete
+    assert np.abs(driver.path.poses[:, 1]).max() > 0.6
+
+
+def wall_with_two_gaps():
+    """A wall at x = 3 with gaps of 1 m around y = 0 and y = 4, and points across the first one."""
+    wall = np.array([[3.0, -30.0, 3.0, -0.5], [3.0, 0.5, 3.0, 3.5], [3.0, 4.5, 3.0, 30.0]])
+    across = np.array([[3.0, -0.5, 3.0, 0.5]])
+    return points_of_segments(wall), points_of_segments(across)
+
+
+GATES = {y: ((3.0, y - 0.5), (3.0, y + 0.5)) for y in (0.0, 4.0)}
+
+
+def test_the_way_to_a_gate_leads_through_that_gate():
+    points, barrier = wall_with_two_gaps()
+    driver, target = Driver(WHEELCHAIR), DriveTarget((6.0, 0.0, 0.0), 0.2, None, gate=GATES[4.0])
+    driver.drive(points, target, (0.0, 0.0, 0.0))
+    assert driver.path.crosses(*GATES[0.0])
+    driver.reset()
+    driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
+    assert driver.path.complete
+    assert driver.path.crosses(*GATES[4.0])
+    assert not driver.path.crosses(*GATES[0.0])
+    before = driver.path
+    for _ in range(driver.check_every):
+        driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
+    assert driver.path is before
+
+
+def test_barriers_are_passed_only_for_gates_or_as_a_last_way():
+    points, barrier = wall_with_two_gaps()
+    beyond = ((5.0, -1.0), (5.0, 1.0))
+    driver, target = Driver(WHEELCHAIR), DriveTarget((6.0, 0.0, 0.0), 0.2, None, gate=beyond)
+    driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
+    assert driver.path.crosses(*GATES[0.0])
+    closed = np.vstack((points, points_of_segments(np.array([[3.0, 3.5, 3.0, 4.5]]))))
+    driver.reset()
+    driver.drive(closed, target, (0.0, 0.0, 0.0), barriers=barrier)
+    assert driver.path.complete
+    assert driver.path.crosses(*GATES[0.0])
+
+
+def test_a_short_detour_leads_around_a_barrier():
+    points, barrier = wall_with_two_gaps()
+    for y, gate in ((1.5, 4.0), (0.0, 0.0)):
+        driver, target = Driver(WHEELCHAIR), DriveTarget((6.0, y, 0.0), 0.2, None)
+        driver.drive(points, target, (0.0, y, 0.0), barriers=barrier)
+        assert driver.path.complete
+        assert driver.path.crosses(*GATES[gate])
+
+
+def test_doorways_are_barred_but_for_the_one_the_robot_stands_in():
+    beside, here = (2.0, 1.0, 3.0, 1.0), (0.3, -0.5, 0.3, 0.5)
+    barriers = barriers_across(np.array([beside, here]), WHEELCHAIR)
+    assert np.array_equal(barriers, points_of_segments(np.array([beside])))
+    assert barriers_across(np.empty((0, 4)), WHEELCHAIR).shape == (0, 2)
+
+
+def test_a_moving_target_is_followed_but_not_a_trembling_one():
+    driver, pose = Driver(WHEELCHAIR), (0.0, 0.0, 0.0)
+    driver.drive(NOTHING, DriveTarget((5.0, 0.0, 0.0)), pose)
+    driver.drive(NOTHING, DriveTarget((5.01, 0.01, 0.01)), pose)
+    assert driver.plans == 1
+    driver.drive(NOTHING, DriveTarget((5.0, 1.0, 0.0)), pose)
+    assert driver.plans == 2
+
+
+def test_where_no_way_leads_on_the_robot_stands_and_is_not_done():
+    driver, wall = Driver(WHEELCHAIR), points_of_segments(np.array([[0.7, -30.0, 0.7, 30.0]]))
+    for _ in range(30):
+        steering = driver.drive(wall, DriveTarget((3.0, 0.0, 0.0)), (0.0, 0.0, 0.0))
+        assert not steering.done
+    assert driver.plans < 10
+
+
+@ROBOTS
+def test_a_short_way_that_ends_near_the_target_is_driven(robot):
+    """The target lies behind the end of a corridor, half a metre ahead of the robot's front."""
+    walls = polyline((-2, -1), (1.2, -1), (1.2, 1), (-2, 1), (-2, -1))
+    target = DriveTarget((1.6, 0.0, 0.0), 0.2, 0.15)
+    drive = drive_knowing(walls, robot, (0.0, 0.0, 0.0), target, steps=150)
+    assert drive.pose[0] > 0.2
+    assert drive.clearance > 0.0
+
+
+def test_a_command_into_a_wall_is_slowed_and_one_along_it_is_not():
+    wall = np.stack((np.full(50, 0.72), np.linspace(-1.0, 1.0, 50)), axis=1)
+    assert safe_share(wall, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) < 1.0
+    assert safe_share(wall, (1.0, 0.0, 0.0), (1.2, 0.0, 0.0), WHEELCHAIR) == 0.0
+    assert safe_share(wall, (-1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) == 1.0
+    assert safe_share(NOTHING, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) == 1.0
+
+
+def rng():
+    return np.random.default_rng(0)

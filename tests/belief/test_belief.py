@@ -1,0 +1,165 @@
+"""The robot's side: the same beliefs in the simulator, on records of it, and on a log."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from semnav_env.agents.base import steps
+from semnav_env.agents.registry import make_agent
+from semnav_env.belief import BeliefTracker
+from semnav_env.belief.log_following import follow_log
+from semnav_env.commands import parse
+from semnav_env.env import SemNavEnv
+from semnav_env.features.readers import LogRecord
+from semnav_env.features.scan import Scan
+from semnav_env.scripts.main import main
+from tests.support import robots_side
+from tests.support.paths import ROOT
+from tests.support.robots_side import Recorded, described
+
+COMMAND = "turn left at the intersection and go in the first door on the right"
+
+
+def recorded(options: dict[str, object], seed: int = 3) -> tuple[Recorded, list[str]]:
+    """What a robot sensed in an episode of the scripted agent, and what it believed."""
+    env = SemNavEnv(observation="all")
+    sensed, believed, update = [], [], env.tracker.update
+
+    def noted(ranges, odometry, velocity, bumps):
+        sensed.append((ranges.copy(), odometry, velocity, list(bumps)))
+        belief = update(ranges, odometry, velocity, bumps)
+        believed.append(described(belief))
+        return belief
+
+    env.tracker.update = noted
+    begun = env.reset(seed=seed, options=options)
+    for _ in steps(env, make_agent("scripted"), *begun):
+        pass
+    command = str(env.judge.verifier.mission.command)
+    return Recorded(command, env.robot.lidar_mount, sensed), believed
+
+
+@pytest.fixture(scope="module")
+def drive() -> tuple[Recorded, list[str]]:
+    return recorded({"command": COMMAND, "pose": (-2.5, -0.3, 0.24)})
+
+
+def test_records_of_an_episode_give_the_same_beliefs(drive) -> None:
+    record, believed = drive
+    assert len(believed) > 100
+    assert robots_side.beliefs(record) == believed
+
+
+def test_it_needs_nothing_of_the_simulator(drive, tmp_path: Path) -> None:
+    """In a process in which the simulator's modules cannot be imported."""
+    record, believed = drive
+    (tmp_path / "record.pickle").write_bytes(pickle.dumps(record))
+    command = [sys.executable, "-m", "tests.support.robots_side", str(tmp_path / "record.pickle")]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert json.loads(done.stdout) == believed
+
+
+def test_bumps_are_part_of_what_is_recorded() -> None:
+    env = SemNavEnv(observation="all")
+    env.reset(seed=0, options={"command": "turn around", "pose": (-2.5, -0.3, 1.64)})
+    bumped = [env.step([0.6, 0.0]) and env.simulator.world.touches for _ in range(45)]
+    assert any(bumped)
+
+
+def tracker() -> BeliefTracker:
+    """Far from any wall, at the start of "turn around"."""
+    fresh = BeliefTracker()
+    fresh.begin(parse("turn around"))
+    return fresh
+
+
+def nothing() -> np.ndarray:
+    return np.full(811, np.inf)
+
+
+def test_an_update_before_a_command_is_an_error() -> None:
+    with pytest.raises(RuntimeError, match=r"call begin\(command\)"):
+        BeliefTracker().update(nothing(), (0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("ranges", "odometry", "words"),
+    [
+        (np.zeros(7), (0.0, 0.0, 0.0), r"shape \(7,\); tim561 gives \(811,\)"),
+        (nothing(), (0.0, np.nan, 0.0), "must be a finite"),
+    ],
+)
+def test_what_no_robot_senses_is_refused(ranges, odometry, words) -> None:
+    with pytest.raises(ValueError, match=words):
+        tracker().update(ranges, odometry)
+
+
+def test_without_a_velocity_that_of_odometry_counts() -> None:
+    robot = tracker()
+    robot.update(nothing(), (0.0, 0.0, 0.0))
+    belief = robot.update(nothing(), (0.1, 0.0, 0.2), seconds=0.1)
+    assert belief.velocity == pytest.approx((1.0, 0.0, 2.0))
+
+
+def test_a_belief_keeps_its_scene_when_the_robot_goes_on(drive) -> None:
+    record, _ = drive
+    robot, kept = robots_side.begun(record), []
+    for ranges, odometry, velocity, bumps in record.sensed[:60]:
+        belief = robot.update(ranges, odometry, velocity, bumps)
+        kept.append((belief, [(*wall.start, *wall.end) for wall in belief.scene.walls]))
+    for belief, walls in kept:
+        assert [(*wall.start, *wall.end) for wall in belief.scene.walls] == walls
+    assert kept[-1][1] != kept[5][1]
+
+
+def test_a_log_is_followed_as_the_robot_itself_would(drive) -> None:
+    record, believed = drive
+    spec = BeliefTracker().lidar
+    log = [
+        LogRecord(
+            Scan(
+                np.where(np.isfinite(ranges), ranges, 0.0),
+                spec.angle_min,
+                spec.angle_increment,
+                spec.range_min,
+                spec.range_max,
+                k / 15,
+            ),
+            None,
+            odometry,
+            k + 1,
+        )
+        for k, (ranges, odometry, _, _) in enumerate(record.sensed)
+    ]
+    followed = follow_log(log, parse(record.command), mount=record.mount)
+    assert [described(belief) for _, belief in followed] == believed
+
+
+def test_semnav_follow_says_when_its_mind_changed(drive, tmp_path: Path, capsys) -> None:
+    record, _ = drive
+    spec, path = BeliefTracker().lidar, tmp_path / "log.npz"
+    np.savez(
+        path,
+        ranges=[np.where(np.isfinite(ranges), ranges, 0.0) for ranges, *_ in record.sensed],
+        poses=[odometry for _, odometry, *_ in record.sensed],
+        stamps=[k / 15 for k in range(len(record.sensed))],
+        angle_min=spec.angle_min,
+        angle_increment=spec.angle_increment,
+        range_max=spec.range_max,
+    )
+    picture = tmp_path / "beliefs.png"
+    arguments = ["follow", str(path), record.command, "--json", "--plot", str(picture)]
+    assert main(arguments) == 0
+    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [line["clause"] for line in lines] == sorted(line["clause"] for line in lines)
+    assert lines[-1]["clause"] == 3
+    assert picture.stat().st_size > 10_000
+    assert main(["follow", str(path), record.command, "--limit", "10"]) == 1
+    assert "0 of 2 clauses" in capsys.readouterr().out

@@ -1,0 +1,9 @@
+"""Where things lie: the checkout, and beside it the data that not every machine has."""
+
+from pathlib import Path
+
+TESTS = Path(__file__).resolve().parents[1]
+ROOT = TESTS.parent
+SHARED = ROOT.parent / "shared"
+DATA = SHARED / "data"
+GOLDEN = TESTS / "golden"
