@@ -21,6 +21,7 @@ lint: $(VENV)/.test
 
 types: $(VENV)/.test
 	$(BIN)/mypy
+	$(BIN)/basedpyright
 
 docs: $(VENV)/.test
 	$(BIN)/pip install -q -c constraints.txt -e ".[docs]"

@@ -24,6 +24,7 @@ class Agent(Protocol):
     @property
     def observation(self) -> str | ObservationType:
         """A mode, such as "all", or an observation type of the user's own."""
+        ...
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode.
@@ -34,6 +35,7 @@ class Agent(Protocol):
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action, in the environment's action space."""
+        ...
 
 
 class Step(NamedTuple):

@@ -19,6 +19,7 @@ class Runnable(Protocol):
 
     def run(self) -> int:
         """Run the sub-command and return its exit code."""
+        ...
 
 
 class HelpShown(Exception):  # noqa: N818 - not an error: the help was asked for and printed

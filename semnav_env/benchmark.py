@@ -114,8 +114,8 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], fl
     tracker.begin(env.judge.verifier.mission.command)
     lidar_pose = compose(pose, env.robot.lidar_mount)
     velocity = (0.3, 0.0, 0.2)
-    arrays: tuple[Any, ...] = lidar.arrays[:5]
     out = lidar.ranges(pose, (0, 0, 0))
+    arguments: list[Any] = [*lidar_pose, *lidar.arrays[:5], out]
     tracker.update(out, pose, velocity)
     scene = env.floor_plan.scene
 
@@ -123,7 +123,7 @@ def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], fl
         return lambda: _seconds_per_call(call, steps)
 
     return [
-        ("scan without noise", repeat(lambda i: cast(*(*lidar_pose, *arrays, out)))),
+        ("scan without noise", repeat(lambda i: cast(*arguments))),
         ("scan with noise", repeat(lambda i: lidar.ranges(pose, (0, 0, i), out))),
         ("features", repeat(lambda i: extract_features(tracker.senses))),
         (

@@ -86,9 +86,9 @@ def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> D
         seed: of the episode.
         options: for `env.reset`: "command", "pose", "floor_plan"; or "episode".
     """
-    started = env.reset(seed=seed, options=options)
+    observation, info = env.reset(seed=seed, options=options)
     recorder = Recorder(env.world)
-    for step in steps(env, agent, *started):
+    for step in steps(env, agent, observation, info):
         recorder.note()
         info = step.info
     verifier, recording = env.judge.verifier, recorder.recording()

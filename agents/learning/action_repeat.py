@@ -53,12 +53,12 @@ class ActionRepeat(gym.Env[Array, Array]):
 
     def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         """Hold an action for some steps, or until the episode ends."""
-        total = 0.0
-        for _ in range(self.preset.repeat):
-            observation, reward, terminated, truncated, info = self.env.step(action)
-            total += reward
+        observation, total, terminated, truncated, info = self.env.step(action)
+        for _ in range(1, self.preset.repeat):
             if terminated or truncated:
                 break
+            observation, reward, terminated, truncated, info = self.env.step(action)
+            total += reward
         return compact(observation), total, terminated, truncated, info
 
     def close(self) -> None:

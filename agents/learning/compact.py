@@ -59,9 +59,9 @@ def compact(observation: Observation) -> Array:
 
 def _squash_place(place: Array) -> Array:
     """A place (x, y) with its distance squashed and its direction kept."""
-    return np.asarray(place / (1.0 + np.hypot(place[0], place[1])))
+    return np.asarray(place / (1.0 + np.hypot(place[0], place[1])), np.float32)
 
 
 def _squash(values: Array) -> Array:
     """Each value on its own."""
-    return np.asarray(values / (1.0 + np.abs(values)))
+    return np.asarray(values / (1.0 + np.abs(values)), np.float32)

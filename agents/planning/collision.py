@@ -172,7 +172,7 @@ def _holds_point(
 def bins_around(field: ObstacleField, x: float, y: float, radius: float) -> list[tuple[int, int]]:
     """Ranges (first, last + 1) of `field.points`, one for each row of bins around a place."""
     size = FIELD_CELL * BIN_CELLS
-    bins = field.distance.shape[0] // BIN_CELLS
+    bins: int = field.distance.shape[0] // BIN_CELLS
     i0 = max(0, math.floor((x - radius - field.x) / size))
     i1 = min(bins - 1, math.floor((x + radius - field.x) / size))
     j0 = max(0, math.floor((y - radius - field.y) / size))

@@ -197,7 +197,7 @@ def nearest(
     best, least = -1, within * within
     for b in range(j - 1, j + 2):
         for a in range(i - 1, i + 2):
-            k = table[b % TABLE_SIDE, a % TABLE_SIDE]
+            k: int = table[b % TABLE_SIDE, a % TABLE_SIDE]
             if k >= 0:
                 squared = (centres[k].x - x) ** 2 + (centres[k].y - y) ** 2
                 if squared < least:
@@ -215,7 +215,8 @@ def select(centres: NDArray[Any], sure: int, share: float, blunt: float) -> Floa
     table = np.full((TABLE_SIDE, TABLE_SIDE), -1, dtype=np.int32)
     for k in range(len(centres)):
         j, i = slot(centres[k].x, centres[k].y)
-        if table[j, i] < 0 or centres[table[j, i]].hits < centres[k].hits:
+        best: int = table[j, i]
+        if best < 0 or centres[best].hits < centres[k].hits:
             table[j, i] = k
     points = np.empty((2 * len(centres), 2))
     n = 0
@@ -249,7 +250,7 @@ def neighbourhood(
     most, count, x, y = 0.0, 0.0, 0.0, 0.0
     for b in range(j - 2, j + 3):
         for a in range(i - 2, i + 3):
-            m = table[b % TABLE_SIDE, a % TABLE_SIDE]
+            m: int = table[b % TABLE_SIDE, a % TABLE_SIDE]
             if m < 0 or m == k:
                 continue
             dx, dy = centres[m].x - centres[k].x, centres[m].y - centres[k].y

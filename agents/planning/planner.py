@@ -184,7 +184,7 @@ def _search(
         costs,
         0.0,
     )
-    expansions = 0
+    moves, found, expansions = np.empty((0, 3)), False, 0
     for greed, limit in settings.efforts:
         moves, found, count = search(problem._replace(greed=greed), axle, anchors, limit)
         expansions += int(count)

@@ -81,9 +81,9 @@ def shortened(
     """The moves with stretches of them replaced by a short connection where that is cheaper."""
     at, out, pose, kind = 0, [moves[:0]], start, STILL
     while at < len(moves):
+        old = new = moves[at:]
         for upto in range(len(moves), at, -1):
-            old = moves[at:upto]
-            new = old
+            old = new = moves[at:upto]
             if upto > at + 1:
                 price = cost_of_moves(field, body, pose, old, kind, margin, costs, math.inf)
                 new = _cheapest(field, body, pose, old, kind, margin, costs, price - 0.01)

@@ -193,7 +193,7 @@ def missing_wall(
         gap: the candidate.
         step: -1 for the side before its start, 1 for that after its end.
     """
-    beam = gap.first - 1 if step < 0 else gap.last + 1
+    beam: int = gap.first - 1 if step < 0 else gap.last + 1
     x, y = (gap.start_x, gap.start_y) if step < 0 else (gap.end_x, gap.end_y)
     origin = gap.along_x * x + gap.along_y * y
     side = 1.0 if step > 0 else -1.0

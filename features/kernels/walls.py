@@ -68,7 +68,8 @@ def settle_border(xs: FloatArray, ys: FloatArray, near: float, before: Any, afte
     pieces, a cut or a run too short for a line, join one of them if they are `near` its line. Where
     none are left over, the border itself moves. Each piece keeps two points at least.
     """
-    last, first = before.last, after.first
+    last: int = before.last
+    first: int = after.first
     while (
         last + 1 < first
         and abs(offset(before, xs[last + 1], ys[last + 1])) <= near
@@ -88,9 +89,7 @@ def settle_border(xs: FloatArray, ys: FloatArray, near: float, before: Any, afte
 
 
 @njit(cache=True, error_model="numpy")
-def extend(
-    xs: FloatArray, ys: FloatArray, near: float, first: int, last: int, head: Any, tail: Any
-) -> None:
+def extend(xs: Any, ys: Any, near: float, first: int, last: int, head: Any, tail: Any) -> None:
     """Let a group's first and last piece take the points beyond them that are near their lines."""
     while head.first > first and abs(offset(head, xs[head.first - 1], ys[head.first - 1])) <= near:
         head.first -= 1
@@ -125,7 +124,8 @@ def flag_pieces(
         piece = pieces[k]
         while piece.first >= group_first[group + 1]:
             group += 1
-        before, after = beams[piece.first] - 1, beams[piece.last] + 1
+        before: int = beams[piece.first] - 1
+        after: int = beams[piece.last] + 1
         before = before + beams_per_turn if before < 0 and beams_per_turn > 0 else before
         piece.flags = 0
         if piece.first == group_first[group] and before >= 0:

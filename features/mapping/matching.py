@@ -172,8 +172,7 @@ def _covariance(information: FloatArray, weak: Point | None, settings: MatchSett
     values, vectors = np.linalg.eigh(information)
     known = (vectors * np.maximum(values, 0.0)) @ vectors.T
     guess = (settings.guess_position, settings.guess_position, settings.guess_angle)
-    covariance: FloatArray = np.linalg.inv(known + np.diag(1.0 / np.square(guess)))
-    return covariance
+    return np.asarray(np.linalg.inv(known + np.diag(1.0 / np.square(guess))), np.float64)
 
 
 def without_place(information: FloatArray, direction: Point) -> FloatArray:

@@ -27,6 +27,7 @@ class Bag(Protocol):
         Raises:
             DamageError: the bag ends too early or is damaged.
         """
+        ...
 
     def close(self) -> None:
         """Close the files."""

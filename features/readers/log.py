@@ -75,9 +75,11 @@ class ScanLog(Protocol):
 
     def __iter__(self) -> Iterator[LogRecord]:
         """The records that are left, in the order of the log."""
+        ...
 
     def __enter__(self) -> Self:
         """The log itself."""
+        ...
 
     def __exit__(
         self,

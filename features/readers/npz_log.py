@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
+from typing import ClassVar
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.readers.geometry import Geometry, checked_pose, checked_scan
@@ -28,7 +29,7 @@ class NpzLog(LogReader):
         DamageError: the archive is not whole.
     """
 
-    unit = "row"
+    unit: ClassVar[str] = "row"
     expected = "an array `ranges` with a row for each scan"
 
     def __init__(self, path: Path, geometry: Geometry) -> None:

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 from itertools import takewhile
 from pathlib import Path
+from typing import ClassVar
 
 from semnav_env.features.frames import Pose
 from semnav_env.features.readers.bag import open_bag
@@ -36,7 +37,7 @@ class RosLog(LogReader):
         OSError: it cannot be opened.
     """
 
-    unit = "message"
+    unit: ClassVar[str] = "message"
     expected = f"messages of type {LASER_SCAN}"
 
     def __init__(self, path: Path, geometry: Geometry, topic: str | None) -> None:

@@ -14,6 +14,7 @@ class SceneSource(Protocol):
 
     def scene(self) -> Scene:
         """All walls and doors that count."""
+        ...
 
 
 class Belief(NamedTuple):

@@ -142,7 +142,8 @@ class FurnitureMover:
 def _free_ways(plan: FloorPlan, half: float) -> list[Polygon]:
     """Connected regions in which the middle of a lane of some half width may lie."""
     lines = shapely.multilinestrings(plan.segments.reshape(-1, 2, 2))
-    return list(shapely.get_parts(plan.boundary.difference(lines.buffer(half))))
+    lanes = plan.boundary.difference(shapely.buffer(lines, half, quad_segs=16))
+    return list(shapely.get_parts(lanes))
 
 
 def _stay_whole(parts: list[Polygon], piece: Polygon) -> bool:

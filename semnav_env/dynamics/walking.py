@@ -56,6 +56,7 @@ def walk(
             vx, vy = _off_the_robot(x - near_x, y - near_y, vx, vy, gap < touch)
         step_x, step_y = seconds * vx, seconds * vy
         longest = math.hypot(step_x, step_y) + OVERLAP_TOLERANCE
+        depth = 0.0
         for _ in range(MAX_DEFLECTIONS):
             depth, push_x, push_y = _worst(x + step_x, y + step_y, i, places, radius, walls, leaves)
             if depth <= OVERLAP_TOLERANCE or gap < touch:

@@ -18,13 +18,14 @@ from semnav_env.verifier import plan_goals
 def faults(episodes: Iterable[Episode]) -> Iterator[tuple[Episode, tuple[str, ...]]]:
     """Every episode with what is wrong with it, which is nothing for most."""
     plan: FloorPlan | None = None
+    geodesic: Geodesic | None = None
     for episode in episodes:
         try:
             found = episode.plan()
         except StaleEpisodeError as error:
             yield episode, (str(error),)
             continue
-        if found is not plan:
+        if geodesic is None or found is not plan:
             plan, geodesic = found, Geodesic(found)
         yield episode, tuple(_faults(episode, found, geodesic))
 

@@ -98,8 +98,9 @@ def _read(line: str, place: str) -> Episode:
         raise EpisodeFileError(f"{place}: is a {type(row).__name__}; an episode is an object")
     for problem in _problems(row):
         raise EpisodeFileError(f"{place}: {problem}")
-    values = {name: _frozen(value) for name, value in row.items()}
-    return Episode(**values | {"expected": Expected(row["expected"])})
+    values: dict[str, Any] = {name: _frozen(value) for name, value in row.items()}
+    values["expected"] = Expected(row["expected"])
+    return Episode(**values)
 
 
 def _problems(row: dict[str, Any]) -> Iterator[str]:

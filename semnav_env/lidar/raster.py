@@ -58,7 +58,7 @@ def cast(
         sensor: `LidarSpec.sensor`, shape (1,).
         out: ranges in metres, shape (beams,); +inf where nothing is nearer than range_max.
     """
-    cell = cell_of(grid, x, y)
+    cell: int = cell_of(grid, x, y)
     start, stop = starts[cell], starts[cell + 1]
     table = np.empty((8, stop - start))
     _prepare(x, y, heading, ends, start, stop, sensor, table)

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
-from jsonschema import Draft202012Validator, ValidationError
+from jsonschema import Draft202012Validator
 from rapidfuzz import process
 
 from semnav_env.maps.rules import FloorPlanError
@@ -140,8 +140,12 @@ def _check_schema(document: Any) -> None:
     raise FloorPlanError(f"{where}{place}{': ' if place else ''}{_explain(error)}")
 
 
-def _explain(error: ValidationError) -> str:
-    """Say in one line what is wrong and what would be right."""
+def _explain(error: Any) -> str:
+    """Say in one line what is wrong and what would be right.
+
+    Args:
+        error: a `jsonschema.ValidationError` that has all its attributes.
+    """
     asked, given = error.validator_value, error.instance
     match error.validator:
         case "const":

@@ -150,7 +150,7 @@ class FloorPlan:
     @cached_property
     def solids(self) -> STRtree:
         """Spatial index of `segments`, in the same order, for offline queries."""
-        return STRtree(linestrings(self.segments.reshape(-1, 2, 2)))
+        return STRtree(np.asarray(linestrings(self.segments.reshape(-1, 2, 2))))
 
     @cached_property
     def furniture(self) -> STRtree:

@@ -40,7 +40,7 @@ OUTSIDE_MARGIN = MAX_GAP
 
 def gaps(plan: FloorPlan) -> Iterator[PlanFault]:
     """All gaps of a plan, each as a fault with its place."""
-    walls = shapely.linestrings(plan.segments.reshape(-1, 2, 2))
+    walls = np.asarray(shapely.linestrings(plan.segments.reshape(-1, 2, 2)))
     thin = _thick(walls, HALF_LINE_WIDTH, 1)
     at = _way_out(plan, walls, thin)
     if at is not None:
@@ -85,11 +85,12 @@ def _gap_in_walls(plan: FloorPlan, walls: Lines, outside: Polygon) -> tuple[floa
 def _room_gaps(plan: FloorPlan, thin: BaseGeometry) -> Iterator[PlanFault]:
     """Places where a space reaches out of a room although all doors are sealed."""
     doors = [LineString((door.start, door.end)) for door in plan.doors]
-    spaces = STRtree(_spaces(plan, thin.union(_thick(doors, HALF_LINE_WIDTH, 1))))
+    spaces = _spaces(plan, thin.union(_thick(doors, HALF_LINE_WIDTH, 1)))
+    tree = STRtree(spaces)
     for room in plan.rooms:
         core = room.polygon.buffer(-DRAWING_TOLERANCE)
-        for index in sorted(spaces.query(core, "intersects").tolist()):
-            space = spaces.geometries[index]
+        for index in sorted(tree.query(core, "intersects").tolist()):
+            space = spaces[index]
             if not _fits(NARROWEST_ROBOT, space.intersection(core)):
                 continue
             near = shapely.clip_by_rect(space, *room.polygon.buffer(MAX_GAP).bounds)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import cast
 
 import shapely
 from shapely import LineString, Polygon
@@ -85,7 +86,8 @@ def _line(door: PlanDoor) -> LineString:
 
 def _ends(corridor: Polygon) -> list[BaseGeometry]:
     """Places on the axis of a corridor before its two ends; its middle if it is short."""
-    corners = list(corridor.minimum_rotated_rectangle.exterior.coords)[:4]
+    rectangle = cast(Polygon, corridor.minimum_rotated_rectangle)
+    corners = list(rectangle.exterior.coords)[:4]
     if math.dist(corners[0], corners[1]) > math.dist(corners[1], corners[2]):
         corners = [*corners[1:], corners[0]]
     axis = LineString((_middle(corners[0], corners[1]), _middle(corners[2], corners[3])))

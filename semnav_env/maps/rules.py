@@ -10,7 +10,6 @@ import shapely
 from shapely import LineString, Polygon
 from shapely.validation import explain_validity
 
-from semnav_env.features.frames import Point
 from semnav_env.maps.doorways import (
     DRAWING_TOLERANCE,
     NARROWEST_ROBOT,
@@ -154,7 +153,7 @@ def _check_unique(names: Iterable[str], what: str) -> None:
             raise FloorPlanError(f"{times} {what}s are named {name!r}; {what} names are unique")
 
 
-def _check_points(points: Iterable[Point], what: str) -> None:
+def _check_points(points: Iterable[tuple[float, ...]], what: str) -> None:
     for point in points:
         if not all(map(math.isfinite, point)):
             raise FloorPlanError(f"{what} has the point {_at(point)}; coordinates are finite")
@@ -172,5 +171,5 @@ def _check_encodable(text: str, what: str) -> None:
         raise FloorPlanError(f"{what} holds half a character (a lone surrogate)") from None
 
 
-def _at(point: Point) -> str:
+def _at(point: tuple[float, ...]) -> str:
     return f"({point[0]:.3f}, {point[1]:.3f})"

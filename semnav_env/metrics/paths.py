@@ -65,7 +65,7 @@ def dtw(path: FloatArray, route: FloatArray) -> float:
     D(i, j) = d(r_i, q_j) + min(D(i-1, j), D(i, j-1), D(i-1, j-1)), with Euclidean distances d
     (Berndt and Clifford 1994; Ilharco et al. 2019).
     """
-    return float(_warp(np.ascontiguousarray(cdist(path, route))))
+    return float(_warp(np.ascontiguousarray(cdist(path, route), np.float64)))
 
 
 def ndtw(path: FloatArray, route: FloatArray, threshold: float = PUBLISHED_GOAL_RADIUS) -> float:

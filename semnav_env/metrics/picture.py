@@ -149,7 +149,7 @@ def _draw_bodies(ax: Axes, recording: Recording, robot: RobotSpec) -> None:
     bodies = footprints(recording.poses[rows], robot)
     corners = shapely.get_coordinates(bodies).reshape(len(rows), -1, 2)
     faces = PolyCollection(
-        corners, facecolor="none", edgecolor=PATH_COLOUR, linewidth=0.4, alpha=0.5
+        list(corners), facecolor="none", edgecolor=PATH_COLOUR, linewidth=0.4, alpha=0.5
     )
     ax.add_collection(faces)
     ax.fill(*corners[-1].T, color=PATH_COLOUR, alpha=0.4, zorder=5)

@@ -51,6 +51,7 @@ class ObservationType(Protocol):
 
     def space(self, robot: RobotSpec, lidar: LidarSpec) -> gym.Space[Any]:
         """The space of the observations; called once, before the first `observe`."""
+        ...
 
     def observe(self, moment: Moment) -> Any:
         """A fresh observation."""
@@ -67,6 +68,7 @@ class ExtraEntry(Protocol):
 
     def space(self, robot: RobotSpec, lidar: LidarSpec) -> gym.Space[Any]:
         """The space of the entry."""
+        ...
 
     def observe(self, moment: Moment) -> Any:
         """A fresh value."""

@@ -35,14 +35,17 @@ class RenderedEnvironment(Protocol):
     @property
     def robot(self) -> RobotSpec:
         """The body."""
+        ...
 
     @property
     def world(self) -> World:
         """The physics."""
+        ...
 
     @property
     def seconds(self) -> float:
         """Simulated time since the start of the episode."""
+        ...
 
 
 def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:

@@ -107,8 +107,9 @@ class Choices:
     ) -> list[list[DoorReference | PlaceReference]]:
         """The names of the last door or junction before a place in the corridor, and the next."""
         marks: list[tuple[float, list[DoorReference | PlaceReference]]] = []
-        marks += ((door.along, [*names_of_door(door, doors)]) for door in doors)
-        marks += ((one.centre, [*names_of_junction(one, seen)]) for one in junctions_ahead(seen))
+        marks.extend((door.along, [*names_of_door(door, doors)]) for door in doors)
+        junctions = junctions_ahead(seen)
+        marks.extend((one.centre, [*names_of_junction(one, seen)]) for one in junctions)
         marks.sort(key=lambda mark: mark[0])
         first = max(0, sum(along < stop for along, _ in marks) - 1)
         return [names for _, names in marks[first : first + 2]]

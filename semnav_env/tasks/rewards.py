@@ -41,6 +41,7 @@ class Rewards(Protocol):
 
     def terms(self, tick: Tick) -> dict[str, float]:
         """The terms of a step by name; their sum is the reward."""
+        ...
 
 
 RewardTerm = Callable[[Tick], float]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, TypeVar, runtime_checkable
+from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 
 import numpy as np
 
@@ -26,6 +26,7 @@ class Task(Protocol):
         Args:
             rng: of the environment; the only source of chance.
         """
+        ...
 
 
 @runtime_checkable
@@ -93,7 +94,7 @@ def as_task(value: object) -> Task:
     elif isinstance(value, Task):
         return value
     elif callable(value):
-        return SampledTask(value)
+        return SampledTask(cast(Any, value))
     raise ValueError(
         f"task is {value!r:.80}; it must be a command, a list of commands, a function from a "
         "generator to an EpisodeRequest, or an object with request(rng)"

@@ -67,7 +67,7 @@ class Outline:
 
 def crossings(segments: FloatArray) -> FloatArray:
     """Where segments, shape (n, 4), cross or touch one another: points, shape (m, 2)."""
-    lines = shapely.linestrings(segments.reshape(-1, 2, 2))
+    lines = np.asarray(shapely.linestrings(segments.reshape(-1, 2, 2)))
     a, b = shapely.STRtree(lines).query(lines, predicate="intersects")
     meeting = shapely.intersection(lines[a[a < b]], lines[b[a < b]])
     return np.asarray(shapely.get_coordinates(meeting), dtype=np.float64)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pymunk
+from pymunk.constraints import GearJoint, PivotJoint
 
 from semnav_env.features.frames import FloatArray, Pose, to_parent
 from semnav_env.robots import RobotSpec
@@ -49,10 +50,10 @@ def robot_body(robot: RobotSpec, start: Pose) -> tuple[pymunk.Body, pymunk.Shape
 
 def driving_joints(
     robot: RobotSpec, control: pymunk.Body, body: pymunk.Body
-) -> tuple[pymunk.PivotJoint, pymunk.GearJoint]:
+) -> tuple[PivotJoint, GearJoint]:
     """Joints that match velocities with bounded force and never correct positions."""
-    pivot = pymunk.PivotJoint(control, body, (0.0, 0.0), (0.0, 0.0))
-    gear = pymunk.GearJoint(control, body, 0.0, 1.0)
+    pivot = PivotJoint(control, body, (0.0, 0.0), (0.0, 0.0))
+    gear = GearJoint(control, body, 0.0, 1.0)
     pivot.max_bias = gear.max_bias = 0.0
     pivot.max_force = GRIP * GRAVITY * robot.mass
     gear.max_force = pivot.max_force * robot.width / 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 import shapely
 
@@ -48,7 +49,8 @@ def _is_reached(
     door: Doorway, doors: Sequence[Doorway], lots: Sequence[Lot], surfaces: Sequence[Surface]
 ) -> bool:
     """Whether a wheelchair that enters by another door reaches this one."""
-    building = shapely.union_all([_around(lots[index].box) for index in door.lots]).envelope
+    around = shapely.union_all([_around(lots[index].box) for index in door.lots])
+    building = cast(shapely.Polygon, around.envelope)
     entries = (entry for entry in doors if len(entry.lots) == 1 and entry.lots[0] in door.lots)
     for entry in entries:
         begin = Region("doorway", shapely.LineString(entry.jambs).centroid.buffer(0.01))
@@ -60,4 +62,4 @@ def _is_reached(
 
 
 def _around(room: Box) -> shapely.Polygon:
-    return shapely.box(*(value / 100 for value in room.grown(SURROUNDINGS_MARGIN)))
+    return room.grown(SURROUNDINGS_MARGIN).polygon()

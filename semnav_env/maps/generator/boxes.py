@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
+import shapely
+
 Span: TypeAlias = tuple[int, int]
 """From and to along an axis, centimetres."""
 
@@ -39,6 +41,11 @@ class Box(NamedTuple):
         """The box with a margin added on all sides."""
         west, south, east, north = self
         return Box(west - margin, south - margin, east + margin, north + margin)
+
+    def polygon(self) -> shapely.Polygon:
+        """The same rectangle in metres."""
+        west, south, east, north = (value / 100 for value in self)
+        return shapely.box(west, south, east, north)
 
     def transposed(self) -> Box:
         """The box with x and y exchanged."""

@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-import shapely
 from numpy.random import PCG64, Generator
 
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
@@ -121,4 +120,4 @@ def _crossings(junctions: Sequence[OfficeJunction]) -> Iterator[Region]:
 
 
 def _region(name: str, box: Box) -> Region:
-    return Region(name, shapely.box(*(value / 100 for value in box)))
+    return Region(name, box.polygon())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias, cast
 
 import shapely
 from numpy.random import Generator
@@ -69,12 +69,11 @@ def build_walls(
 def outline(boxes: Iterable[Box]) -> Polygon:
     """The union of some boxes, metres."""
     union = shapely.union_all([shapely.box(*box) for box in boxes]).simplify(0.0).normalize()
-    polygon: Polygon = shapely.transform(union, lambda centimetres: centimetres / 100.0)
-    return polygon
+    return cast(Polygon, shapely.transform(union, lambda centimetres: centimetres / 100.0))
 
 
 def _outline(boxes: Iterable[Box]) -> Iterator[tuple[bool, int, Span]]:
-    union = shapely.union_all([shapely.box(*box) for box in boxes])
+    union = cast(Polygon, shapely.union_all([shapely.box(*box) for box in boxes]))
     for ring in (union.exterior, *union.interiors):
         for (x1, y1), (x2, y2) in pairwise(ring.coords):
             ends = sorted((int(x1), int(x2))) if y1 == y2 else sorted((int(y1), int(y2)))

@@ -51,6 +51,7 @@ def dominant_direction(rings: Sequence[FloatArray]) -> float:
     lengths = np.linalg.norm(steps, axis=1)
     turns = np.arctan2(steps[:, 1], steps[:, 0]) % QUARTER_TURN
     peak = _peak(turns, lengths**2)
+    mean = square = 0.0
     for near in MEAN_WINDOWS:
         away = _wrapped(turns - peak)
         weights = np.where(np.abs(away) <= near, lengths**2, 0.0)

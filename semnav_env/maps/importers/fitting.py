@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 import shapely
@@ -124,7 +125,7 @@ def _pieces(frame: Pose, width: float, solids: STRtree) -> FloatArray:
     ]
     ends = points_to_local(frame, shapely.get_coordinates(near)).reshape(-1, 2, 2)
     band = shapely.box(-MAX_JAMB_SHIFT, -DOORWAY_HALF_DEPTH, reach, DOORWAY_HALF_DEPTH)
-    inside = shapely.intersection(shapely.linestrings(ends), band)
+    inside = shapely.intersection(np.asarray(shapely.linestrings(ends)), band)
     lines = inside[shapely.get_type_id(inside) == shapely.GeometryType.LINESTRING]
     lines = lines[~shapely.is_empty(lines)]
     return np.asarray(shapely.get_coordinates(lines).reshape(-1, 2, 2))
@@ -143,7 +144,8 @@ def _joined(intervals: FloatArray) -> FloatArray:
 def _jamb(pieces: FloatArray, edge: float, far: float) -> Point:
     """The solid point nearest to the marked line between the edge of a gap and a place beyond."""
     first, last = sorted((edge, far))
-    solid = shapely.multilinestrings(shapely.linestrings(pieces))
+    lines = np.asarray(shapely.linestrings(pieces))
+    solid = cast(shapely.MultiLineString, shapely.multilinestrings(lines))
     there = solid.intersection(shapely.box(first, -DOORWAY_HALF_DEPTH, last, DOORWAY_HALF_DEPTH))
     away = there.distance(shapely.LineString(((first, 0.0), (last, 0.0)))) + DISTANCE_TOLERANCE
     nearest = there.intersection(shapely.box(first, -away, last, away))

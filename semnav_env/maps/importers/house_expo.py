@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 import shapely
 
@@ -21,7 +21,7 @@ CORRIDOR_TYPES = ("hallway", "corridor", "passage", "entryway")
 """Types of rooms of HouseExpo that are corridors."""
 
 
-def is_house(content: Any) -> bool:
+def is_house(content: Any) -> TypeGuard[dict[str, Any]]:
     """Whether a JSON document looks like a house of HouseExpo."""
     return isinstance(content, dict) and "verts" in content
 

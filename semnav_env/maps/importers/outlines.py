@@ -38,7 +38,7 @@ def outlines(solid: NDArray[np.bool_], tolerance: float = 0.0) -> list[FloatArra
         closed_ring(points + 0.5 * steps if tolerance else points)
         for points, steps in _walks(solid)
     ]
-    simple = shapely.simplify([shapely.linearrings(ring) for ring in rings], tolerance)
+    simple = shapely.simplify(np.asarray([shapely.linearrings(ring) for ring in rings]), tolerance)
     return [shapely.get_coordinates(ring) for ring in simple]
 
 

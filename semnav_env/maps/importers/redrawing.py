@@ -83,7 +83,7 @@ def clashing(drawn: Sequence[RedrawnOutline]) -> set[PixelRun]:
         following.append(np.roll(np.arange(count), -1) + len(makers))
         makers += [each.makers[k - 1] | each.makers[k] for k in (*range(1, count), 0)]
     after = np.concatenate(following)
-    tree = STRtree(shapely.linestrings(np.concatenate(ends)))
+    tree = STRtree(np.asarray(shapely.linestrings(np.concatenate(ends))))
     changed = np.flatnonzero([bool(runs) for runs in makers])
     found, others = tree.query(tree.geometries[changed], "intersects")
     ours = changed[found]
