@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from semnav_env.agents.registry import make_agent
@@ -102,6 +102,7 @@ def test_a_piece_that_the_robot_gets_through_is_forgotten() -> None:
 
 @given(poses, st.floats(-0.6, 0.6))
 def test_pieces_that_no_robot_gets_between_are_one(odometry: Pose, aside: float) -> None:
+    assume(abs(abs(aside) - LIMITS.least_growth) > 1e-9)  # there rounding decides
     known = bump_map()
     known.note([FRONT], NOTHING_NEAR, odometry)
     known.note([(0.6, aside, 0.0)], NOTHING_NEAR, odometry)
