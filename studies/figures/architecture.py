@@ -139,7 +139,7 @@ def _home(dotted: str) -> str:
     parts = dotted.split(".")
     if len(parts) > 1 and parts[1] in LAYERS:
         parts = parts[1:]
-    while not (ROOT.joinpath(*parts).is_dir() and len(parts) < len(dotted.split("."))):
+    while not ROOT.joinpath(*parts).is_dir():
         parts = parts[:-1]
     return "/".join(parts)
 
