@@ -47,11 +47,11 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     `observations.table(observation, "walls")` gives those rows.
 
     - walls, doors, corners, corridors: features of this scan.
-    - remembered_doors, bumps: doors seen in three or more scans; walls bumped into unseen.
+    - remembered_doors, bumps: remembered doors that count; walls bumped into unseen.
     - NAME_mask: which rows of each of these count.
     - command: as tokens, see `commands.encode`; clause: which one the robot believes to be
       under way, one-hot.
-    - odometry: believed pose and velocity; goal: its kind, its pose and its door.
+    - odometry: believed pose and velocity; goal: where to drive now, its kind, pose and door.
     - scan: ranges; no return reads as the lidar's range.
 
     `semnav_env.observations.layout` declares size, columns, bounds, unit and meaning of each.

@@ -27,7 +27,8 @@ class Belief(NamedTuple):
         velocity: of the robot, as odometry gives it.
         clause: index of the clause under way; the number of clauses when all are done.
         goal: where that clause leads.
-        target: where to drive now: the goal, or while the known way there is long a place on it.
+        target: where to drive now: the goal, or a place on the way while the known way is long; the
+            entry "goal" of the observation.
         impossible: why the clause cannot be carried out; None if it can.
         memory: what `scene` is made of.
     """

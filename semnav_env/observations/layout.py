@@ -101,7 +101,7 @@ TABLES = (
         REMEMBERED_ROWS,
         ENDS,
         UNBOUNDED,
-        "jambs of doors that were seen in three or more scans",
+        "jambs of the remembered doors that count: as a rule from their second sighting",
     ),
     _table(
         "bumps",
@@ -135,7 +135,9 @@ GOAL = Entry(
     -UNBOUNDED,
     UNBOUNDED,
     "m",
-    "one-hot kind of the goal, its pose, and the jambs of its door",
+    "one-hot kind of where to drive now, its pose, and the jambs of its door: `Belief.target`, "
+    "which is the goal of the clause, or a place on the way while the way to a named room is "
+    "long. The pose of a pass goal lies behind its door and heads away from it",
 )
 
 ENTRIES = (*(part for table in TABLES for part in (table, table.mask)), CLAUSE, ODOMETRY, GOAL)

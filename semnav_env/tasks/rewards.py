@@ -89,7 +89,8 @@ def as_rewards(value: object) -> Rewards:
     if isinstance(value, Rewards) and not isinstance(value, type):
         return value
     raise ValueError(
-        f"rewards is {value!r:.80}; it must be a semnav_env.tasks.RewardWeights or have terms(tick)"
+        f"rewards is {value!r:.80}; it must be a semnav_env.tasks.RewardWeights or have "
+        "terms(tick); AddedTerms adds terms of your own by name"
     )
 
 
@@ -117,4 +118,13 @@ class AddedTerms:
 
     def terms(self, tick: Tick) -> dict[str, float]:
         """The terms of the base and the added ones."""
-        return {**self.base.terms(tick), **{k: float(f(tick)) for k, f in self.added.items()}}
+        return self.base.terms(tick) | {name: self._value(name, tick) for name in self.added}
+
+    def _value(self, name: str, tick: Tick) -> float:
+        value = self.added[name](tick)
+        try:
+            return float(value)
+        except (TypeError, ValueError):
+            raise ValueError(
+                f"reward term {name!r} is {value!r:.80}; it must be a number"
+            ) from None

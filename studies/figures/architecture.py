@@ -48,7 +48,9 @@ ABOUT = {
 
 TEMPLATE = """# Architecture
 
-The code is cut at the sensor. What crosses the cut is what a real robot has.
+The simulator and the robot meet only at the sensor: what goes from one to the other is what a
+real robot has, too. Files lie under `features/`, `semnav_env/`, `agents/` and `scripts/`; the
+first and the last two are installed, and imported, as `semnav_env.features` and so on.
 
                  SIMULATOR                     |                ROBOT'S SIDE
                                                |
@@ -58,29 +60,33 @@ The code is cut at the sensor. What crosses the cut is what a real robot has.
         |                                      |                    (pose, scene, clause, goal)
         +--> true scene --> JUDGE --> reward, end, info
 
-`tests/test_layers.py` holds what this page says of imports: `features` <- `semnav_env` <-
-`agents` <- `scripts`, no cycles, and no import of the simulator on the robot's side.
+`tests/test_layers.py` checks the imports. `scripts` may import `agents`, `agents` may import
+`semnav_env`, and `semnav_env` may import `features`, never the other way round. No module
+imports itself by way of others. `semnav_env/belief` imports nothing of the simulator or the
+judge.
 
 ## Three walks
 
-**A scan.** `Simulator.step` (`simulator/simulator.py`) drives the world and sweeps the lidar
-(`simulator/sweep.py`). Its `Sensed` goes to `BeliefTracker.update` (`belief/tracker.py`). One
-compiled call, `understand` (`belief/understand.py`), extracts the features
-(`features/kernels/chain.py`), corrects the drift (`features/kernels/drift.py`) and remembers
-walls and doors (`features/kernels/memory.py`). `EntryObservation.observe`
-(`observations/observer.py`) writes the row that an agent gets.
+**A scan.** `Simulator.step` (`semnav_env/simulator/simulator.py`) drives the world and sweeps
+the lidar (`semnav_env/simulator/sweep.py`). Its `Sensed` goes to `BeliefTracker.update`
+(`semnav_env/belief/tracker.py`). One compiled call, `understand`
+(`semnav_env/belief/understand.py`), extracts the features (`features/kernels/chain.py`),
+corrects the drift (`features/kernels/drift.py`) and remembers walls and doors
+(`features/kernels/memory.py`). `EntryObservation.observe`
+(`semnav_env/observations/observer.py`) makes the arrays that an agent gets.
 
-**A command.** `parse` (`commands/parser.py`) turns text into a `Command`, a tuple of clauses.
-`MissionMaker` (`tasks/mission_maker.py`) checks on the floor plan that it can be carried out.
-The robot's `Follower` (`grounding/follower.py`) holds the clause under way and asks
-`grounding/ground.py` where it leads, on what is remembered; the answer is a goal: seek, reach,
-pass or stop. The judge's `Verifier` (`verifier/verifier.py`) runs the same follower on the true
-scene.
+**A command.** `parse` (`semnav_env/commands/parser.py`) turns text into a `Command`, a tuple of
+clauses. `MissionMaker` (`semnav_env/tasks/mission_maker.py`) checks on the floor plan that it
+can be carried out. The robot's `Follower` (`semnav_env/grounding/follower.py`) holds the clause
+under way and asks `semnav_env/grounding/ground.py` where it leads, on what is remembered; the
+answer is a goal: seek, reach, pass or stop. The judge's `Verifier`
+(`semnav_env/verifier/verifier.py`) runs the same follower on the true scene.
 
-**An action.** `Actions.twist` (`robots/actions.py`) turns shares of the largest speeds into a
-twist. `World.step` (`world/world.py`) bounds its acceleration and lets Pymunk move the body.
-The true `Motion` goes to the `EpisodeJudge` (`tasks/judge.py`): crossed doors, reached places,
-progress. `RewardWeights.terms` (`tasks/rewards.py`) says what the step was worth.
+**An action.** `Actions.twist` (`semnav_env/robots/actions.py`) turns the action into a
+velocity. `World.step` (`semnav_env/world/world.py`) bounds its acceleration and lets Pymunk
+move the body. The true `Motion` goes to the `EpisodeJudge` (`semnav_env/tasks/judge.py`):
+crossed doors, reached places, progress. `RewardWeights.terms` (`semnav_env/tasks/rewards.py`)
+says what the step was worth.
 
 ## Folders
 

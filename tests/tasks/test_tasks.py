@@ -14,6 +14,7 @@ from semnav_env.lidar import TIM561
 from semnav_env.robots import SPOT, WHEELCHAIR
 from semnav_env.simulator import EXACT, OdometrySettings
 from semnav_env.tasks import (
+    AddedTerms,
     CommandTask,
     Curriculum,
     EpisodeRequest,
@@ -185,3 +186,10 @@ def test_an_environment_with_a_task_goes_on_after_pickling() -> None:
     env.reset(seed=0)
     copy = pickle.loads(pickle.dumps(env))
     assert [_setup(env, seed) for seed in range(3)] == [_setup(copy, seed) for seed in range(3)]
+
+
+def test_a_reward_term_that_is_no_number_is_named() -> None:
+    env = SemNavEnv(rewards=AddedTerms({"silent": lambda tick: None}))  # type: ignore[arg-type,return-value]
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match="reward term 'silent' is None; it must be a number"):
+        env.step(np.zeros(2))
