@@ -241,6 +241,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
 
     def _believe(self, sensed: Sensed) -> None:
         ranges, odometry, velocity, bumps, _ = sensed
+        self.__dict__.pop("belief", None)  # let go of, its scene need not be copied
         self.belief: Belief = self.tracker.update(ranges, odometry, velocity, bumps)
 
     def _observation(self) -> Any:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
+from weakref import ref
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -83,6 +84,7 @@ class BeliefTracker:
         self._record = extractor.as_record()
         self._scratch = allocate_scratch(self.lidar.beams)
         self._attention = Attention()
+        self._last_source: Callable[[], _Remembered | None] = _nothing
         self.senses = self._join()
 
     def _join(self) -> Senses:
@@ -98,10 +100,13 @@ class BeliefTracker:
         )
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "senses"}
+        self._keep_last_scene()
+        left_out = ("senses", "_last_source")
+        return {name: value for name, value in self.__dict__.items() if name not in left_out}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
+        self._last_source = _nothing
         self.senses = self._join()
 
     def begin(self, command: Command, ways: Mapping[int, Way] = NO_WAYS) -> None:
@@ -112,6 +117,7 @@ class BeliefTracker:
             ways: to the named rooms of the command, by the number of the clause, odometry frame:
                 the words in which somebody who knows the building points them out.
         """
+        self._keep_last_scene()
         self.memory.clear()
         self.bumps.clear()
         self.follower = Follower(
@@ -151,6 +157,7 @@ class BeliefTracker:
         if self._updates < 0:
             raise RuntimeError("call begin(command) before update()")
         self._take(ranges, odometry)
+        self._keep_last_scene()
         seconds = 1.0 / self.lidar.rate_hz if seconds is None else seconds
         if velocity is None:
             velocity = _velocity(self._odometry, odometry, seconds) if self._updates else ORIGIN
@@ -216,7 +223,20 @@ class BeliefTracker:
         """What is known now, unchanged by later updates."""
         if self.known_scene is not None:
             return _KnownScene(self.known_scene)
-        return _Remembered(self.memory.copy(), self.bumps.copy() if self.bumps else None)
+        source = _Remembered(self.memory, self.bumps)
+        self._last_source = ref(source)
+        return source
+
+    def _keep_last_scene(self) -> None:
+        """Copy what the last belief remembers, if somebody still has that belief."""
+        source = self._last_source()
+        if source is not None:
+            source.keep()
+        self._last_source = _nothing
+
+
+def _nothing() -> None:
+    """Stands for a weak reference to what is gone."""
 
 
 class _KnownScene(NamedTuple):
@@ -228,15 +248,23 @@ class _KnownScene(NamedTuple):
         return self.known
 
 
-class _Remembered(NamedTuple):
-    """What a robot remembers at one moment."""
+class _Remembered:
+    """What a robot remembers at one moment: its memory itself, and a copy once it goes on.
 
-    memory: SceneMemory
-    bumps: BumpMap | None
+    Most beliefs are let go before the next scan; copying for these would cost a tenth of a scan.
+    """
+
+    __slots__ = ("__weakref__", "_bumps", "_memory")
+
+    def __init__(self, memory: SceneMemory, bumps: BumpMap) -> None:
+        self._memory, self._bumps = memory, bumps
+
+    def keep(self) -> None:
+        """Copy what is remembered, because the robot goes on."""
+        self._memory, self._bumps = self._memory.copy(), self._bumps.copy()
 
     def scene(self) -> Scene:
-        scene = self.memory.scene()
-        return scene if self.bumps is None else self.bumps.join(scene)
+        return self._bumps.join(self._memory.scene())
 
 
 def _velocity(before: Pose, after: Pose, seconds: float) -> Twist:

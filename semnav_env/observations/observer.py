@@ -104,6 +104,7 @@ class EntryObservation:
         """The Gymnasium space of what `observe` returns."""
         self._row = np.zeros(ROW_SIZE + lidar.beams, np.float32)
         self._places["scan"] = slice(ROW_SIZE, ROW_SIZE + lidar.beams)
+        self._slices = tuple(self._places[name] for name in self._names)
         spaces: dict[str, gym.Space[Any]] = {entry.name: entry.space for entry in ENTRIES}
         spaces |= {"scan": scan_space(lidar), "command": command_space()}
         chosen = {name: spaces[name] for name in MODES[self.mode]}
@@ -112,8 +113,8 @@ class EntryObservation:
     def observe(self, moment: Moment) -> dict[str, Array]:
         """The entries as fresh arrays."""
         self._write(moment)
-        row, places = self._row.copy(), self._places
-        observation: dict[str, Array] = {name: row[places[name]] for name in self._names}
+        values = map(self._row.copy().__getitem__, self._slices)
+        observation: dict[str, Array] = dict(zip(self._names, values, strict=True))
         observation["command"] = moment.tokens.ravel().copy()
         for entry in self.extra:
             observation[entry.name] = entry.observe(moment)

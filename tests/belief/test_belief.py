@@ -163,3 +163,14 @@ def test_semnav_follow_says_when_its_mind_changed(drive, tmp_path: Path, capsys)
     assert picture.stat().st_size > 10_000
     assert main(["follow", str(path), record.command, "--limit", "10"]) == 1
     assert "0 of 2 clauses" in capsys.readouterr().out
+
+
+def test_a_belief_keeps_its_scene_when_its_robot_is_pickled(drive) -> None:
+    record, _ = drive
+    robot = robots_side.begun(record)
+    for each in record.sensed[:20]:
+        belief = robot.update(*each)
+    before = len(belief.scene.walls)
+    robot, belief = pickle.loads(pickle.dumps((robot, belief)))
+    robot.begin(parse("turn around"))
+    assert len(belief.scene.walls) == before > 3
