@@ -125,7 +125,7 @@ class BeliefTracker:
             complete=self.known_scene is not None,
             care=self.rules.grounding.care,
             jamb_margin=self.rules.grounding.jamb_margin,
-            guide=KnownWays(ways),
+            guide=KnownWays(dict(ways)),
             rules=self.rules,
         )
         self._attention = Attention()
