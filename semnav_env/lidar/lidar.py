@@ -22,7 +22,7 @@ Key: TypeAlias = tuple[int, int, int]
 
 
 @njit(cache=True)
-def sense(
+def measure(
     x: float,
     y: float,
     heading: float,
@@ -56,7 +56,7 @@ class Lidar:
             every scan.
 
     Attributes:
-        arrays: (grid, starts, ends, beams, sensor, discs, segments), as `sense` takes them;
+        arrays: (grid, starts, ends, beams, sensor, discs, segments), as `measure` takes them;
             `cast` takes the first five.
     """
 
@@ -80,7 +80,7 @@ class Lidar:
         """
         out = np.empty(self.spec.beams) if out is None else out
         x, y, heading = compose(robot_pose, self.mount)
-        sense(x, y, heading, *self.arrays, key[0], key[1], key[2], out)
+        measure(x, y, heading, *self.arrays, key[0], key[1], key[2], out)
         return out
 
     def exact_ranges(self, robot_pose: Pose) -> FloatArray:

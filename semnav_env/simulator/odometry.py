@@ -10,6 +10,7 @@ from numba import njit
 
 from semnav_env.features.frames import Pose
 from semnav_env.lidar.counter_rng import bits, normal, stream
+from semnav_env.world.drive_record import POSE
 
 _TURN = 2.0 * math.pi
 
@@ -51,6 +52,30 @@ EXACT = OdometrySettings(0.0, 0.0, 0.0, 0.0, 0.0)
 """Odometry without drift."""
 
 
+ODOMETRY = np.dtype(
+    [
+        ("pose", POSE),
+        ("before", POSE),
+        ("distance_scale", "f8"),
+        ("turn_scale", "f8"),
+        ("distance_noise", "f8"),
+        ("turn_noise", "f8"),
+        ("veer_noise", "f8"),
+        ("seed", "i8"),
+        ("updates", "i8"),
+    ]
+)
+"""Dead reckoning of one robot; shape (1,).
+
+    pose: of the robot's centre, odometry frame.
+    before: true pose at the last update, world frame.
+    distance_scale, turn_scale: of travelled distance and of turns, drawn for the episode.
+    distance_noise, turn_noise, veer_noise: as in `OdometrySettings`.
+    seed: of the episode's noise.
+    updates: in this episode; -1 before the first reset.
+"""
+
+
 class Odometry:
     """Integrates the robot's displacements with the errors of `settings`.
 
@@ -61,25 +86,29 @@ class Odometry:
         settings: how it errs.
 
     Attributes:
-        pose: of the robot's centre in the odometry frame, whose origin is the start pose.
+        record: what compiled code needs for it, dtype `ODOMETRY`; always the same array.
     """
 
     def __init__(self, settings: OdometrySettings = OdometrySettings()) -> None:
         self.settings = settings
-        self.pose: Pose = (0.0, 0.0, 0.0)
-        self._true: Pose | None = None
+        self.record = np.zeros(1, ODOMETRY)
+        for name in ("distance_noise", "turn_noise", "veer_noise"):
+            self.record[name] = getattr(settings, name)
+        self.record["updates"] = -1
+
+    @property
+    def pose(self) -> Pose:
+        """Of the robot's centre in the odometry frame, whose origin is the start pose."""
+        x, y, heading = self.record["pose"].item()
+        return x, y, heading
 
     def reset(self, true_pose: Pose, rng: np.random.Generator) -> None:
         """Start an episode at `true_pose`, world frame; draws three numbers from `rng`."""
-        settings = self.settings
-        self._seed = int(rng.integers(2**62))
-        self._scales = (
-            1.0 + settings.distance_bias * float(rng.standard_normal()),
-            1.0 + settings.turn_bias * float(rng.standard_normal()),
-        )
-        self._noise = (settings.distance_noise, settings.turn_noise, settings.veer_noise)
-        self._updates = 0
-        self._true, self.pose = true_pose, (0.0, 0.0, 0.0)
+        settings, record = self.settings, self.record
+        record["seed"] = rng.integers(2**62)
+        record["distance_scale"] = 1.0 + settings.distance_bias * float(rng.standard_normal())
+        record["turn_scale"] = 1.0 + settings.turn_bias * float(rng.standard_normal())
+        record["pose"], record["before"], record["updates"] = (0.0, 0.0, 0.0), true_pose, 0
 
     def update(self, true_pose: Pose) -> Pose:
         """Move on to where the robot truly is now, world frame; returns `pose`.
@@ -87,19 +116,9 @@ class Odometry:
         Raises:
             RuntimeError: before the first `reset`.
         """
-        if self._true is None:
+        if self.record["updates"][0] < 0:
             raise RuntimeError("call reset(true_pose, rng) first")
-        self.pose = advance(
-            self.pose,
-            self._true,
-            true_pose,
-            self._scales,
-            self._noise,
-            self._seed,
-            self._updates,
-        )
-        self._true = true_pose
-        self._updates += 1
+        advance(self.record, *true_pose)
         return self.pose
 
 
@@ -115,39 +134,29 @@ def _walk(moved: float, draws: np.uint64, index: int) -> float:
     return math.sqrt(abs(moved)) * float(normal(bits(draws, index)))
 
 
-@njit(cache=True, error_model="numpy")
-def advance(
-    pose: Pose,
-    before: Pose,
-    after: Pose,
-    scales: tuple[float, float],
-    noise: tuple[float, float, float],
-    seed: int,
-    update: int,
-) -> Pose:
-    """The odometry pose after a true displacement.
+@njit(cache=True, nogil=True, error_model="numpy")
+def advance(record: np.ndarray, x: float, y: float, heading: float) -> None:
+    """Move the odometry pose on by a true displacement.
 
     Args:
-        pose: odometry pose so far.
-        before: true pose at the last update, world frame.
-        after: true pose now.
-        scales: factors of distance and turn.
-        noise: distance, turn and veer noise as in `OdometrySettings`.
-        seed: of the episode.
-        update: number of this update in the episode.
+        record: dtype `ODOMETRY`.
+        x: of the robot now, world frame, metres.
+        y: of the robot now, world frame, metres.
+        heading: of the robot now, radians.
     """
-    c, s = math.cos(before[2]), math.sin(before[2])
-    x, y = after[0] - before[0], after[1] - before[1]
-    forward, left, turn = c * x + s * y, c * y - s * x, _turned(after[2] - before[2])
+    r = record[0]
+    c, s = math.cos(r.before.heading), math.sin(r.before.heading)
+    dx, dy, turn = x - r.before.x, y - r.before.y, _turned(heading - r.before.heading)
+    forward, left = c * dx + s * dy, c * dy - s * dx
     distance = math.hypot(forward, left)
-    draws = stream(seed, 0, update)
-    veer = noise[2] * _walk(distance, draws, 3)
-    forward = scales[0] * forward + noise[0] * _walk(forward, draws, 0)
-    left = scales[0] * left + noise[0] * _walk(left, draws, 1)
-    turn = scales[1] * turn + noise[1] * _walk(turn, draws, 2) + veer
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    return (
-        pose[0] + c * forward - s * left,
-        pose[1] + s * forward + c * left,
-        _turned(pose[2] + turn),
-    )
+    draws = stream(r.seed, 0, r.updates)
+    veer = r.veer_noise * _walk(distance, draws, 3)
+    forward = r.distance_scale * forward + r.distance_noise * _walk(forward, draws, 0)
+    left = r.distance_scale * left + r.distance_noise * _walk(left, draws, 1)
+    turn = r.turn_scale * turn + r.turn_noise * _walk(turn, draws, 2) + veer
+    c, s = math.cos(r.pose.heading), math.sin(r.pose.heading)
+    r.pose.x = r.pose.x + c * forward - s * left
+    r.pose.y = r.pose.y + s * forward + c * left
+    r.pose.heading = _turned(r.pose.heading + turn)
+    r.before.x, r.before.y, r.before.heading = x, y, heading
+    r.updates += 1

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,7 +15,7 @@ from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import WHEELCHAIR, RobotSpec
 from semnav_env.simulator.odometry import Odometry, OdometrySettings
 from semnav_env.simulator.sensed import Motion, Sensed
-from semnav_env.simulator.sweep import LidarArrays, join_lidar, sweep
+from semnav_env.simulator.sensing import SENSING, TOUCHED, join_simulator, look, sense
 from semnav_env.world import World
 
 
@@ -81,7 +80,7 @@ class Simulator:
         world: the physics.
         lidar: on its mount.
         odometry: dead reckoning.
-        steps: control periods since the reset.
+        arrays: what the compiled `sense` reads and writes; made anew when it is copied.
     """
 
     def __init__(
@@ -97,20 +96,30 @@ class Simulator:
             spec = replace(spec, sigma=0.0, dropout=0.0, systematic=0.0)
         self.lidar = Lidar(self.world.still, spec, robot.lidar_mount, self.world.moving_shapes)
         self.odometry = Odometry(setup.odometry)
-        self.steps = 0
         self._seconds = 1.0 / setup.control_hz
         self._ranges = np.zeros(spec.beams)
-        self._arrays = self._join()
+        self._record = np.zeros(1, SENSING)
+        self._record["exact"] = setup.exact
+        self._join()
 
-    def _join(self) -> LidarArrays:
-        return join_lidar(self.lidar.arrays, self.lidar.mount, self._ranges)
+    def _join(self) -> None:
+        lidar = self.lidar
+        records = self.world.record, self.odometry.record, self._record
+        self.arrays = join_simulator(*records, lidar.arrays, lidar.mount, self._ranges)
+        self._numbers = self._record.view(np.float64)[:_NUMBERS]
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "_arrays"}
+        made_anew = ("arrays", "_numbers")
+        return {name: value for name, value in self.__dict__.items() if name not in made_anew}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        self._arrays = self._join()
+        self._join()
+
+    @property
+    def steps(self) -> int:
+        """Control periods since the reset."""
+        return int(self._record["step"][0])
 
     def reset(self, start: Pose, rng: np.random.Generator) -> Sensed:
         """Put the robot at rest at a pose, world frame; returns what it senses there.
@@ -124,12 +133,13 @@ class Simulator:
         """
         self.world.reset(start, rng)
         self.odometry.reset(start, rng)
-        self._noise_seed = int(rng.integers(2**62))
-        self.steps = 0
-        return self._sense()
+        self._record["noise_seed"], self._record["step"] = rng.integers(2**62), 0
+        return self._sensed(look(self.arrays))
 
     def step(self, twist: Twist) -> Sensed:
         """Drive for one control period; returns what the robot senses at its end.
+
+        It is `demand`, the compiled `sense`, which may run in another thread, and `sensed`.
 
         Args:
             twist: commanded velocity, cut to what the robot can do.
@@ -138,16 +148,31 @@ class Simulator:
             ValueError: not three finite numbers.
             RuntimeError: before the first `reset`.
         """
-        self.world.step(twist)
-        self.odometry.update(self.world.pose)
-        self.steps += 1
-        return self._sense()
+        self.demand(twist)
+        return self.sensed(sense(self.arrays))
 
-    def _sense(self) -> Sensed:
-        world = self.world
-        pose, velocity = world.pose, world.velocity
-        sweep(self._arrays, pose, (self._noise_seed, 0, self.steps))
-        speed = math.hypot(velocity[0], velocity[1])
-        motion = Motion(pose, speed, velocity[2], world.in_contact, self._seconds)
-        odometry = pose if self.setup.exact else self.odometry.pose
-        return Sensed(self._ranges, odometry, velocity, world.touches, motion)
+    def demand(self, twist: Twist) -> None:
+        """Say how the robot shall move in the next control period; raises what `step` does."""
+        self.world.demand(twist)
+
+    def sensed(self, events: int) -> Sensed:
+        """What was sensed, given the events that `sense` returned."""
+        self.world.arrive()
+        return self._sensed(events)
+
+    def _sensed(self, events: int) -> Sensed:
+        x, y, heading, forward, left, turn, odometry_x, odometry_y, odometry_heading, speed = (
+            self._numbers.tolist()
+        )
+        touched = bool(events & TOUCHED)
+        return Sensed(
+            self._ranges,
+            (odometry_x, odometry_y, odometry_heading),
+            (forward, left, turn),
+            self.world.touches if touched else [],
+            Motion((x, y, heading), speed, turn, touched, self._seconds),
+        )
+
+
+_NUMBERS = 10
+"""Of `SENSING`, the first so many fields are numbers: pose, velocity, odometry and speed."""

@@ -10,12 +10,20 @@ import numpy as np
 import pymunk
 
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
-from semnav_env.features.frames import Contact, FloatArray, Pose, wrap_angle
+from semnav_env.features.frames import Contact, FloatArray, Pose, Twist
 from semnav_env.lidar.moving import NO_MOVING_THINGS
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 from semnav_env.world.bodies import driving_joints, robot_body, solid_space
+from semnav_env.world.chipmunk import (
+    address,
+    chipmunk_can_be_called,
+    read_motion,
+    run_substeps_by_pymunk,
+)
 from semnav_env.world.contacts import ContactLog, Contacts
+from semnav_env.world.drive import demand_velocity, drive, settle
+from semnav_env.world.drive_record import drive_record
 from semnav_env.world.movers import Movers
 from semnav_env.world.standing import clearance, standing_error
 
@@ -48,6 +56,8 @@ class World:
     Attributes:
         moving: people and leaves; None where only the robot moves.
         still: the floor plan without what can move.
+        record: the robot and its motion as compiled code takes them, dtype `DRIVE`; always the
+            same array.
     """
 
     def __init__(
@@ -68,10 +78,14 @@ class World:
         self.still = floor_plan if self.moving is None else self.moving.still
         substeps = substeps if self.moving is None else max(substeps, FINE)
         self.control_hz, self.substeps = control_hz, substeps
-        self._dt = self._period / substeps
+        self._at_rest()
         self._start: Pose | None = None
         self._journal = array("d")
         self._seed = 0
+
+    def _at_rest(self) -> None:
+        self.record = drive_record(self.robot, self._period, self.substeps)
+        self._command = self.record["command"]
 
     def _moving(self, dynamics: Dynamics) -> Moving:
         from semnav_env.dynamics.moving import Moving  # most worlds stand still
@@ -100,10 +114,22 @@ class World:
             raise ValueError(problem)
         self._start, self._seed, self._journal = start, seed, array("d")
         self._build(start)
-        self._settle()
+        read_motion(self.record, self._body)
+        settle(self.record)
 
-    def step(self, velocity: tuple[float, float, float]) -> None:
-        """Drive for one control period.
+    def step(self, velocity: Twist) -> None:
+        """Drive for one control period: `demand`, the compiled `drive`, `arrive`.
+
+        Raises:
+            ValueError: not three finite numbers.
+            RuntimeError: before the first `reset`.
+        """
+        self.demand(velocity)
+        drive(self.record)
+        self.arrive()
+
+    def demand(self, velocity: Twist) -> None:
+        """Say how the robot shall move in the next control period, and where everything else does.
 
         Args:
             velocity: forward (m/s), left (m/s) and turn (rad/s) as commanded, robot frame, of the
@@ -117,34 +143,29 @@ class World:
         command = _finite(velocity, "velocity", "(forward, left, turn)")
         self._require_reset()
         self._journal.extend(command)
-        self._log.clear()
-        if self.moving is None:
-            self._drive(command)
-            self._settle()
-        else:
-            self._step_among(self.moving, command)
+        self._command[0] = command
+        if self.moving is not None:
+            self.moving.step(self.pose, self.velocity)
+            self._movers.go()
+        if not self._compiled:
+            demand_velocity(self.record)
+            run_substeps_by_pymunk(self.record, self._space, self._control, self._body)
 
-    def _step_among(self, moving: Moving, command: tuple[float, float, float]) -> None:
-        """`step` where others move: they choose their steps, then all go at once."""
-        moving.step(self._pose, self.velocity)
-        self._movers.go()
-        self._drive(command)
-        self._movers.arrive()
-        self._settle()
-        moving.note(self._pose, self.velocity)
+    def arrive(self) -> None:
+        """Put an end to a control period for everything that moves besides the robot."""
+        if self.moving is not None:
+            self._movers.arrive()
+            self.moving.note(self.pose, self.velocity)
 
     @property
     def pose(self) -> Pose:
         """Of the footprint's centre, world frame; the heading is in [-pi, pi]."""
-        self._require_reset()
-        return self._pose
+        return self._of_record("pose")
 
     @property
-    def velocity(self) -> tuple[float, float, float]:
+    def velocity(self) -> Twist:
         """Of the footprint's centre, robot frame: forward, left (m/s) and turn (rad/s)."""
-        self._require_reset()
-        forward, left, turn = self._axle_velocity
-        return forward, left - self.robot.axle * turn, turn
+        return self._of_record("velocity")
 
     @property
     def contacts(self) -> Contacts:
@@ -156,7 +177,7 @@ class World:
     def in_contact(self) -> bool:
         """Whether the robot touched anything during the last step."""
         self._require_reset()
-        return bool(self._log.impulses)
+        return self._log.in_contact
 
     @property
     def touches(self) -> list[Contact]:
@@ -184,6 +205,11 @@ class World:
         """Whether the robot could stand at `pose`: inside the boundary, touching nothing."""
         return standing_error(self.floor_plan, self.robot, pose) is None
 
+    def _of_record(self, name: str) -> tuple[float, float, float]:
+        self._require_reset()
+        first, second, third = self.record[name].item()
+        return first, second, third
+
     def _require_reset(self) -> None:
         if self._start is None:
             raise RuntimeError("call reset(pose) first")
@@ -195,54 +221,16 @@ class World:
         self._control = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         joints = driving_joints(self.robot, self._control, self._body)
         self._space.add(self._body, shape, self._control, *joints)
-        self._log = ContactLog(self._body)
+        self._compiled = chipmunk_can_be_called()
+        self.record["space"] = address(self._space._space) if self._compiled else 0
+        self.record["control"] = address(self._control._body)
+        self.record["body"] = address(self._body._body)
+        self.record["touches"] = 0
+        self._log = ContactLog(self._body, self.record)
         self._space.on_collision(post_solve=self._log.note)
         if self.moving is not None:
             self.moving.begin(start, self._seed)
             self._movers = Movers(self._space, self.moving, self._period)
-
-    def _drive(self, command: tuple[float, float, float]) -> None:
-        """Demand one velocity for a control period.
-
-        A substep of Pymunk moves the body with the velocity it has and then finds the next one,
-        so what is demanded now holds from the second substep to the first of the next period. It
-        is demanded in the heading that the robot will have in the middle of that time; this makes
-        arcs exact to second order.
-        """
-        body, control, step, dt = self._body, self._control, self._space.step, self._dt
-        forward, left, turn = self._approach(command)
-        middle = body.angle + self._axle_velocity[2] * dt + 0.5 * turn * self._period
-        c, s = math.cos(middle), math.sin(middle)
-        control.velocity = c * forward - s * left, s * forward + c * left
-        control.angular_velocity = turn
-        for _ in range(self.substeps):
-            step(dt)
-
-    def _approach(self, command: tuple[float, float, float]) -> tuple[float, float, float]:
-        """The velocity nearest to the commanded one that the limits allow in one period."""
-        robot = self.robot
-        forward, left, turn = self._axle_velocity
-        left = left if robot.holonomic else 0.0
-        change = robot.max_acceleration * self._period
-        turn_change = robot.max_turn_acceleration * self._period
-        return (
-            forward + _cut(_cut(command[0], robot.max_speed) - forward, change),
-            left + _cut(_cut(command[1], robot.max_sideways_speed) - left, change),
-            turn + _cut(_cut(command[2], robot.max_turn_rate) - turn, turn_change),
-        )
-
-    def _settle(self) -> None:
-        """Read where the body is and how fast its axle moves.
-
-        The velocity is in the heading for which it was demanded, see `_drive`.
-        """
-        body, axle = self._body, self.robot.axle
-        (x, y), heading, turn = body.position, body.angle, body.angular_velocity
-        c, s = math.cos(heading), math.sin(heading)
-        self._pose = x - axle * c, y - axle * s, wrap_angle(heading)
-        (vx, vy), middle = body.velocity, heading + turn * (self._dt - 0.5 * self._period)
-        c, s = math.cos(middle), math.sin(middle)
-        self._axle_velocity = c * vx + s * vy, c * vy - s * vx, turn
 
     def __getstate__(self) -> dict[str, Any]:
         kept = (
@@ -253,12 +241,12 @@ class World:
             "moving",
             "still",
             "_period",
-            "_dt",
         )
         return {name: getattr(self, name) for name in (*kept, "_start", "_seed", "_journal")}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
+        self._at_rest()
         commands, start = state["_journal"], state["_start"]
         self._journal = array("d")
         if start is not None:
@@ -276,7 +264,3 @@ def _finite(values: Any, name: str, parts: str) -> tuple[float, float, float]:
     if not (math.isfinite(first) and math.isfinite(second) and math.isfinite(third)):
         raise ValueError(f"{name} is {(first, second, third)}; it must be finite: {parts}")
     return first, second, third
-
-
-def _cut(value: float, limit: float) -> float:
-    return limit if value > limit else -limit if value < -limit else value

@@ -1,0 +1,92 @@
+"""One robot's drive for one control period: limits, physics, motion."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from semnav_env.world.chipmunk import run_substeps
+
+_FULL_TURN = 2.0 * math.pi
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def drive(record: np.ndarray) -> None:
+    """Drive a robot for one control period.
+
+    Args:
+        record: dtype `DRIVE`; where its `space` is 0, the physics has been moved on already.
+    """
+    if record[0].space != 0:
+        demand_velocity(record)
+        run_substeps(record)
+    settle(record)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def demand_velocity(record: np.ndarray) -> None:
+    """Demand one velocity of the control body for a control period.
+
+    A substep of Chipmunk moves the body with the velocity it has and then finds the next one,
+    so what is demanded now holds from the second substep to the first of the next period. It
+    is demanded in the heading that the robot will have in the middle of that time; this makes
+    arcs exact to second order.
+    """
+    r = record[0]
+    r.touches = 0
+    forward, left, turn = _approach(r)
+    middle = r.motion.angle + r.axle_velocity.turn * r.dt + 0.5 * turn * r.period
+    c, s = math.cos(middle), math.sin(middle)
+    r.demand.vx, r.demand.vy = c * forward - s * left, s * forward + c * left
+    r.demand.turn = turn
+
+
+@njit(cache=True, error_model="numpy")
+def _approach(r: Any) -> tuple[float, float, float]:
+    """The velocity nearest to the commanded one that the limits allow in one period."""
+    forward, turn = r.axle_velocity.forward, r.axle_velocity.turn
+    left = r.axle_velocity.left if r.max_sideways_speed > 0.0 else 0.0
+    return (
+        forward + _cut(_cut(r.command.forward, r.max_speed) - forward, r.max_change),
+        left + _cut(_cut(r.command.left, r.max_sideways_speed) - left, r.max_change),
+        turn + _cut(_cut(r.command.turn, r.max_turn_rate) - turn, r.max_turn_change),
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def _cut(value: float, limit: float) -> float:
+    return limit if value > limit else -limit if value < -limit else value
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def settle(record: np.ndarray) -> None:
+    """Find pose and velocity of the footprint's centre.
+
+    The velocity is in the heading for which it was demanded, see `demand_velocity`.
+    """
+    r = record[0]
+    heading, turn = r.motion.angle, r.motion.turn
+    c, s = math.cos(heading), math.sin(heading)
+    r.pose.x, r.pose.y = r.motion.x - r.axle * c, r.motion.y - r.axle * s
+    r.pose.heading = _wrapped(heading)
+    middle = heading + turn * (r.dt - 0.5 * r.period)
+    c, s = math.cos(middle), math.sin(middle)
+    forward, left = c * r.motion.vx + s * r.motion.vy, c * r.motion.vy - s * r.motion.vx
+    r.axle_velocity.forward, r.axle_velocity.left, r.axle_velocity.turn = forward, left, turn
+    r.velocity.forward, r.velocity.left, r.velocity.turn = forward, left - r.axle * turn, turn
+
+
+@njit(cache=True, error_model="numpy")
+def _wrapped(angle: float) -> float:
+    """The same angle in [-pi, pi], rounded nowhere: `frames.wrap_angle` for compiled code."""
+    size = abs(angle)
+    if size <= math.pi:
+        return angle
+    past = np.fmod(size, _FULL_TURN)
+    short = _FULL_TURN - past
+    if past == short:
+        past = past - 2.0 * np.fmod(0.5 * (size - past), _FULL_TURN)
+    return float(math.copysign(1.0, angle) * (past if past <= short else -short))
