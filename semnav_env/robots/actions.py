@@ -24,7 +24,8 @@ class Actions:
 
     def __init__(self, robot: RobotSpec) -> None:
         self._speeds = robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate
-        self.space = Box(-1.0, 1.0, (robot.action_size,), np.float32)
+        self._sideways, self._shape = robot.holonomic, (robot.action_size,)
+        self.space = Box(-1.0, 1.0, self._shape, np.float32)
 
     def twist(self, action: ArrayLike) -> Twist:
         """An action as a velocity: shares of the robot's largest speeds; cut to [-1, 1] first.
@@ -35,14 +36,17 @@ class Actions:
         array = np.asarray(action)
         if array.dtype.kind != "f":
             array = array.astype(np.float64)
-        if array.shape != self.space.shape:
-            raise ValueError(f"the action has shape {array.shape}; it must be {self.space.shape}")
-        forward, *sideways, turn = values = array.tolist()
-        if not all(map(math.isfinite, values)):
-            raise ValueError(f"the action is {values}; it must be finite, in [-1, 1]")
-        left = _cut(sideways[0]) if sideways else 0.0
+        if array.shape != self._shape:
+            raise ValueError(f"the action has shape {array.shape}; it must be {self._shape}")
+        values = array.tolist()
+        forward, turn = values[0], values[-1]
+        left = values[1] if self._sideways else 0.0
+        if not (-1.0 <= forward <= 1.0 and -1.0 <= left <= 1.0 and -1.0 <= turn <= 1.0):
+            if not all(map(math.isfinite, values)):
+                raise ValueError(f"the action is {values}; it must be finite, in [-1, 1]")
+            forward, left, turn = _cut(forward), _cut(left), _cut(turn)
         fastest, fastest_left, fastest_turn = self._speeds
-        return _cut(forward) * fastest, left * fastest_left, _cut(turn) * fastest_turn
+        return forward * fastest, left * fastest_left, turn * fastest_turn
 
 
 def _cut(share: float) -> float:

@@ -49,9 +49,11 @@ class ContactLog:
             self._impulses, self._places = [], []
         self._count[0] += 1
         self._impulses.append(arbiter.total_impulse.length)
+        if len(self._places) >= MOST_TOUCHES:
+            return
         first, second = arbiter.bodies
         other = second if first is self._body else first
-        if other.body_type != pymunk.Body.STATIC or len(self._places) >= MOST_TOUCHES:
+        if other.body_type != pymunk.Body.STATIC:
             return
         met = arbiter.contact_point_set
         inward = met.normal if first is self._body else -met.normal

@@ -67,8 +67,9 @@ judge.
 
 ## Three walks
 
-**A scan.** `Simulator.step` (`semnav_env/simulator/simulator.py`) drives the world and sweeps
-the lidar (`semnav_env/simulator/sweep.py`). Its `Sensed` goes to `BeliefTracker.update`
+**A scan.** `Simulator.step` (`semnav_env/simulator/simulator.py`) makes one compiled call, `sense`
+(`semnav_env/simulator/sensing.py`), which drives the body (`semnav_env/world/drive.py`), reckons
+(`semnav_env/simulator/odometry.py`) and scans. Its `Sensed` goes to `BeliefTracker.update`
 (`semnav_env/belief/tracker.py`). One compiled call, `understand`
 (`semnav_env/belief/understand.py`), extracts the features (`features/kernels/chain.py`),
 corrects the drift (`features/kernels/drift.py`) and remembers walls and doors
@@ -83,10 +84,10 @@ answer is a goal: seek, reach, pass or stop. The judge's `Verifier`
 (`semnav_env/verifier/verifier.py`) runs the same follower on the true scene.
 
 **An action.** `Actions.twist` (`semnav_env/robots/actions.py`) turns the action into a
-velocity. `World.step` (`semnav_env/world/world.py`) bounds its acceleration and lets Pymunk
-move the body. The true `Motion` goes to the `EpisodeJudge` (`semnav_env/tasks/judge.py`):
-crossed doors, reached places, progress. `RewardWeights.terms` (`semnav_env/tasks/rewards.py`)
-says what the step was worth.
+velocity. `drive` (`semnav_env/world/drive.py`) bounds its acceleration and lets Chipmunk, the
+engine in Pymunk, move the body (`semnav_env/world/chipmunk.py`). The true `Motion` goes to the
+`EpisodeJudge` (`semnav_env/tasks/judge.py`): crossed doors, reached places, progress.
+`RewardWeights.terms` (`semnav_env/tasks/rewards.py`) says what the step was worth.
 
 ## Folders
 
