@@ -48,6 +48,9 @@ Set when a simulator is made or reset:
     exact: 1 if odometry is the true pose, else 0.
 """
 
+NUMBERS = 10
+"""How many numbers pose, velocity, odometry and speed are, with which `SENSING` begins."""
+
 
 @structref.register
 class SimulatorArraysType(types.StructRef):

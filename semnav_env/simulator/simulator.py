@@ -15,7 +15,7 @@ from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import WHEELCHAIR, RobotSpec
 from semnav_env.simulator.odometry import Odometry, OdometrySettings
 from semnav_env.simulator.sensed import Motion, Sensed
-from semnav_env.simulator.sensing import SENSING, TOUCHED, join_simulator, look, sense
+from semnav_env.simulator.sensing import NUMBERS, SENSING, TOUCHED, join_simulator, look, sense
 from semnav_env.world import World
 
 
@@ -103,10 +103,10 @@ class Simulator:
         self._join()
 
     def _join(self) -> None:
-        lidar = self.lidar
         records = self.world.record, self.odometry.record, self._record
-        self.arrays = join_simulator(*records, lidar.arrays, lidar.mount, self._ranges)
-        self._numbers = self._record.view(np.float64)[:_NUMBERS]
+        x, y, heading = map(float, self.lidar.mount)
+        self.arrays = join_simulator(*records, self.lidar.arrays, (x, y, heading), self._ranges)
+        self._numbers = self._record.view(np.float64)[:NUMBERS]
 
     def __getstate__(self) -> dict[str, Any]:
         made_anew = ("arrays", "_numbers")
@@ -172,7 +172,3 @@ class Simulator:
             self.world.touches if touched else [],
             Motion((x, y, heading), speed, turn, touched, self._seconds),
         )
-
-
-_NUMBERS = 10
-"""Of `SENSING`, the first so many fields are numbers: pose, velocity, odometry and speed."""

@@ -24,8 +24,8 @@ from semnav_env.robots import SPOT
 from semnav_env.world.bodies import driving_joints, robot_body, solid_space
 from semnav_env.world.drive_record import drive_record
 
-TESTED_MACHINES = ("x86_64", "amd64", "aarch64", "arm64")
-"""Where two doubles in a C structure travel like two doubles; Windows has another convention."""
+KNOWN_MACHINES = ("x86_64", "amd64", "aarch64", "arm64")
+"""Where C functions take and return a structure of two doubles like two doubles; not on Windows."""
 
 _NUMBER, _ADDRESS = types.float64, types.uint64
 
@@ -101,7 +101,7 @@ def read_motion(record: np.ndarray, body: pymunk.Body) -> None:
 @cache
 def chipmunk_can_be_called() -> bool:
     """Whether compiled code can call Chipmunk here, with the same results as through Pymunk."""
-    if sys.platform == "win32" or platform.machine().lower() not in TESTED_MACHINES:
+    if sys.platform == "win32" or platform.machine().lower() not in KNOWN_MACHINES:
         return False
     return _meet_a_wall(compiled=True) == _meet_a_wall(compiled=False)
 
