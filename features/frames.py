@@ -6,6 +6,7 @@ import math
 from typing import TypeAlias
 
 import numpy as np
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 Point: TypeAlias = tuple[float, float]
@@ -47,6 +48,7 @@ def to_parent(frame: Pose, point: Point) -> Point:
     return frame[0] + c * point[0] - s * point[1], frame[1] + s * point[0] + c * point[1]
 
 
+@register_jitable
 def to_local(frame: Pose, point: Point) -> Point:
     """Express in `frame` a point that is given in its parent frame."""
     c, s = math.cos(frame[2]), math.sin(frame[2])

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import deepcopy
 from dataclasses import dataclass, field
+from typing import Self
+
+import numpy as np
 
 from semnav_env.commands import Command
 from semnav_env.commands.clauses import GoBack, IfThere
@@ -16,6 +20,13 @@ from semnav_env.grounding.clause_order import (
     in_context,
     is_only_a_direction,
 )
+from semnav_env.grounding.clause_progress import (
+    CLAUSE_DONE,
+    CLAUSE_PROGRESS,
+    TRAIL_DUE,
+    goal_entry,
+    note_pose,
+)
 from semnav_env.grounding.conditions import is_met
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
@@ -23,7 +34,7 @@ from semnav_env.grounding.goals import search_goal
 from semnav_env.grounding.ground import goal_of
 from semnav_env.grounding.known_way import next_on_way
 from semnav_env.grounding.search import Known, Searching
-from semnav_env.grounding.situation import Situation, is_behind, looks_along, turned
+from semnav_env.grounding.situation import Situation, is_behind, turned
 from semnav_env.grounding.ways import Guide, KnownWays, Trail, Way
 from semnav_env.rules import Rules
 
@@ -44,6 +55,8 @@ class Follower:
             robot must be, metres; perceived jambs are not exact.
         guide: points out the ways to rooms.
         rules: distances and tolerances.
+        progress: how far the robot is in the clause under way, dtype `CLAUSE_PROGRESS`, shape (1,);
+            kernels change it.
         active: index of the clause under way; the number of clauses when all are done.
         begin: where that clause began.
         goal: where it leads.
@@ -57,24 +70,26 @@ class Follower:
     jamb_margin: float = 0.0
     guide: Guide = field(default_factory=lambda: KnownWays({}), repr=False)
     rules: Rules = field(default=Rules(), repr=False)
+    progress: np.ndarray = field(
+        default_factory=lambda: np.zeros(1, CLAUSE_PROGRESS), repr=False, compare=False
+    )
     active: int = field(default=0, init=False)
     begin: Pose = field(default=(0.0, 0.0, 0.0), init=False)
     goal: Goal = field(default=StopGoal((0.0, 0.0, 0.0)), init=False)
     impossible: str | None = field(default=None, init=False)
     skipped: frozenset[int] = field(default=frozenset(), init=False)
-    _last: Pose = field(default=(0.0, 0.0, 0.0), init=False)
-    _farthest: Pose = field(default=(0.0, 0.0, 0.0), init=False)
-    _farthest_along: float = field(default=0.0, init=False)
-    _still: float = field(default=0.0, init=False)
-    _ahead: Pose = field(default=(0.0, 0.0, 0.0), init=False)
-    _looked_back: bool = field(default=False, init=False)
     _beside: Door | None = field(default=None, init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
     _trail: Trail = field(default_factory=lambda: Trail((0.0, 0.0, 0.0)), init=False, repr=False)
 
     def start(self, scene: Scene, pose: Pose) -> None:
         """Begin with the first clause."""
-        self.active, self._last, self._trail = 0, pose, Trail(pose)
+        self.active, self._trail = 0, Trail(pose)
+        self._write(last=pose[:2], trail=pose[:2], care=self.care, jamb_margin=self.jamb_margin)
+        self._write(
+            standstill_speed=self.rules.success.standstill_speed,
+            inspection_angle=self.rules.grounding.inspection_angle,
+        )
         self.skipped, self._beside = frozenset(), None
         self._begin_clause(scene, pose, pose)
 
@@ -95,20 +110,16 @@ class Follower:
         Returns:
             Whether a clause was completed.
         """
-        stopped = speed < self.rules.success.standstill_speed
-        self._still = self._still + seconds if stopped else 0.0
-        completed = not self.done and self._completed(pose)
-        self._last = pose
-        self._trail.note(pose)
-        along = to_local(self._ahead, (pose[0], pose[1]))[0]
-        if along > self._farthest_along:
-            self._farthest, self._farthest_along = pose, along
-        angle = self.rules.grounding.inspection_angle
-        if self._ahead != self.begin and looks_along(pose, self._ahead[2], angle):
-            self._looked_back = True
-        if completed:
+        return self.think(note_pose(self.progress, pose, speed, seconds), scene, pose)
+
+    def think(self, events: int, scene: Callable[[], Scene], pose: Pose) -> bool:
+        """Do what the events of `note_pose` call for; as `advance`."""
+        if events & TRAIL_DUE:
+            self._trail.note(pose)
+            self._write(trail=self._trail.end)
+        if events & CLAUSE_DONE:
             self._begin_next(scene(), pose)
-        return completed
+        return bool(events & CLAUSE_DONE)
 
     def target(self, pose: Pose) -> Goal:
         """What a robot at a pose should head for now: the goal, or the next place on the way."""
@@ -117,7 +128,7 @@ class Follower:
     def look(self, scene: Scene, pose: Pose) -> None:
         """Ground the active clause anew, on what is known by now."""
         if self.done:
-            self.goal = StopGoal(pose, "done")
+            self._lead_to(StopGoal(pose, "done"))
             return
         try:
             found = self._ground(scene, pose)
@@ -126,10 +137,10 @@ class Follower:
                 self._go_on(after(self.command.clauses, self.active, found.value))
                 self._begin_clause(scene, self.begin, pose)
             else:
-                self.goal = found
+                self._lead_to(found)
         except GroundingError as error:
             self.impossible = str(error)
-            self.goal = StopGoal(pose, self.impossible)
+            self._lead_to(StopGoal(pose, self.impossible))
 
     def skip_to_next(self, scene: Scene) -> None:
         """Take the active clause for done."""
@@ -145,12 +156,15 @@ class Follower:
         return search_goal(found) if isinstance(found, Searching) else found
 
     def _situation(self, scene: Scene, pose: Pose) -> Situation:
-        here = pose if self._way else self._farthest  # what was looked at stays so on coming back
-        here = (*here[:2], self._ahead[2] if self._looked_back else pose[2])
+        progress = self.progress[0]
+        x, y = progress["farthest"].tolist()  # what was looked at stays so on coming back
+        if self._way:
+            x, y = pose[:2]
+        heading = float(progress["ahead"][2]) if progress["looked_back"] else pose[2]
         return Situation(
             scene,
             self.begin,
-            here,
+            (x, y, heading),
             self.complete,
             comes_after_corridor(self.command.clauses, self.active),
             self._way,
@@ -180,10 +194,11 @@ class Follower:
         clauses = self.command.clauses
         while not self.done and is_only_a_direction(clauses, self.active):
             self.active += 1
-        self.begin, self._farthest, self._still = begin, pose, 0.0
+        self.begin = begin
         back = not self.done and is_behind(reference_of(clauses[self.active]))
-        self._ahead, self._looked_back = (turned(begin) if back else begin), False
-        self._farthest_along = to_local(self._ahead, (pose[0], pose[1]))[0]
+        ahead = turned(begin) if back else begin
+        self._write(ahead=ahead, is_behind=back, looked_back=False, still=0.0)
+        self._write(farthest=pose[:2], farthest_along=to_local(ahead, pose[:2])[0])
         self._way = None if self.done else self._way_from(begin, pose)
         self.look(scene, pose)
 
@@ -192,13 +207,19 @@ class Follower:
             return self._trail.back(pose)
         return self.guide(self.active, begin)
 
-    def _completed(self, pose: Pose) -> bool:
-        match self.goal:
-            case PassGoal() as goal:
-                return goal.crossed_between(self._last, pose, self.jamb_margin)
-            case ReachGoal() as goal:
-                return goal.reached_by(pose, self.care)
-            case StopGoal(wait=wait):
-                return self.impossible is None and self._still > wait
-            case SeekGoal():
-                return False
+    def _lead_to(self, goal: Goal) -> None:
+        self.goal = goal
+        is_open = not self.done and self.impossible is None
+        self._write(goal=goal_entry(goal), is_open=is_open)
+
+    def _write(self, **values: object) -> None:
+        """Set fields of the record."""
+        for name, value in values.items():
+            self.progress[name] = value
+
+    def __copy__(self) -> Self:
+        """A follower that goes on by itself."""
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        other.progress, other._trail = self.progress.copy(), deepcopy(self._trail)
+        return other

@@ -8,9 +8,9 @@ from enum import IntEnum
 from typing import ClassVar, TypeAlias
 
 from semnav_env.features.corridor import Corridor, Junction
-from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
+from semnav_env.features.frames import Point, Pose
 from semnav_env.features.scene import Door
-from semnav_env.grounding.crossing import crossing_share
+from semnav_env.grounding.goal_check import is_crossed, is_reached
 
 
 class GoalKind(IntEnum):
@@ -94,17 +94,15 @@ class ReachGoal(BaseGoal):
         """Whether the robot must face a direction there."""
         return self.heading_tolerance < math.pi
 
+    @property
+    def tolerances(self) -> tuple[float, float, float]:
+        """Tolerances of distance, heading and offset; NaN where there is none of the offset."""
+        offset = math.nan if self.offset_tolerance is None else self.offset_tolerance
+        return self.distance_tolerance, self.heading_tolerance, offset
+
     def reached_by(self, pose: Pose, share: float = 1.0) -> bool:
         """Whether `pose` lies within the tolerances, or within a `share` of them."""
-        if self.offset_tolerance is not None:
-            along, offset = to_local(self.pose, pose[:2])
-            near = abs(along) <= share * self.distance_tolerance
-            return near and abs(offset) <= self.offset_tolerance
-        distance = math.hypot(pose[0] - self.pose[0], pose[1] - self.pose[1])
-        error = abs(wrap_angle(pose[2] - self.pose[2]))
-        return distance <= share * self.distance_tolerance and (
-            not self.fixes_heading or error <= share * self.heading_tolerance
-        )
+        return is_reached(self.pose, self.tolerances, pose, share)
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,17 +127,8 @@ class PassGoal(BaseGoal):
             margin: how far beside the jambs still counts, and how far behind them the way must
                 lead, metres; for a door that is not known exactly.
         """
-        (ax, ay), (bx, by) = self.door.start, self.door.end
-        dx, dy = after[0] - before[0], after[1] - before[1]
-        reach = abs(bx - ax) + abs(by - ay) + abs(dx) + abs(dy) + 2.0 * margin
-        if abs(after[0] - ax) > reach or abs(after[1] - ay) > reach:
-            return False  # too far away, as nearly always
-        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
-        line = ax + margin * c, ay + margin * s, bx + margin * c, by + margin * s
-        share = crossing_share(*line, *before[:2], *after[:2])
-        forward = dx * c + dy * s > 0
-        slack = margin / self.door.width
-        return forward and -slack <= share <= 1 + slack
+        ends, heading = (*self.door.start, *self.door.end), self.pose[2]
+        return is_crossed(before[:2], after[:2], ends, self.door.width, heading, margin)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ from semnav_env.commands.references import DoorReference, Side
 from semnav_env.features.corridor import Corridor, corridor_at
 from semnav_env.features.frames import Pose, compose
 from semnav_env.features.scene import Door, Scene
+from semnav_env.grounding.goal_check import looks_along
 from semnav_env.grounding.search import Searching
 from semnav_env.grounding.ways import Way
 from semnav_env.rules import Rules
@@ -99,11 +100,6 @@ class Situation:
 def is_behind(reference: object) -> bool:
     """Whether a reference is to a door behind the robot."""
     return isinstance(reference, DoorReference) and reference.side is Side.BEHIND
-
-
-def looks_along(pose: Pose, heading: float, most: float) -> bool:
-    """Whether a pose's heading differs from another one by less than `most`, radians."""
-    return math.cos(pose[2] - heading) > math.cos(most)
 
 
 def turned(pose: Pose) -> Pose:

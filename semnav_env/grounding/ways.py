@@ -104,6 +104,11 @@ class Trail:
         self._places = [start[:2]]
         self._heading = start[2]
 
+    @property
+    def end(self) -> Point:
+        """Its last place."""
+        return self._places[-1]
+
     def note(self, pose: Pose) -> None:
         """Add the place where the robot is now; call it often."""
         here = pose[:2]

@@ -1,0 +1,106 @@
+"""How far a robot is in the clause under way: a record, and the kernel that keeps it.
+
+A kernel does what is to be done in every control period and returns events; what an event calls
+for, such as grounding the next clause, a `Follower` does.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from semnav_env.features.frames import Pose, to_local
+from semnav_env.grounding.goal import Goal, GoalKind, PassGoal, ReachGoal, door_of, wait_of
+from semnav_env.grounding.goal_check import is_crossed, is_reached, looks_along
+from semnav_env.grounding.ways import WAY_SPACING
+
+CLAUSE_DONE, TRAIL_DUE, ON_WAY = 1, 2, 4
+"""Events, as bits: the clause under way is completed; the robot is `WAY_SPACING` from the last
+place of its trail; the goal lies on a known way, so that what to head for changes as one drives."""
+
+GOAL_RECORD = np.dtype(
+    [("kind", "i8"), ("pose", "f8", 3), ("has_door", "?"), ("door", "f8", 4), ("width", "f8")]
+    + [("tolerances", "f8", 3), ("wait", "f8"), ("has_places", "?")]
+)
+"""A goal as kernels take it: its `GoalKind`; its pose; whether it has a door, the x and y of its
+jambs and its width, metres; tolerances of distance (metres), heading (radians) and offset (metres;
+NaN without one); how long to stand still, seconds; whether its way is known."""
+
+CLAUSE_PROGRESS = np.dtype(
+    [("goal", GOAL_RECORD), ("is_open", "?")]
+    + [(name, "f8") for name in ("care", "jamb_margin", "standstill_speed", "inspection_angle")]
+    + [("still", "f8"), ("last", "f8", 2), ("trail", "f8", 2)]
+    + [("ahead", "f8", 3), ("is_behind", "?"), ("looked_back", "?")]
+    + [("farthest", "f8", 2), ("farthest_along", "f8")]
+)
+"""How far a robot is in the clause under way; an array of shape (1,), places in the frame of the
+follower's scene, metres.
+
+The goal, and whether reaching it completes the clause; the follower's care and margin at jambs; the
+rules' standstill speed (m/s) and inspection angle (radians); for how long the robot has stopped,
+seconds; where it was last; the last place of its trail; the pose of the clause's begin, turned
+around if the clause speaks of what is behind, whether it does, and whether the robot has looked
+there; the place at which it had come farthest along that pose's heading, and how far that is."""
+
+_PASS, _REACH, _STOP = int(GoalKind.PASS), int(GoalKind.REACH), int(GoalKind.STOP)
+
+
+def goal_entry(goal: Goal) -> tuple[Any, ...]:
+    """A goal as an entry of dtype `GOAL_RECORD`."""
+    door, tolerances = door_of(goal), (0.0, 0.0, 0.0)
+    ends, width = (0.0, 0.0, 0.0, 0.0), 0.0
+    if door is not None:
+        ends = (*door.start, *door.end)
+    if isinstance(goal, PassGoal):
+        width = goal.door.width
+    if isinstance(goal, ReachGoal):
+        tolerances = goal.tolerances
+    wait, on_way = wait_of(goal), bool(goal.places)
+    return int(goal.kind), goal.pose, door is not None, ends, width, tolerances, wait, on_way
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def note_pose(progress: np.ndarray, pose: Pose, speed: float, seconds: float) -> int:
+    """Note where the robot is now; returns events.
+
+    Args:
+        progress: dtype `CLAUSE_PROGRESS`, shape (1,); changed in place.
+        pose: of the robot's centre, in the frame of the goal.
+        speed: m/s.
+        seconds: since the last call.
+    """
+    entry = progress[0]
+    x, y = pose[0], pose[1]
+    entry.still = entry.still + seconds if speed < entry.standstill_speed else 0.0
+    events = ON_WAY if entry.goal.has_places else 0
+    if entry.is_open and _is_completed(entry, pose):
+        events |= CLAUSE_DONE
+    if math.hypot(x - entry.trail[0], y - entry.trail[1]) >= WAY_SPACING:
+        events |= TRAIL_DUE
+    entry.last[0], entry.last[1] = x, y
+    ahead = (entry.ahead[0], entry.ahead[1], entry.ahead[2])
+    along = to_local(ahead, (x, y))[0]
+    if along > entry.farthest_along:
+        entry.farthest[0], entry.farthest[1], entry.farthest_along = x, y, along
+    if entry.is_behind and looks_along(pose, ahead[2], entry.inspection_angle):
+        entry.looked_back = True
+    return events
+
+
+@njit(cache=True, error_model="numpy")
+def _is_completed(entry: Any, pose: Pose) -> bool:
+    """Whether coming to a pose completes the clause."""
+    goal = entry.goal
+    there = (goal.pose[0], goal.pose[1], goal.pose[2])
+    if goal.kind == _PASS:
+        before, door = (entry.last[0], entry.last[1]), goal.door
+        ends = (door[0], door[1], door[2], door[3])
+        after = (pose[0], pose[1])
+        return is_crossed(before, after, ends, goal.width, there[2], entry.jamb_margin)
+    if goal.kind == _REACH:
+        tolerances = (goal.tolerances[0], goal.tolerances[1], goal.tolerances[2])
+        return is_reached(there, tolerances, pose, entry.care)
+    return goal.kind == _STOP and entry.still > goal.wait
