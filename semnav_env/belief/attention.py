@@ -2,81 +2,47 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from typing import Any
 
-from semnav_env.features.frames import Pose
+from numba import njit
 
-MemorySize = tuple[int, int]
-"""How many remembered walls and doors count."""
+from semnav_env.features.kernels.memory import how_many_count
+from semnav_env.grounding.goal_check import wrapped
+
+MAX_TRAVEL, MAX_HEADING_CHANGE = 1.5, 0.5
+"""A look is due when the robot has moved or turned by more since the last one, metres and
+radians."""
+
+DOOR_CHECK_PERIOD = 5
+"""Every so many scans a look is due if other doors count by then."""
+
+REST_CHECK_SCANS, LEAST_TRAVEL = 30, 0.2
+"""After so many scans a look is due if other walls count or the robot has moved, by more than this,
+metres."""
+
+FIRST_COUNTING_SCAN = 3
+"""Number of the scan from which the first features count, see `SceneMemory`."""
 
 
-@dataclass(frozen=True)
-class AttentionLimits:
-    """What makes a look due.
+@njit(cache=True, error_model="numpy")
+def is_look_due(estimate: Any, remembered: Any) -> bool:
+    """Whether to ground the clause anew.
 
-    Attributes:
-        travel: distance since the last look, metres.
-        heading_change: change of heading since the last look, radians.
-        door_check: every so many scans a look is due if other doors count by then.
-        rest_check: after so many scans a look is due if other walls count or the robot has moved.
-        least_travel: less than this is not moved, metres.
-        first_scans: number of the scan from which the first features count, see `SceneMemory`.
+    Counting what is remembered takes time; it is done only where it matters.
+
+    Args:
+        estimate: an entry of dtype `ESTIMATE`.
+        remembered: `SceneMemory.arrays`.
     """
-
-    travel: float = 1.5
-    heading_change: float = 0.5
-    door_check: int = 5
-    rest_check: int = 30
-    least_travel: float = 0.2
-    first_scans: int = 3
-
-
-LIMITS = AttentionLimits()
-_NOWHERE: Pose = (math.inf, math.inf, 0.0)
-
-
-class Attention:
-    """Remembers from where and on what the robot last grounded its clause."""
-
-    def __init__(self) -> None:
-        self._pose: Pose = _NOWHERE
-        self._scan = 0
-        self._size: MemorySize = (0, 0)
-
-    def note(self, pose: Pose, scan: int, size: MemorySize) -> None:
-        """A clause has been grounded.
-
-        Args:
-            pose: believed pose, odometry frame.
-            scan: number of the scan.
-            size: of the memory.
-        """
-        self._pose, self._scan, self._size = pose, scan, size
-
-    def demand(self) -> None:
-        """Make a look due at once."""
-        self._pose = _NOWHERE
-
-    def is_due(self, pose: Pose, scan: int, size: Callable[[], MemorySize]) -> bool:
-        """Whether to ground anew.
-
-        Args:
-            pose: believed pose, odometry frame.
-            scan: number of the scan.
-            size: of the memory; counting takes time and is asked for only where it matters.
-        """
-        x, y, heading = self._pose
-        moved = (pose[0] - x) ** 2 + (pose[1] - y) ** 2
-        if moved > LIMITS.travel**2:
-            return True
-        if abs(math.remainder(pose[2] - heading, math.tau)) > LIMITS.heading_change:
-            return True
-        since = scan - self._scan
-        if since % LIMITS.door_check and scan != LIMITS.first_scans:
-            return False
-        walls, doors = size()
-        differs = walls != self._size[0] or moved > LIMITS.least_travel**2
-        rested = since >= LIMITS.rest_check or scan == LIMITS.first_scans
-        return doors != self._size[1] or (differs and rested)
+    pose, look = estimate.pose, estimate.look_pose
+    moved = (pose[0] - look[0]) ** 2 + (pose[1] - look[1]) ** 2
+    if moved > MAX_TRAVEL**2 or abs(wrapped(pose[2] - look[2])) > MAX_HEADING_CHANGE:
+        return True
+    since = estimate.scan - estimate.look_scan
+    first = estimate.scan == FIRST_COUNTING_SCAN
+    if since % DOOR_CHECK_PERIOD and not first:
+        return False
+    walls, doors = how_many_count(*remembered)
+    differs = walls != estimate.look_walls or moved > LEAST_TRAVEL**2
+    rested = since >= REST_CHECK_SCANS or first
+    return doors != estimate.look_doors or (differs and rested)

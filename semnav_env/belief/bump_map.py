@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from semnav_env.features.frames import (
     Contact,
@@ -70,6 +71,7 @@ class BumpMap:
     def __init__(self, spec: LidarSpec, mount: Pose) -> None:
         self._spec, self._mount = spec, mount
         self._pieces: list[FloatArray] = []
+        self._ends, self._used = np.zeros((MOST_PIECES, 4)), np.zeros(1, np.int64)
 
     def __len__(self) -> int:
         return len(self._pieces)
@@ -77,16 +79,21 @@ class BumpMap:
     @property
     def ends(self) -> FloatArray:
         """X and y of the ends of the pieces, metres, odometry frame, shape (n, 4)."""
-        return np.array(self._pieces).reshape(-1, 4)
+        return self._ends[: len(self._pieces)].copy()
+
+    @property
+    def arrays(self) -> tuple[FloatArray, NDArray[np.int64]]:
+        """Room for the ends of `MOST_PIECES`, shape (n, 4), and how many there are, shape (1,)."""
+        return self._ends, self._used
 
     def clear(self) -> None:
         """Forget everything."""
-        self._pieces = []
+        self._know([])
 
     def copy(self) -> BumpMap:
         """What is known now, unchanged by later contacts."""
         copy = BumpMap(self._spec, self._mount)
-        copy._pieces = list(self._pieces)
+        copy._know(self._pieces)
         return copy
 
     def note(self, contacts: Iterable[Contact], ranges: FloatArray, pose: Pose) -> bool:
@@ -100,13 +107,13 @@ class BumpMap:
         unseen = [_piece(compose(pose, c)) for c in contacts if not self._is_seen(c, ranges)]
         fresh = [piece for piece in _united(unseen, math.inf) if not self._covers(piece)]
         if fresh:
-            self._pieces = _united([*self._pieces, *fresh], LIMITS.piece_gap)[-MOST_PIECES:]
+            self._know(_united([*self._pieces, *fresh], LIMITS.piece_gap)[-MOST_PIECES:])
         return bool(fresh)
 
     def pass_on(self, before: Pose, after: Pose) -> None:
         """Forget what the robot's centre goes through from one pose to the next, odometry frame."""
         while (k := first_crossed(self.ends, *before[:2], *after[:2])) >= 0:
-            del self._pieces[k]
+            self._know([*self._pieces[:k], *self._pieces[k + 1 :]])
 
     def join(self, scene: Scene) -> Scene:
         """A scene of the odometry frame with these walls, and without the doors that they bar."""
@@ -115,6 +122,11 @@ class BumpMap:
         walls = np.vstack((ends_of(scene.walls), self.ends))
         doors = [d for d in scene.doors if not any(_bars(piece, d) for piece in self._pieces)]
         return Scene(PlainWalls(walls), tuple(doors))
+
+    def _know(self, pieces: list[FloatArray]) -> None:
+        self._pieces, self._used[0] = pieces, len(pieces)
+        for k, piece in enumerate(pieces):
+            self._ends[k] = piece
 
     def _is_seen(self, contact: Contact, ranges: FloatArray) -> bool:
         """Whether the beams that look there end there."""

@@ -5,16 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 from weakref import ref
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from semnav_env.belief.attention import Attention
 from semnav_env.belief.belief import Belief, SceneSource
 from semnav_env.belief.bump_map import BumpMap
-from semnav_env.belief.understand import Senses, join_senses, understand
+from semnav_env.belief.estimate import BELIEVED, BELIEVED_OFFSET, ESTIMATE, SENSED
+from semnav_env.belief.scene_source import KnownScene, RememberedScene, nothing
+from semnav_env.belief.understand import (
+    BUMP_PASSED,
+    FIRST_SCAN,
+    LOOK_DUE,
+    Senses,
+    join_senses,
+    note_look,
+    understand,
+)
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Contact, FloatArray, Pose, Twist
@@ -22,6 +31,7 @@ from semnav_env.features.kernels.scratch import allocate_features, allocate_scra
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
+from semnav_env.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, goal_entry
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.ways import KnownWays, Way
 from semnav_env.rules import Rules, with_doors_of
@@ -37,6 +47,9 @@ class BeliefTracker:
         tracker.begin(parse("go through the second door on the right"))
         belief = tracker.update(ranges, odometry=(x, y, heading))
 
+    An update has three parts: `take` writes what was sensed into `senses`, the compiled
+    `understand` does what is to be done at every scan, and `think` what its events call for.
+
     Args:
         lidar: name of a lidar or its spec; its rate is that of the updates.
         mount: pose of the lidar in the robot frame.
@@ -51,6 +64,7 @@ class BeliefTracker:
         ranges: of the last scan, metres, shape (beams,).
         features: of the last scan, lidar frame.
         senses: arrays of the belief, as kernels take them.
+        belief: the last one; None before the first.
         memory: walls and doors seen so far, odometry frame.
         bumps: walls that were bumped into unseen, odometry frame.
         follower: how far the command has come, as the robot believes; made by `begin`.
@@ -78,13 +92,16 @@ class BeliefTracker:
         self.features = allocate_features()
         self.memory = SceneMemory()
         self.bumps = BumpMap(self.lidar, mount)
-        self._updates = -1
+        self.belief: Belief | None = None
         self._beams = self.lidar.directions
         self.rules, extractor = with_doors_of(rules, extractor)
         self._record = extractor.as_record()
         self._scratch = allocate_scratch(self.lidar.beams)
-        self._attention = Attention()
-        self._last_source: Callable[[], _Remembered | None] = _nothing
+        self._estimate = np.zeros(1, ESTIMATE)
+        self._progress = np.zeros(1, CLAUSE_PROGRESS)
+        self._period = 1.0 / self.lidar.rate_hz
+        self._begun = False
+        self._last_source: Callable[[], RememberedScene | None] = nothing
         self.senses = self._join()
 
     def _join(self) -> Senses:
@@ -97,6 +114,9 @@ class BeliefTracker:
             self.ranges,
             self.features,
             self.memory.arrays,
+            self.bumps.arrays,
+            self._estimate,
+            self._progress,
         )
 
     def __getstate__(self) -> dict[str, Any]:
@@ -106,7 +126,7 @@ class BeliefTracker:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        self._last_source = _nothing
+        self._last_source = nothing
         self.senses = self._join()
 
     def begin(self, command: Command, ways: Mapping[int, Way] = NO_WAYS) -> None:
@@ -117,7 +137,7 @@ class BeliefTracker:
             ways: to the named rooms of the command, by the number of the clause, odometry frame:
                 the words in which somebody who knows the building points them out.
         """
-        self._keep_last_scene()
+        self._let_go()
         self.memory.clear()
         self.bumps.clear()
         self.follower = Follower(
@@ -127,10 +147,11 @@ class BeliefTracker:
             jamb_margin=self.rules.grounding.jamb_margin,
             guide=KnownWays(dict(ways)),
             rules=self.rules,
+            progress=self._progress,
         )
-        self._attention = Attention()
-        self._updates = 0
-        self._pose, self._odometry = ORIGIN, ORIGIN
+        self._estimate[:] = np.zeros(1, ESTIMATE)
+        self._estimate["scan"], self._estimate["corrects_drift"] = -1, self.corrects_drift
+        self._begun = True
 
     def update(
         self,
@@ -154,31 +175,73 @@ class BeliefTracker:
             RuntimeError: before the first `begin`.
             ValueError: another number of ranges, or odometry that is not finite.
         """
-        if self._updates < 0:
+        self.take(ranges, odometry, velocity, seconds)
+        events = understand(self.senses)
+        if events or bumps:
+            self.think(events, bumps)
+        return self.believe()
+
+    def take(
+        self,
+        ranges: ArrayLike,
+        odometry: Pose,
+        velocity: Twist | None = None,
+        seconds: float | None = None,
+    ) -> None:
+        """Check what was sensed and write it into the senses; as `update`."""
+        if not self._begun:
             raise RuntimeError("call begin(command) before update()")
-        self._take(ranges, odometry)
-        self._keep_last_scene()
-        seconds = 1.0 / self.lidar.rate_hz if seconds is None else seconds
+        array = np.asarray(ranges)
+        if array.shape != self.ranges.shape:
+            raise ValueError(
+                f"ranges have shape {array.shape}; {self.lidar.name} gives {self.ranges.shape}"
+            )
+        x, y, heading = odometry
+        if not math.isfinite(x + y + heading):
+            raise ValueError(f"odometry is {odometry}; it must be a finite (x, y, heading)")
+        if seconds is None:
+            seconds = self._period
         if velocity is None:
-            velocity = _velocity(self._odometry, odometry, seconds) if self._updates else ORIGIN
-        follower, last, before = self.follower, self._pose, (self._odometry, self._pose)
-        pose = understand(self.senses, odometry, before, self.corrects_drift)
-        self._pose, self._odometry = pose, odometry
-        if bumps and self.bumps.note(bumps, self.ranges, pose):
-            self._attention.demand()
-        if self.bumps:
-            self.bumps.pass_on(last, pose)
-        self._follow(pose, math.hypot(velocity[0], velocity[1]), seconds)
-        self._updates += 1
-        return Belief(
-            pose,
-            velocity,
+            velocity = self._mean_velocity(odometry, seconds)
+        self._let_go()
+        self.ranges[:] = array
+        SENSED.pack_into(self._estimate, 0, x, y, heading, seconds, *velocity)
+
+    def think(self, events: int, bumps: Sequence[Contact] = ()) -> None:
+        """Do what the events of `understand` and bumps call for; nothing without either."""
+        estimate, follower = self._estimate[0], self.follower
+        before, pose = _pose(estimate["last_pose"]), _pose(estimate["pose"])
+        if bumps:
+            events |= LOOK_DUE * self.bumps.note(bumps, self.ranges, pose)
+        if bumps or events & BUMP_PASSED:
+            self.bumps.pass_on(before, pose)
+        looked = True
+        if events & FIRST_SCAN:
+            follower.start(self.scene(), pose)
+        elif not follower.think(events, self.scene, pose):
+            looked = bool(events & LOOK_DUE)
+            if looked:
+                follower.look(self.scene(), pose)
+        if looked:
+            note_look(self.senses)
+        if looked or events & ON_WAY:
+            self._target = follower.target(pose)
+            estimate["clause"], estimate["target"] = follower.active, goal_entry(self._target)
+
+    def believe(self) -> Belief:
+        """What is believed after the last scan."""
+        follower = self.follower
+        forward, left, yaw_rate, *pose = BELIEVED.unpack_from(self._estimate, BELIEVED_OFFSET)
+        self.belief = belief = Belief(
+            tuple(pose),
+            (forward, left, yaw_rate),
             follower.active,
             follower.goal,
-            follower.target(pose),
+            self._target,
             follower.impossible,
             self._snapshot(),
         )
+        return belief
 
     def scene(self) -> Scene:
         """What is known now, in the odometry frame."""
@@ -192,79 +255,37 @@ class BeliefTracker:
         valid = (self.ranges >= spec.range_min) & (self.ranges < spec.range_max)
         return np.where(valid, self.ranges, np.nan)[:, None] * self._beams
 
-    def _take(self, ranges: ArrayLike, odometry: Pose) -> None:
-        """Check what was sensed and copy the ranges."""
-        array = np.asarray(ranges)
-        if array.shape != self.ranges.shape:
-            raise ValueError(
-                f"ranges have shape {array.shape}; {self.lidar.name} gives {self.ranges.shape}"
-            )
-        if not all(map(math.isfinite, odometry)):
-            raise ValueError(f"odometry is {odometry}; it must be a finite (x, y, heading)")
-        self.ranges[:] = array
-
-    def _follow(self, pose: Pose, speed: float, seconds: float) -> None:
-        """Move on to the next clause or ground this one anew, if there is reason to."""
-        follower, size = self.follower, self._memory_size
-        if self._updates == 0:
-            follower.start(self.scene(), pose)
-        elif follower.advance(self.scene, pose, speed, seconds) or self._attention.is_due(
-            pose, self._updates, size
-        ):
-            follower.look(self.scene(), pose)
-        else:
-            return
-        self._attention.note(pose, self._updates, size())
-
-    def _memory_size(self) -> tuple[int, int]:
-        return self.memory.size
+    def _mean_velocity(self, odometry: Pose, seconds: float) -> Twist:
+        """The mean velocity since the last scan, in the robot frame then; 0 at the first scan."""
+        estimate = self._estimate[0]
+        if estimate["scan"] < 0:
+            return ORIGIN
+        return _velocity(_pose(estimate["odometry"]), odometry, seconds)
 
     def _snapshot(self) -> SceneSource:
         """What is known now, unchanged by later updates."""
         if self.known_scene is not None:
-            return _KnownScene(self.known_scene)
-        source = _Remembered(self.memory, self.bumps)
+            return KnownScene(self.known_scene)
+        source = RememberedScene(self.memory, self.bumps)
         self._last_source = ref(source)
         return source
+
+    def _let_go(self) -> None:
+        """Forget the last belief; what others still have of it stays as it is."""
+        self.belief = None
+        self._keep_last_scene()
 
     def _keep_last_scene(self) -> None:
         """Copy what the last belief remembers, if somebody still has that belief."""
         source = self._last_source()
         if source is not None:
             source.keep()
-        self._last_source = _nothing
+        self._last_source = nothing
 
 
-def _nothing() -> None:
-    """Stands for a weak reference to what is gone."""
-
-
-class _KnownScene(NamedTuple):
-    """A scene that is known beforehand."""
-
-    known: Scene
-
-    def scene(self) -> Scene:
-        return self.known
-
-
-class _Remembered:
-    """What a robot remembers at one moment: its memory itself, and a copy once it goes on.
-
-    Most beliefs are let go before the next scan; copying for these would cost a tenth of a scan.
-    """
-
-    __slots__ = ("__weakref__", "_bumps", "_memory")
-
-    def __init__(self, memory: SceneMemory, bumps: BumpMap) -> None:
-        self._memory, self._bumps = memory, bumps
-
-    def keep(self) -> None:
-        """Copy what is remembered, because the robot goes on."""
-        self._memory, self._bumps = self._memory.copy(), self._bumps.copy()
-
-    def scene(self) -> Scene:
-        return self._bumps.join(self._memory.scene())
+def _pose(field: FloatArray) -> Pose:
+    x, y, heading = field.tolist()
+    return x, y, heading
 
 
 def _velocity(before: Pose, after: Pose, seconds: float) -> Twist:

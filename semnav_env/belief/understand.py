@@ -1,4 +1,4 @@
-"""One compiled call per scan: features, drift, memory.
+"""One compiled call per scan: features, drift, memory, and what calls for thinking.
 
 Handing an array to a compiled function costs a third of a microsecond, and there are some twenty
 of them: more than all the work. They are put into one structure beforehand.
@@ -13,9 +13,16 @@ import numpy as np
 from numba import njit, types
 from numba.experimental import structref
 
+from semnav_env.belief.attention import is_look_due
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.chain import extract_arrays
-from semnav_env.features.kernels.memory import relocate, remember
+from semnav_env.features.kernels.memory import how_many_count, relocate, remember
+from semnav_env.grounding.clause_progress import note_pose
+from semnav_env.grounding.crossing import first_crossed
+
+FIRST_SCAN, LOOK_DUE, BUMP_PASSED = 8, 16, 32
+"""Events beside those of `clause_progress`, as bits: the command is to be begun; the clause is to be
+grounded anew; the robot's centre went through a wall that it had bumped into."""
 
 
 @structref.register
@@ -39,6 +46,9 @@ class Senses(structref.StructRefProxy):
         ranges: of the last scan, metres, shape (n,).
         features: of the last scan, lidar frame; written at every scan.
         remembered: `SceneMemory.arrays`; updated at every scan.
+        bumps: `BumpMap.arrays`.
+        estimate: dtype `ESTIMATE`, shape (1,): what is given with a scan, and what is believed.
+        progress: `Follower.progress`.
     """
 
     limits: np.ndarray
@@ -49,6 +59,9 @@ class Senses(structref.StructRefProxy):
     ranges: FloatArray
     features: Any
     remembered: Any
+    bumps: Any
+    estimate: np.ndarray
+    progress: np.ndarray
 
 
 structref.define_proxy(Senses, SensesType, list(Senses.__annotations__))
@@ -64,24 +77,79 @@ def join_senses(
     ranges: FloatArray,
     features: Any,
     remembered: Any,
+    bumps: Any,
+    estimate: np.ndarray,
+    progress: np.ndarray,
 ) -> Senses:
     """The arrays as one structure; they are shared, not copied."""
-    return Senses(limits, beams, record, scratch, mount, ranges, features, remembered)
+    return Senses(
+        limits,
+        beams,
+        record,
+        scratch,
+        mount,
+        ranges,
+        features,
+        remembered,
+        bumps,
+        estimate,
+        progress,
+    )
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def understand(senses: Senses) -> int:
+    """Take in the scan and the motion that stand in the senses; returns events.
+
+    The first scan after `scan` was set to -1 is only remembered: its event is `FIRST_SCAN`.
+
+    Args:
+        senses: of one robot, with ranges and the given fields of the estimate written; the other
+            fields are written here.
+    """
+    estimate = senses.estimate[0]
+    before = _pose(estimate.pose)
+    pose = perceive(senses, _pose(estimate.odometry), (_pose(estimate.last_odometry), before))
+    for i in range(3):
+        estimate.last_pose[i], estimate.pose[i] = before[i], pose[i]
+        estimate.last_odometry[i] = estimate.odometry[i]
+    estimate.scan += 1
+    if estimate.scan == 0:
+        return FIRST_SCAN
+    velocity = estimate.velocity
+    speed = math.hypot(velocity[0], velocity[1])
+    events = note_pose(senses.progress, pose, speed, estimate.seconds)
+    ends, used = senses.bumps
+    if used[0] and first_crossed(ends[: used[0]], before[0], before[1], pose[0], pose[1]) >= 0:
+        events |= BUMP_PASSED
+    if is_look_due(estimate, senses.remembered):
+        events |= LOOK_DUE
+    return events
 
 
 @njit(cache=True, error_model="numpy")
-def understand(
-    senses: Senses, odometry: Pose, before: tuple[Pose, Pose], corrects_drift: bool
-) -> Pose:
+def note_look(senses: Senses) -> None:
+    """Note that the clause has been grounded."""
+    estimate = senses.estimate[0]
+    for i in range(3):
+        estimate.look_pose[i] = estimate.pose[i]
+    estimate.look_scan = estimate.scan
+    estimate.look_walls, estimate.look_doors = how_many_count(*senses.remembered)
+
+
+@njit(cache=True, error_model="numpy")
+def perceive(senses: Senses, odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
     """Extract the features of the last scan and remember them; returns the believed pose.
+
+    If the estimate corrects drift, walls that are seen again tell where the robot is, and odometry
+    only about where; otherwise odometry is believed.
 
     Args:
         senses: the arrays to read and write.
         odometry: pose of the robot by odometry, odometry frame.
         before: odometry at the last scan, and the pose that was believed then.
-        corrects_drift: walls that are seen again tell where the robot is, and odometry only about
-            where; otherwise odometry is believed.
     """
+    corrects_drift = senses.estimate[0].corrects_drift
     features, limits = senses.features, senses.limits[0]
     extract_features(senses)
     robot = _advanced(odometry, before) if corrects_drift else odometry
@@ -100,6 +168,11 @@ def understand(
         senses.remembered,
     )
     return robot
+
+
+@njit(cache=True, inline="always")
+def _pose(field: FloatArray) -> Pose:
+    return field[0], field[1], field[2]
 
 
 @njit(cache=True, error_model="numpy")

@@ -22,28 +22,32 @@ CLAUSE_DONE, TRAIL_DUE, ON_WAY = 1, 2, 4
 place of its trail; the goal lies on a known way, so that what to head for changes as one drives."""
 
 GOAL_RECORD = np.dtype(
-    [("kind", "i8"), ("pose", "f8", 3), ("has_door", "?"), ("door", "f8", 4), ("width", "f8")]
-    + [("tolerances", "f8", 3), ("wait", "f8"), ("has_places", "?")]
+    [(name, "f8", size) for name, size in (("pose", 3), ("door", 4), ("tolerances", 3))]
+    + [(name, "f8") for name in ("width", "wait")]
+    + [("kind", "i8"), ("has_door", "?"), ("has_places", "?")]
 )
-"""A goal as kernels take it: its `GoalKind`; its pose; whether it has a door, the x and y of its
-jambs and its width, metres; tolerances of distance (metres), heading (radians) and offset (metres;
-NaN without one); how long to stand still, seconds; whether its way is known."""
+"""A goal as kernels take it.
+
+`pose`, metres and radians; `door`, x and y of its jambs, metres, if it `has_door`; `tolerances` of
+a `ReachGoal`; `width` of the door of a `PassGoal`, metres; `wait`, how long to stand still,
+seconds; `kind`, a `GoalKind`; `has_places`, whether its way is known."""
 
 CLAUSE_PROGRESS = np.dtype(
-    [("goal", GOAL_RECORD), ("is_open", "?")]
-    + [(name, "f8") for name in ("care", "jamb_margin", "standstill_speed", "inspection_angle")]
-    + [("still", "f8"), ("last", "f8", 2), ("trail", "f8", 2)]
-    + [("ahead", "f8", 3), ("is_behind", "?"), ("looked_back", "?")]
-    + [("farthest", "f8", 2), ("farthest_along", "f8")]
+    [(name, "f8") for name in ("care", "jamb_margin", "standstill_speed", "inspection_angle")]
+    + [(name, "f8") for name in ("still", "farthest_along")]
+    + [(name, "f8", 2) for name in ("last", "trail", "farthest")]
+    + [("ahead", "f8", 3), ("goal", GOAL_RECORD)]
+    + [(name, "?") for name in ("is_open", "is_behind", "looked_back")]
 )
-"""How far a robot is in the clause under way; an array of shape (1,), places in the frame of the
-follower's scene, metres.
+"""How far a robot is in the clause under way; an array of shape (1,). Places are (x, y) in metres,
+in the frame of the follower's scene.
 
-The goal, and whether reaching it completes the clause; the follower's care and margin at jambs; the
-rules' standstill speed (m/s) and inspection angle (radians); for how long the robot has stopped,
-seconds; where it was last; the last place of its trail; the pose of the clause's begin, turned
-around if the clause speaks of what is behind, whether it does, and whether the robot has looked
-there; the place at which it had come farthest along that pose's heading, and how far that is."""
+`care` and `jamb_margin` of the `Follower`, m; `standstill_speed`, m/s, and `inspection_angle`,
+radians, of the rules; `goal`, and `is_open`, whether reaching it completes the clause; `still`, for
+how long the robot has stopped, seconds; `last`, where it was last; `trail`, the last place of its
+trail; `ahead`, the pose at which the clause began, turned around if the clause `is_behind`: speaks
+of what is behind the robot; `looked_back`, whether the robot has looked there since; `farthest`,
+the place at which it was farthest along the heading of `ahead`, and how far, metres."""
 
 _PASS, _REACH, _STOP = int(GoalKind.PASS), int(GoalKind.REACH), int(GoalKind.STOP)
 
@@ -58,8 +62,8 @@ def goal_entry(goal: Goal) -> tuple[Any, ...]:
         width = goal.door.width
     if isinstance(goal, ReachGoal):
         tolerances = goal.tolerances
-    wait, on_way = wait_of(goal), bool(goal.places)
-    return int(goal.kind), goal.pose, door is not None, ends, width, tolerances, wait, on_way
+    flags = int(goal.kind), door is not None, bool(goal.places)
+    return goal.pose, ends, tolerances, width, wait_of(goal), *flags
 
 
 @njit(cache=True, error_model="numpy", nogil=True)

@@ -81,9 +81,9 @@ def is_crossed(
 def wrapped(angle: float) -> float:
     """The same angle in [-pi, pi], to the last bit that of `frames.wrap_angle`.
 
-    The remainder of a division is exact, and so is each difference below: `rest` is the angle's distance from the whole
-    turn before it, and `missing` that from the one behind it. Of two equally near ones the even
-    turn counts, as in IEEE 754.
+    A remainder is exact, and so is each difference below: `rest` is the angle's distance from the
+    whole turn before it, and `missing` that from the one behind it. Of two equally near ones the
+    even turn counts, as in IEEE 754.
     """
     size = abs(angle)
     if size <= math.pi:

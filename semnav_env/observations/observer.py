@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import itemgetter
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import gymnasium as gym
@@ -10,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.belief import Belief, BeliefTracker
+from semnav_env.belief.estimate import estimate_of
 from semnav_env.commands import Command
 from semnav_env.features.lidar_spec import LidarSpec
-from semnav_env.grounding.goal import door_of
 from semnav_env.observations.layout import (
     ENTRIES,
     MODES,
@@ -21,12 +22,10 @@ from semnav_env.observations.layout import (
     command_space,
     scan_space,
 )
-from semnav_env.observations.row import DoorEnds, write_bumps, write_row
+from semnav_env.observations.row import write_belief, write_row
 from semnav_env.robots import RobotSpec
 
 Array = NDArray[Any]
-
-NO_DOOR: DoorEnds = (0.0, 0.0, 0.0, 0.0)
 
 
 class Moment(NamedTuple):
@@ -96,15 +95,13 @@ class EntryObservation:
             raise ValueError(f"observation {mode!r} has {sorted(taken)} already; name yours anew")
         self.mode, self.extra, self.exact = mode, tuple(extra), mode == "truth"
         self._names = tuple(name for name in MODES[mode] if name != "command")
-        self._places = {e.name: slice(STARTS[e.name], STARTS[e.name] + e.size) for e in ENTRIES}
-        self._row = np.zeros(ROW_SIZE, np.float32)
-        self._has_bumps = False
 
     def space(self, robot: RobotSpec, lidar: LidarSpec) -> gym.spaces.Dict:
         """The Gymnasium space of what `observe` returns."""
-        self._row = np.zeros(ROW_SIZE + lidar.beams, np.float32)
-        self._places["scan"] = slice(ROW_SIZE, ROW_SIZE + lidar.beams)
-        self._slices = tuple(self._places[name] for name in self._names)
+        places = {e.name: slice(STARTS[e.name], STARTS[e.name] + e.size) for e in ENTRIES}
+        places["scan"] = slice(ROW_SIZE, ROW_SIZE + lidar.beams)
+        self._size = ROW_SIZE + (lidar.beams if "scan" in self._names else 0)
+        self._split = itemgetter(*(places[name] for name in self._names))
         spaces: dict[str, gym.Space[Any]] = {entry.name: entry.space for entry in ENTRIES}
         spaces |= {"scan": scan_space(lidar), "command": command_space()}
         chosen = {name: spaces[name] for name in MODES[self.mode]}
@@ -112,32 +109,17 @@ class EntryObservation:
 
     def observe(self, moment: Moment) -> dict[str, Array]:
         """The entries as fresh arrays."""
-        self._write(moment)
-        values = map(self._row.copy().__getitem__, self._slices)
-        observation: dict[str, Array] = dict(zip(self._names, values, strict=True))
-        observation["command"] = moment.tokens.ravel().copy()
+        belief, tracker, _, tokens = moment
+        row = np.empty(self._size, np.float32)
+        if belief is tracker.belief:
+            write_row(row, tracker.senses)
+        else:
+            write_belief(row, tracker.senses, estimate_of(belief))
+        observation: dict[str, Array] = dict(zip(self._names, self._split(row), strict=True))
+        observation["command"] = tokens.ravel().copy()
         for entry in self.extra:
             observation[entry.name] = entry.observe(moment)
         return observation
-
-    def _write(self, moment: Moment) -> None:
-        belief, tracker = moment.belief, moment.tracker
-        goal = belief.target
-        door = door_of(goal)
-        write_row(
-            self._row,
-            tracker.senses,
-            belief.pose,
-            belief.velocity,
-            belief.clause,
-            goal.kind.value,  # numba is slow to recognise an enum
-            goal.pose,
-            NO_DOOR if door is None else (*door.start, *door.end),
-            door is not None,
-        )
-        if tracker.bumps or self._has_bumps:
-            write_bumps(self._row, tracker.bumps.ends, belief.pose)
-            self._has_bumps = bool(tracker.bumps)
 
 
 def as_observation(value: object) -> ObservationType:

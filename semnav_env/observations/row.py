@@ -14,12 +14,11 @@ from numpy.typing import NDArray
 
 from semnav_env.belief.understand import Senses
 from semnav_env.commands import MAX_CLAUSES
-from semnav_env.features.frames import FloatArray, Pose, Twist, points_to_local
+from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.door_memory import door_counts
 from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
 from semnav_env.features.kernels.scratch import Features
 from semnav_env.observations.layout import (
-    BUMP_ROWS,
     CORNER_ROWS,
     DOOR_ROWS,
     GOAL,
@@ -31,9 +30,6 @@ from semnav_env.observations.layout import (
     WALL_ROWS,
     column,
 )
-
-DoorEnds = tuple[float, float, float, float]
-"""X and y of the jambs of a door, metres."""
 
 _WALLS, _WALLS_MASK = STARTS["walls"], STARTS["walls_mask"]
 _DOORS, _DOORS_MASK = STARTS["doors"], STARTS["doors_mask"]
@@ -47,57 +43,69 @@ _KIND, _PLACE = STARTS["goal"], column(GOAL, "x")
 _JAMBS, _HAS_DOOR = column(GOAL, "door_start_x"), column(GOAL, "has_door")
 
 
-@njit(cache=True, error_model="numpy")
-def write_row(
-    row: NDArray[np.float32],
-    senses: Senses,
-    pose: Pose,
-    velocity: Twist,
-    clause: int,
-    kind: int,
-    place: Pose,
-    door: DoorEnds,
-    has_door: bool,
-) -> None:
-    """Write all entries but the bumps, and the scan.
+@njit(cache=True, error_model="numpy", nogil=True)
+def write_row(row: NDArray[np.float32], senses: Senses) -> None:
+    """Write all entries; and the scan, if there is room for it.
 
     Args:
-        row: shape (ROW_SIZE + beams,).
+        row: shape (ROW_SIZE,) or (ROW_SIZE + beams,).
         senses: arrays of the belief.
-        pose: believed pose, odometry frame.
-        velocity: of the robot.
-        clause: index of the clause under way; the number of clauses when all are done.
-        kind: number of the goal's kind, an index into `layout.GOAL_KINDS`.
-        place: pose of the goal, odometry frame.
-        door: jambs of the goal's door, odometry frame; zeros without one.
-        has_door: whether the goal has a door.
     """
+    write_belief(row, senses, senses.estimate)
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def write_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray) -> None:
+    """As `write_row`, with another belief than the last one.
+
+    Args:
+        row: as in `write_row`.
+        senses: of which features, memory and ranges are written.
+        estimate: dtype `ESTIMATE`, shape (1,), of which pose, velocity, clause and target are.
+    """
+    believed = estimate[0]
+    pose = (believed.pose[0], believed.pose[1], believed.pose[2])
     _write_features(row, senses.features, senses.mount)
     _, doors, counters = senses.remembered
     _write_remembered(row, doors, counters[0].doors, pose)
+    _write_bumps(row, senses.bumps, pose)
     limits = senses.limits[0]
-    _write_scan(row[ROW_SIZE:], senses.ranges, limits.range_min, limits.range_max)
+    if len(row) > ROW_SIZE:
+        _write_scan(row[ROW_SIZE:], senses.ranges, limits.range_min, limits.range_max)
     row[_CLAUSE:ROW_SIZE] = 0.0
-    if clause < MAX_CLAUSES:
-        row[_CLAUSE + clause] = 1.0
+    if believed.clause < MAX_CLAUSES:
+        row[_CLAUSE + believed.clause] = 1.0
     c, s = math.cos(pose[2]), math.sin(pose[2])
     row[_POSE], row[_POSE + 1], row[_POSE + 2], row[_POSE + 3] = pose[0], pose[1], c, s
-    row[_TWIST], row[_TWIST + 1], row[_TWIST + 2] = velocity
-    row[_KIND + kind] = 1.0
+    for i in range(3):
+        row[_TWIST + i] = believed.velocity[i]
+    _write_goal(row, believed.target, pose, c, s)
+
+
+@njit(cache=True, error_model="numpy")
+def _write_goal(row: NDArray[np.float32], goal: Any, pose: Pose, c: float, s: float) -> None:
+    """Write what to head for, given in the odometry frame, in the robot frame."""
+    place, door = goal.pose, goal.door
+    row[_KIND + goal.kind] = 1.0
     row[_PLACE], row[_PLACE + 1] = _local(place[0], place[1], pose, c, s)
     row[_PLACE + 2], row[_PLACE + 3] = math.cos(place[2] - pose[2]), math.sin(place[2] - pose[2])
-    if has_door:
+    if goal.has_door:
         row[_JAMBS], row[_JAMBS + 1] = _local(door[0], door[1], pose, c, s)
         row[_JAMBS + 2], row[_JAMBS + 3] = _local(door[2], door[3], pose, c, s)
         row[_HAS_DOOR] = 1.0
 
 
-def write_bumps(row: NDArray[np.float32], walls: FloatArray, pose: Pose) -> None:
-    """Write walls that were bumped into, given in the odometry frame, shape (n, 4)."""
+@njit(cache=True, error_model="numpy")
+def _write_bumps(row: NDArray[np.float32], bumps: Any, pose: Pose) -> None:
+    """Write walls that were bumped into, given in the odometry frame, in the robot frame."""
     row[_BUMPS:_CLAUSE] = 0.0
-    n = min(len(walls), BUMP_ROWS)
-    row[_BUMPS : _BUMPS + 4 * n] = points_to_local(pose, walls[:n].reshape(-1, 2)).ravel()
-    row[_BUMPS_MASK : _BUMPS_MASK + n] = 1.0
+    ends, used = bumps
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    for i in range(used[0]):
+        at = _BUMPS + 4 * i
+        row[at], row[at + 1] = _local(ends[i, 0], ends[i, 1], pose, c, s)
+        row[at + 2], row[at + 3] = _local(ends[i, 2], ends[i, 3], pose, c, s)
+        row[_BUMPS_MASK + i] = 1.0
 
 
 @njit(cache=True, error_model="numpy")
