@@ -45,4 +45,4 @@ def is_look_due(estimate: Any, remembered: Any) -> bool:
     walls, doors = how_many_count(*remembered)
     differs = walls != estimate.look_walls or moved > LEAST_TRAVEL**2
     rested = since >= REST_CHECK_SCANS or first
-    return doors != estimate.look_doors or (differs and rested)
+    return bool(doors != estimate.look_doors or (differs and rested))

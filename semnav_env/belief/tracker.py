@@ -101,10 +101,14 @@ class BeliefTracker:
         self._progress = np.zeros(1, CLAUSE_PROGRESS)
         self._period = 1.0 / self.lidar.rate_hz
         self._begun = False
+        self._known_scene: SceneSource | None = (
+            None if known_scene is None else KnownScene(known_scene)
+        )
         self._last_source: Callable[[], RememberedScene | None] = nothing
         self.senses = self._join()
 
     def _join(self) -> Senses:
+        self._buffer = self._estimate.data
         return join_senses(
             self.lidar.sensor,
             self._beams,
@@ -121,7 +125,7 @@ class BeliefTracker:
 
     def __getstate__(self) -> dict[str, Any]:
         self._keep_last_scene()
-        left_out = ("senses", "_last_source")
+        left_out = ("senses", "_buffer", "_last_source")
         return {name: value for name, value in self.__dict__.items() if name not in left_out}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -137,7 +141,7 @@ class BeliefTracker:
             ways: to the named rooms of the command, by the number of the clause, odometry frame:
                 the words in which somebody who knows the building points them out.
         """
-        self._let_go()
+        self.let_go()
         self.memory.clear()
         self.bumps.clear()
         self.follower = Follower(
@@ -191,10 +195,10 @@ class BeliefTracker:
         """Check what was sensed and write it into the senses; as `update`."""
         if not self._begun:
             raise RuntimeError("call begin(command) before update()")
-        array = np.asarray(ranges)
-        if array.shape != self.ranges.shape:
+        array, own = np.asarray(ranges), self.ranges
+        if array.shape != own.shape:
             raise ValueError(
-                f"ranges have shape {array.shape}; {self.lidar.name} gives {self.ranges.shape}"
+                f"ranges have shape {array.shape}; {self.lidar.name} gives {own.shape}"
             )
         x, y, heading = odometry
         if not math.isfinite(x + y + heading):
@@ -203,9 +207,9 @@ class BeliefTracker:
             seconds = self._period
         if velocity is None:
             velocity = self._mean_velocity(odometry, seconds)
-        self._let_go()
-        self.ranges[:] = array
-        SENSED.pack_into(self._estimate, 0, x, y, heading, seconds, *velocity)
+        self.let_go()
+        own[:] = array
+        SENSED.pack_into(self._buffer, 0, x, y, heading, seconds, *velocity)
 
     def think(self, events: int, bumps: Sequence[Contact] = ()) -> None:
         """Do what the events of `understand` and bumps call for; nothing without either."""
@@ -230,16 +234,19 @@ class BeliefTracker:
 
     def believe(self) -> Belief:
         """What is believed after the last scan."""
-        follower = self.follower
-        forward, left, yaw_rate, *pose = BELIEVED.unpack_from(self._estimate, BELIEVED_OFFSET)
+        follower, source = self.follower, self._known_scene
+        if source is None:
+            source = remembered = RememberedScene(self.memory, self.bumps)
+            self._last_source = ref(remembered)
+        forward, left, yaw_rate, x, y, heading = BELIEVED.unpack_from(self._buffer, BELIEVED_OFFSET)
         self.belief = belief = Belief(
-            tuple(pose),
+            (x, y, heading),
             (forward, left, yaw_rate),
             follower.active,
             follower.goal,
             self._target,
             follower.impossible,
-            self._snapshot(),
+            source,
         )
         return belief
 
@@ -262,18 +269,11 @@ class BeliefTracker:
             return ORIGIN
         return _velocity(_pose(estimate["odometry"]), odometry, seconds)
 
-    def _snapshot(self) -> SceneSource:
-        """What is known now, unchanged by later updates."""
-        if self.known_scene is not None:
-            return KnownScene(self.known_scene)
-        source = RememberedScene(self.memory, self.bumps)
-        self._last_source = ref(source)
-        return source
-
-    def _let_go(self) -> None:
-        """Forget the last belief; what others still have of it stays as it is."""
+    def let_go(self) -> None:
+        """Forget the last belief, before `understand`; who still has it keeps its scene."""
         self.belief = None
-        self._keep_last_scene()
+        if self._last_source() is not None:
+            self._keep_last_scene()
 
     def _keep_last_scene(self) -> None:
         """Copy what the last belief remembers, if somebody still has that belief."""

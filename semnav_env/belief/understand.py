@@ -21,8 +21,8 @@ from semnav_env.grounding.clause_progress import note_pose
 from semnav_env.grounding.crossing import first_crossed
 
 FIRST_SCAN, LOOK_DUE, BUMP_PASSED = 8, 16, 32
-"""Events beside those of `clause_progress`, as bits: the command is to be begun; the clause is to be
-grounded anew; the robot's centre went through a wall that it had bumped into."""
+"""Events beside those of `clause_progress`, as bits: the command is to be begun; the clause is to
+be grounded anew; the robot's centre went through a wall that it had bumped into."""
 
 
 @structref.register

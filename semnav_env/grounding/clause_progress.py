@@ -107,4 +107,4 @@ def _is_completed(entry: Any, pose: Pose) -> bool:
     if goal.kind == _REACH:
         tolerances = (goal.tolerances[0], goal.tolerances[1], goal.tolerances[2])
         return is_reached(there, tolerances, pose, entry.care)
-    return goal.kind == _STOP and entry.still > goal.wait
+    return bool(goal.kind == _STOP and entry.still > goal.wait)

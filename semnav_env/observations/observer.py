@@ -115,7 +115,7 @@ class EntryObservation:
             write_row(row, tracker.senses)
         else:
             write_belief(row, tracker.senses, estimate_of(belief))
-        observation: dict[str, Array] = dict(zip(self._names, self._split(row), strict=True))
+        observation: dict[str, Array] = dict(zip(self._names, self._split(row)))  # noqa: B905, slower
         observation["command"] = tokens.ravel().copy()
         for entry in self.extra:
             observation[entry.name] = entry.observe(moment)
