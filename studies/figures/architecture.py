@@ -72,8 +72,10 @@ judge.
 (`semnav_env/simulator/odometry.py`) and scans. Its `Sensed` goes to `BeliefTracker.update`
 (`semnav_env/belief/tracker.py`). One compiled call, `understand`
 (`semnav_env/belief/understand.py`), extracts the features (`features/kernels/chain.py`),
-corrects the drift (`features/kernels/drift.py`) and remembers walls and doors
-(`features/kernels/memory.py`). `EntryObservation.observe`
+corrects the drift (`features/kernels/drift.py`), remembers walls and doors
+(`features/kernels/memory.py`) and notes how far the clause under way has come
+(`semnav_env/grounding/clause_progress.py`). It returns events, such as a completed clause; only
+where there is one does `BeliefTracker.think` ground anew. `EntryObservation.observe`
 (`semnav_env/observations/observer.py`) makes the arrays that an agent gets.
 
 **A command.** `parse` (`semnav_env/commands/parser.py`) turns text into a `Command`, a tuple of

@@ -1,0 +1,62 @@
+"""The compiled formulas of goals, and the record that a follower keeps of its clause."""
+
+from __future__ import annotations
+
+import math
+from copy import copy
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from semnav_env.commands import parse
+from semnav_env.features.frames import wrap_angle
+from semnav_env.grounding.clause_progress import ON_WAY, TRAIL_DUE, note_pose
+from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.goal_check import wrapped
+from semnav_env.grounding.ways import WAY_SPACING, KnownWays, Way
+from tests.support.hand_made import corridor
+
+SCENE = corridor(left=(3.0, 6.0), right=(4.0,))
+
+half_turns = st.integers(-9, 9).map(lambda n: n * math.pi)
+
+
+@given(st.floats(-1e6, 1e6) | st.floats(-7.0, 7.0) | half_turns)
+def test_compiled_angles_are_wrapped_to_the_last_bit_alike(angle: float) -> None:
+    assert repr(wrapped(angle)) == repr(wrap_angle(angle))
+
+
+def test_a_place_of_the_trail_is_due_every_way_spacing() -> None:
+    follower = Follower(parse("go to the end of the hallway"), complete=True)
+    follower.start(SCENE, (0.0, 0.0, 0.0))
+    step = WAY_SPACING / 3
+    due = []
+    for k in range(1, 7):
+        pose = (k * step, 0.0, 0.0)
+        events = note_pose(follower.progress, pose, 0.5, 1 / 15)
+        follower.think(events, lambda: SCENE, pose)
+        due.append(bool(events & TRAIL_DUE))
+    assert due == [False, False, True] * 2
+
+
+def test_a_known_way_calls_for_thought_at_every_step() -> None:
+    way = Way(((0.0, 0.0), (1.5, 0.0), (3.0, 0.0)))
+    follower = Follower(
+        parse("go to the kitchen", rooms=("kitchen",)), complete=True, guide=KnownWays({0: way})
+    )
+    follower.start(SCENE, (0.0, 0.0, 0.0))
+    assert follower.goal.places
+    for x in (0.1, 0.2):
+        assert note_pose(follower.progress, (x, 0.0, 0.0), 0.5, 1 / 15) == ON_WAY
+
+
+def test_a_copied_follower_goes_on_by_itself() -> None:
+    follower = Follower(parse("go past the first door on the left, stop"), complete=True)
+    follower.start(SCENE, (0.0, 0.0, 0.0))
+    before = follower.progress.tobytes()
+    other = copy(follower)
+    other.skip_to_next(SCENE)
+    other.advance(lambda: SCENE, (5.0, 0.0, 0.0), 0.5, 1 / 15)
+    assert follower.progress.tobytes() == before
+    assert follower.active == 0
+    assert other.active == 1
