@@ -42,6 +42,7 @@ def relative(frame: Pose, pose: Pose) -> Pose:
     return x, y, wrap_angle(pose[2] - frame[2])
 
 
+@register_jitable
 def to_parent(frame: Pose, point: Point) -> Point:
     """Express in the parent frame a point that is given in `frame`."""
     c, s = math.cos(frame[2]), math.sin(frame[2])

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import (
@@ -55,6 +56,7 @@ class BumpLimits:
 
 
 LIMITS = BumpLimits()
+_LOOK_DEPTH, _SEEN_DEPTH, _SEEN_BEAMS = LIMITS.look_depth, LIMITS.seen_depth, LIMITS.seen_beams
 
 
 class BumpMap:
@@ -130,16 +132,8 @@ class BumpMap:
 
     def _is_seen(self, contact: Contact, ranges: FloatArray) -> bool:
         """Whether the beams that look there end there."""
-        inside = to_parent(contact, (LIMITS.look_depth, 0.0))
-        x, y = to_local(self._mount, inside)
-        bearing = (math.atan2(y, x) - self._spec.angle_min) % math.tau
-        around = np.arange(-LIMITS.seen_beams, LIMITS.seen_beams + 1)
-        beams = round(bearing / self._spec.angle_increment) + around
-        if len(ranges) * self._spec.angle_increment > math.tau - 1e-6:
-            beams %= len(ranges)
-        elif beams[0] < 0 or beams[-1] >= len(ranges):
-            return False
-        return float(ranges[beams].min()) < math.hypot(x, y) + LIMITS.seen_depth
+        spec = self._spec
+        return bool(_is_seen(contact, ranges, spec.angle_min, spec.angle_increment, self._mount))
 
     def _covers(self, piece: FloatArray) -> bool:
         """Whether a piece adds hardly anything to one that is known."""
@@ -148,6 +142,26 @@ class BumpMap:
             whole is not None and _along(whole)[1] < _along(other)[1] + LIMITS.least_growth
             for other, whole in joined
         )
+
+
+@njit(cache=True, error_model="numpy")
+def _is_seen(
+    contact: Contact, ranges: FloatArray, angle_min: float, increment: float, mount: Pose
+) -> bool:
+    """Whether the beams that look at a contact, robot frame, end there; NaN ends nowhere."""
+    x, y = to_local(mount, to_parent(contact, (_LOOK_DEPTH, 0.0)))
+    bearing = (math.atan2(y, x) - angle_min) % math.tau
+    beam, beams = int(np.rint(bearing / increment)), len(ranges)
+    around = beams * increment > math.tau - 1e-6
+    if not around and (beam - _SEEN_BEAMS < 0 or beam + _SEEN_BEAMS >= beams):
+        return False
+    nearest = math.inf
+    for k in range(beam - _SEEN_BEAMS, beam + _SEEN_BEAMS + 1):
+        measured = ranges[k % beams]
+        if math.isnan(measured):
+            return False
+        nearest = min(nearest, measured)
+    return nearest < math.hypot(x, y) + _SEEN_DEPTH
 
 
 def _piece(contact: Pose) -> FloatArray:

@@ -215,9 +215,9 @@ class BeliefTracker:
         """Do what the events of `understand` and bumps call for; nothing without either."""
         estimate, follower = self._estimate[0], self.follower
         before, pose = _pose(estimate["last_pose"]), _pose(estimate["pose"])
-        if bumps:
-            events |= LOOK_DUE * self.bumps.note(bumps, self.ranges, pose)
-        if bumps or events & BUMP_PASSED:
+        if bumps and self.bumps.note(bumps, self.ranges, pose):
+            events |= LOOK_DUE | BUMP_PASSED
+        if events & BUMP_PASSED:
             self.bumps.pass_on(before, pose)
         looked = True
         if events & FIRST_SCAN:

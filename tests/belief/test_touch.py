@@ -12,7 +12,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from semnav_env.agents.registry import make_agent
+from semnav_env.belief import BeliefTracker
 from semnav_env.belief.bump_map import LIMITS, MOST_PIECES, BumpMap
+from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Contact, Pose, points_to_parent, to_parent
 from semnav_env.features.lidar_spec import lidar_spec
@@ -60,6 +62,12 @@ def test_what_the_lidar_sees_is_not_felt_as_well(distance: float) -> None:
     assert len(known) == 0
 
 
+def test_a_beam_that_measured_nothing_shows_no_wall() -> None:
+    ranges = np.full(SPEC.beams, 0.6)
+    ranges[round(-SPEC.angle_min / SPEC.angle_increment)] = math.nan
+    assert bump_map().note([FRONT], ranges, HERE)
+
+
 def test_touches_outside_the_view_are_bumps() -> None:
     known = bump_map()
     assert known.note([(-0.6, 0.0, math.pi)], np.full(SPEC.beams, 0.1), HERE)
@@ -88,6 +96,17 @@ def test_touches_at_both_ends_of_the_front_are_one_wall() -> None:
     known = bump_map()
     known.note([(0.6, -0.45, 0.0), (0.6, 0.45, 0.0)], NOTHING_NEAR, HERE)
     assert len(known) == 1
+
+
+def test_a_tracker_forgets_a_piece_that_the_robot_gets_through() -> None:
+    robot = BeliefTracker()
+    robot.begin(parse("turn around"))
+    robot.update(NOTHING_NEAR, (0.0, 0.0, 0.0), bumps=[FRONT])
+    robot.update(NOTHING_NEAR, (0.5, 0.0, 0.0))
+    assert len(robot.bumps) == 1
+    belief = robot.update(NOTHING_NEAR, (0.7, 0.0, 0.0))
+    assert len(robot.bumps) == 0
+    assert not any(0.55 < wall.start[0] < 0.65 for wall in belief.scene.walls)
 
 
 def test_a_piece_that_the_robot_gets_through_is_forgotten() -> None:
