@@ -15,18 +15,27 @@ ESTIMATE = np.dtype(
     + [(name, "i8") for name in ("scan", "clause", "look_scan", "look_walls", "look_doors")]
     + [("corrects_drift", "?"), ("target", GOAL_RECORD)]
 )
-"""A robot's estimate of its state; an array of shape (1,). Poses are (x, y, heading) in metres and
-radians, odometry frame.
+"""A robot's estimate of its state; shape (1,). Poses are (x, y, heading) in metres and radians,
+odometry frame.
 
-Given before each scan: `odometry`, the pose by dead reckoning; `seconds` since the scan before;
-`velocity`, a `Twist`. Given at the beginning: `corrects_drift`, whether walls that are seen again
-correct the odometry.
+Set when a command is begun:
+    corrects_drift: whether walls that are seen again correct the odometry.
 
-Written by `understand`: `pose`, the believed one; `last_pose`, that of the scan before;
-`last_odometry`, the odometry that `pose` belongs to; `scan`, the number of the scan, from 0.
+Set before each scan:
+    odometry: pose by dead reckoning.
+    seconds: since the scan before.
+    velocity: of the robot, a `Twist`.
 
-Written where an event calls for it: `clause` and `target` of `Belief`; the pose and the scan at
-which the clause was last grounded (`look_`), and how many walls and doors counted then."""
+Written by `understand`:
+    pose, last_pose: believed pose, and that of the scan before.
+    last_odometry: the odometry that `pose` belongs to.
+    scan: number of the scan, from 0.
+
+Written where an event calls for it:
+    clause, target: as in `Belief`.
+    look_pose, look_scan: from where, and at which scan, the clause was last grounded.
+    look_walls, look_doors: how many walls and doors counted then.
+"""
 
 SENSED = Struct("7d")
 """The first fields of an estimate: odometry, seconds and velocity."""

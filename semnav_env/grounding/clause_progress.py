@@ -26,11 +26,17 @@ GOAL_RECORD = np.dtype(
     + [(name, "f8") for name in ("width", "wait")]
     + [("kind", "i8"), ("has_door", "?"), ("has_places", "?")]
 )
-"""A goal as kernels take it.
+"""A goal as kernels take it, in the frame of the follower's scene.
 
-`pose`, metres and radians; `door`, x and y of its jambs, metres, if it `has_door`; `tolerances` of
-a `ReachGoal`; `width` of the door of a `PassGoal`, metres; `wait`, how long to stand still,
-seconds; `kind`, a `GoalKind`; `has_places`, whether its way is known."""
+pose: of the goal, metres and radians.
+door: x and y of the jambs of its door, metres; zeros without one.
+tolerances: of a `ReachGoal`: distance (metres), heading (radians), offset (metres; NaN for none).
+width: of the door of a `PassGoal`, metres.
+wait: how long to stand still, seconds.
+kind: a `GoalKind`.
+has_door: whether it has a door.
+has_places: whether its way is known.
+"""
 
 CLAUSE_PROGRESS = np.dtype(
     [(name, "f8") for name in ("care", "jamb_margin", "standstill_speed", "inspection_angle")]
@@ -39,15 +45,29 @@ CLAUSE_PROGRESS = np.dtype(
     + [("ahead", "f8", 3), ("goal", GOAL_RECORD)]
     + [(name, "?") for name in ("is_open", "is_behind", "looked_back")]
 )
-"""How far a robot is in the clause under way; an array of shape (1,). Places are (x, y) in metres,
-in the frame of the follower's scene.
+"""How far a robot is in the clause under way; shape (1,). Places are (x, y) in metres, in the frame
+of the follower's scene.
 
-`care` and `jamb_margin` of the `Follower`, m; `standstill_speed`, m/s, and `inspection_angle`,
-radians, of the rules; `goal`, and `is_open`, whether reaching it completes the clause; `still`, for
-how long the robot has stopped, seconds; `last`, where it was last; `trail`, the last place of its
-trail; `ahead`, the pose at which the clause began, turned around if the clause `is_behind`: speaks
-of what is behind the robot; `looked_back`, whether the robot has looked there since; `farthest`,
-the place at which it was farthest along the heading of `ahead`, and how far, metres."""
+Set when a command is begun:
+    care, jamb_margin: of the `Follower`; the margin in metres.
+    standstill_speed, inspection_angle: of the rules, m/s and radians.
+
+Set when a clause is begun or grounded:
+    goal: where it leads.
+    is_open: whether reaching the goal completes the clause: it is under way and possible.
+    ahead: pose at which the clause began, turned around if it speaks of what is behind.
+    is_behind: whether it does.
+
+Written by `note_pose`:
+    still: for how long the robot has stopped, seconds.
+    last: where it was last.
+    farthest, farthest_along: the place at which it was farthest along the heading of `ahead`, and
+        how far that is, metres.
+    looked_back: whether it has looked along `ahead` since the clause began.
+
+Written where an event calls for it:
+    trail: last place of the robot's trail.
+"""
 
 _PASS, _REACH, _STOP = int(GoalKind.PASS), int(GoalKind.REACH), int(GoalKind.STOP)
 
