@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.maps import FloorPlan
 from semnav_env.observations import ObservationType
 
 Observation = dict[str, NDArray[Any]]
@@ -30,12 +31,21 @@ class Agent(Protocol):
         """Begin an episode.
 
         Args:
-            info: the second value that `env.reset` returned.
+            info: the second value that `env.reset` returned; `RobotSpec(**info["robot"])` is the
+                body and `LidarSpec(**info["lidar"])` the lidar.
         """
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action, in the environment's action space."""
         ...
+
+
+@runtime_checkable
+class PlanReader(Protocol):
+    """An agent that knows the floor plan, as the oracle does."""
+
+    def read_plan(self, floor_plan: FloorPlan) -> None:
+        """Learn the floor plan of the next episode, before `reset`."""
 
 
 class Step(NamedTuple):
@@ -60,6 +70,8 @@ def steps(
         observation: the first value that `env.reset` returned.
         info: the second one.
     """
+    if isinstance(agent, PlanReader):
+        agent.read_plan(env.get_wrapper_attr("floor_plan"))
     agent.reset(info)
     over = False
     while not over:

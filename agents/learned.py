@@ -70,7 +70,7 @@ class LearnedAgent:
         Raises:
             ValueError: the robot is not the one that it was trained on.
         """
-        robot = info["robot_spec"].name
+        robot = info["robot"]["name"]
         if robot != self.robot:
             raise ValueError(f"this agent was trained on {self.robot!r}, not {robot!r}")
         self._held = 0

@@ -12,7 +12,9 @@ from semnav_env.agents.pilot import Pilot
 from semnav_env.agents.planning.obstacles import points_of_segments
 from semnav_env.features.frames import points_to_local
 from semnav_env.features.scene import ends_of
+from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.observations import SeenGoal, read_odometry
+from semnav_env.robots import RobotSpec
 
 
 class OracleAgent:
@@ -23,11 +25,23 @@ class OracleAgent:
 
     observation = "truth"
 
+    def __init__(self) -> None:
+        self._told: FloorPlan | None = None
+
+    def read_plan(self, floor_plan: FloorPlan) -> None:
+        """Learn the floor plan of the next episode."""
+        self._told = floor_plan
+
     def reset(self, info: dict[str, Any]) -> None:
-        """Begin an episode in the floor plan of `info`."""
-        self._pilot = Pilot(info["robot_spec"])
-        self._points = points_of_segments(info["floor_plan"].segments)
-        self._doors = ends_of(info["floor_plan"].scene.doors).reshape(-1, 2)
+        """Begin an episode in the floor plan that was told before, or else in that of this name.
+
+        Raises:
+            FloorPlanError: no plan was told, and none has this name.
+        """
+        plan, self._told = self._told or load_floor_plan(info["floor_plan"]), None
+        self._pilot = Pilot(RobotSpec(**info["robot"]))
+        self._points = points_of_segments(plan.segments)
+        self._doors = ends_of(plan.scene.doors).reshape(-1, 2)
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action."""

@@ -13,6 +13,7 @@ from semnav_env.agents.planning.obstacles import ObstacleMemory, points_of_segme
 from semnav_env.features.frames import compose, points_to_parent
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.observations import SeenGoal, read_odometry, table
+from semnav_env.robots import RobotSpec
 
 
 class ScriptedAgent:
@@ -27,9 +28,9 @@ class ScriptedAgent:
         self._obstacles = ObstacleMemory()
 
     def reset(self, info: dict[str, Any]) -> None:
-        """Begin an episode with the body and the lidar that `info` names."""
-        self._pilot = Pilot(info["robot_spec"])
-        self._lidar: LidarSpec = info["lidar_spec"]
+        """Begin an episode with the body and the lidar of `info`."""
+        self._pilot = Pilot(RobotSpec(**info["robot"]))
+        self._lidar = LidarSpec(**info["lidar"])
         self._beams = self._lidar.directions
         self._obstacles.reset()
 

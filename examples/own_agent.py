@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 
 from semnav_env.agents.evaluation import run_suite, suite
+from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.observations import SeenGoal
+from semnav_env.robots import RobotSpec
 
 
 class HeadForGoal:
@@ -22,8 +24,8 @@ class HeadForGoal:
 
     def reset(self, info: dict[str, Any]) -> None:
         """An episode begins; `info` is what `env.reset` returned."""
-        self.action_size = info["robot_spec"].action_size
-        self.ahead = np.abs(info["lidar_spec"].angles) < 0.3
+        self.action_size = RobotSpec(**info["robot"]).action_size
+        self.ahead = np.abs(LidarSpec(**info["lidar"]).angles) < 0.3
 
     def act(self, observation: dict[str, np.ndarray]) -> np.ndarray:
         """Shares of the largest speeds, in [-1, 1]."""

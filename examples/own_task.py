@@ -42,7 +42,7 @@ def main() -> None:
         env.reset(seed=0)
         for _ in range(3):
             _, info = env.reset()
-            plan, lidar = info["floor_plan"].name, info["lidar_spec"].name
+            plan, lidar = info["floor_plan"], info["lidar"]["name"]
             print(f'{name}: "{info["command"]}" in {plan} with lidar {lidar}')
     for success in (True, False, True, True):
         EASY_FIRST.note(success)  # the environment tells it so at the end of each episode

@@ -119,7 +119,7 @@ class Arguments:
     ) -> None:
         outcome = {
             "command": start["command"],
-            "floor_plan": start["floor_plan"].name,
+            "floor_plan": start["floor_plan"],
             "pose": start["pose"],
             "success": info["is_success"],
             "verdicts": [str(verdict) for verdict in info["verdicts"]],

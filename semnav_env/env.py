@@ -153,8 +153,8 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self._begin(mission)
         self._believe(sensed)
         self._started = True
-        info = {"robot_spec": self.robot, "lidar_spec": self.lidar_spec}
-        return self._observation(), mission.begin_info | info | request.info
+        specs = {"robot": vars(self.robot).copy(), "lidar": vars(self.lidar_spec).copy()}
+        return self._observation(), mission.info | specs | request.info
 
     def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Drive for one control period.
@@ -180,7 +180,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         info = self.judge.info | {"reward_terms": terms}
         if terminated or truncated:
             self.episode_source.note(verifier.success)
-            info |= self.judge.outcome | self.world.social()
+            info |= self.judge.end_info | self.world.social()
             info["impossible"] = self.belief.impossible
         return self._observation(), sum(terms.values()), terminated, truncated, info
 

@@ -141,7 +141,7 @@ class WaysTo:
 
     def length(self, start: Point) -> float:
         """Length of the shortest way from `start`, metres; infinite if there is none."""
-        return float(_read(self.distances, *self.geodesic.origin, GRID_SPACING, *start))
+        return distance_at(self.distances, *self.geodesic.origin, GRID_SPACING, *start)
 
     def way(self, start: Point) -> FloatArray:
         """The shortest way from `start` as points, shape (k, 2)."""
@@ -155,7 +155,7 @@ class WaysTo:
 
 
 @njit(cache=True)
-def _read(
+def distance_at(
     field: FloatArray, west: float, south: float, spacing: float, x: float, y: float
 ) -> float:
     """The distance at a point by way of the best of the nearest nine cells, metres."""

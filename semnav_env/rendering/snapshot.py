@@ -110,5 +110,5 @@ def _status(seconds: float, judge: EpisodeJudge) -> tuple[str, ...]:
     verdict = str(current[0]) if current else "done"
     return (
         f"t = {seconds:.1f} s   {verdict}",
-        f"collisions: {judge.journey.collisions}",
+        f"collisions: {judge.outcome.collisions}",
     )

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import math
+from math import isfinite
 from typing import Any, NamedTuple
 
 from semnav_env.simulator.sensed import Motion
-from semnav_env.verifier import Journey, Mission, RemainingWay, Verifier
+from semnav_env.verifier import Mission, Verifier, place
+from semnav_env.verifier.judge_record import NO_DISTANCES, judge_motion
 
 
 class Judgement(NamedTuple):
@@ -26,30 +27,52 @@ class EpisodeJudge:
 
     Attributes:
         verifier: says what became of each clause.
-        journey: path length and contacts.
+        outcome: what the verifier's record said after the last control period.
     """
 
     def __init__(self, mission: Mission) -> None:
         self.verifier = Verifier(mission)
-        self.journey = Journey(mission.start)
-        self._way = RemainingWay(self.verifier, mission.geodesic)
-        self._remaining = self._way.length(mission.start)
+        self.outcome = self.verifier.read()
         self._motion: Motion | None = None
+        self._measure_way()
 
     def update(self, motion: Motion) -> Judgement:
         """Judge one control period."""
-        verifier = self.verifier
-        was_over = verifier.over
+        self.write(motion)
+        events = judge_motion(self.verifier.record)
+        return self.think(events, self.verifier.advance(motion))
+
+    def write(self, motion: Motion) -> None:
+        """Put the motion of a control period into the verifier's record."""
         self._motion = motion
-        self.journey.add(motion)
-        completed = verifier.update(motion)
-        remaining = self._way.length(motion.pose)
-        progress = self._remaining - (0.0 if completed else remaining)
-        self._remaining = remaining
+        self.verifier.write(motion)
+
+    def think(self, events: int, completed: bool) -> Judgement:
+        """Say what became of a control period, see `Verifier.think`."""
+        verifier = self.verifier
+        self.outcome = outcome = verifier.read()
+        if not events and not completed:
+            return Judgement(outcome.progress, False, False, False)
+        was_over = verifier.failure is not None or (verifier.follower.done and not completed)
+        verifier.think(events, completed)
         ended = verifier.over and not was_over
         success = ended and verifier.success
-        progress = progress if math.isfinite(progress) else 0.0
+        progress = outcome.progress
+        if completed:
+            progress = outcome.remaining_before if isfinite(outcome.remaining_before) else 0.0
+            self._measure_way()
         return Judgement(progress, completed, success, ended != success)
+
+    def _measure_way(self) -> None:
+        """Measure the way to the goal under way from now on, and anew from where the robot is."""
+        verifier, follower = self.verifier, self.verifier.follower
+        ways = verifier.mission.geodesic.to(place(follower.goal))
+        verifier.head_along(NO_DISTANCES if follower.done else ways.distances)
+
+    @property
+    def remaining(self) -> float:
+        """Length of the shortest way to the goal under way, metres; 0 when all is done."""
+        return self.verifier.read().remaining
 
     @property
     def info(self) -> dict[str, Any]:
@@ -57,16 +80,18 @@ class EpisodeJudge:
         assert self._motion is not None, "call update(motion) first"
         return {
             "verdicts": self.verifier.verdicts,
-            "collisions": self.journey.collisions,
-            "path_length": self.journey.path_length,
+            "collisions": self.outcome.collisions,
+            "path_length": self.outcome.path_length,
             "in_contact": self._motion.in_contact,
             "pose": self._motion.pose,
         }
 
     @property
-    def outcome(self) -> dict[str, Any]:
-        """What is known at the end."""
+    def end_info(self) -> dict[str, Any]:
+        """What is known at the end, for `info`."""
         verifier = self.verifier
-        crossed = tuple(verifier.crossed)
-        ended = {"is_success": verifier.success, "crossed_doors": crossed}
-        return ended | verifier.mission.info
+        return {
+            "is_success": verifier.success,
+            "crossed_doors": tuple(verifier.crossed),
+            "route_length": verifier.mission.route_length,
+        }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -70,14 +71,23 @@ class RewardWeights:
 
     def terms(self, tick: Tick) -> dict[str, float]:
         """The terms of a step by name, each times its weight."""
+        progress, clause, success, failure, motion, _, _ = tick
+        if not (clause or success or failure or motion.in_contact):
+            return self._uneventful | {"progress": self.progress * progress}
         return {
-            "progress": self.progress * tick.progress,
-            "clause": self.clause * tick.clause,
-            "success": self.success * tick.success,
-            "failure": self.failure * tick.failure,
-            "contact": self.contact * tick.motion.in_contact,
+            "progress": self.progress * progress,
+            "clause": self.clause * clause,
+            "success": self.success * success,
+            "failure": self.failure * failure,
+            "contact": self.contact * motion.in_contact,
             "time": self.time,
         }
+
+    @cached_property
+    def _uneventful(self) -> dict[str, float]:
+        """The terms of nearly every step, but for its progress."""
+        weights = {each.name: getattr(self, each.name) for each in fields(RewardWeights)}
+        return {name: False * weight for name, weight in weights.items()} | {"time": self.time}
 
 
 def as_rewards(value: object) -> Rewards:

@@ -2,18 +2,14 @@
 
 from semnav_env.simulator.sensed import Motion
 from semnav_env.verifier.goals import place, plan_goals
-from semnav_env.verifier.journey import Journey
 from semnav_env.verifier.mission import Mission, plan_mission
-from semnav_env.verifier.remaining_way import RemainingWay
 from semnav_env.verifier.verdict import FAILURES, Verdict
 from semnav_env.verifier.verifier import Verifier
 
 __all__ = [
     "FAILURES",
-    "Journey",
     "Mission",
     "Motion",
-    "RemainingWay",
     "Verdict",
     "Verifier",
     "place",

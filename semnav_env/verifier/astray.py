@@ -1,40 +1,48 @@
-"""Wrong turns: arms of junctions that a clause does not name."""
+"""Wrong turns: arms of junctions that a clause does not name, and junctions left behind."""
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
 from semnav_env.commands.clauses import Clause, Turn
 from semnav_env.features.corridor import SideOpening
-from semnav_env.features.frames import Pose, to_local
+from semnav_env.features.frames import FloatArray
 from semnav_env.grounding.goal import Goal, ReachGoal
 from semnav_env.rules import SuccessRules
 
 
-def went_astray(clause: Clause, goal: Goal, pose: Pose, rules: SuccessRules) -> bool:
-    """Whether the robot left the corridor by an arm that the clause does not name.
+def wrong_arms(clause: Clause, goal: Goal, rules: SuccessRules) -> FloatArray:
+    """The arms of the goal's corridor that a clause does not name, shape (k, 5).
+
+    A row is 1 for the left side or -1 for the right, near and far edge along the corridor, distance
+    of its side from the axis, and how far inside the arm a robot has gone astray; metres.
 
     Args:
         clause: under way.
         goal: of that clause, on the true scene.
-        pose: of the robot's centre, world frame.
         rules: how far is too far.
     """
-    if goal.corridor is None:
-        return False
-    wanted = goal.junction if isinstance(goal, ReachGoal) else None
-    along, offset = to_local(goal.corridor.frame, (pose[0], pose[1]))
-    for junction in goal.corridor.junctions if abs(offset) > rules.wrong_arm_depth else ():
-        for opening in (junction.left, junction.right):
-            if opening is None or not opening.near < along < opening.far:
-                continue
-            depth = (offset if opening.left else -offset) - opening.offset
-            named = wanted is junction and _names(clause, opening)
-            ahead = opening.far > rules.passed_arm_distance
-            if depth > rules.wrong_arm_depth and ahead and not named:
-                return True
-    return wanted is not None and along > wanted.far + rules.missed_turn_distance
+    named = goal.junction if isinstance(goal, ReachGoal) else None
+    rows = [
+        (1.0 if arm.left else -1.0, arm.near, arm.far, arm.offset, rules.wrong_arm_depth)
+        for junction in (goal.corridor.junctions if goal.corridor is not None else ())
+        for arm in junction.openings
+        if arm.far > rules.passed_arm_distance and not (junction is named and _names(clause, arm))
+    ]
+    return np.array(rows, dtype=np.float64).reshape(-1, 5)
 
 
-def _names(clause: Clause, opening: SideOpening) -> bool:
-    return isinstance(clause, Turn) and clause.turning.value == (
-        "left" if opening.left else "right"
-    )
+def missed_beyond(goal: Goal, rules: SuccessRules) -> float:
+    """How far along the goal's corridor a junction to turn at has been missed, metres.
+
+    Infinite where there is none.
+    """
+    if goal.corridor is None or not isinstance(goal, ReachGoal) or goal.junction is None:
+        return math.inf
+    return goal.junction.far + rules.missed_turn_distance
+
+
+def _names(clause: Clause, arm: SideOpening) -> bool:
+    return isinstance(clause, Turn) and clause.turning.value == ("left" if arm.left else "right")

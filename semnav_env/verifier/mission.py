@@ -64,15 +64,9 @@ class Mission:
 
     @property
     def info(self) -> dict[str, Any]:
-        """The true route for `info`, as plain points: vector environments stack arrays."""
-        points = tuple((x, y) for x, y in self.route.tolist())
-        return {"route": points, "route_length": self.route_length}
-
-    @property
-    def begin_info(self) -> dict[str, Any]:
-        """What `reset` says of the mission, for `info`."""
-        begin = {"command": str(self.command), "floor_plan": self.floor_plan, "pose": self.start}
-        return begin | self.info
+        """What `reset` says of the mission, for `info`: small plain values."""
+        plan = self.floor_plan.name
+        return {"command": str(self.command), "floor_plan": plan, "pose": self.start}
 
     def ways_seen_from(self, frame: Pose) -> dict[int, Way]:
         """The ways to named rooms in the frame of a robot, by the number of the clause."""

@@ -3,19 +3,33 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
-from semnav_env.features.frames import Pose
+from semnav_env.features.frames import FloatArray
 from semnav_env.features.rules import DoorRules
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal import Goal, PassGoal, wait_of
+from semnav_env.grounding.goal import Goal, PassGoal
 from semnav_env.grounding.ways import KnownWays
 from semnav_env.maps.floor_plan import PlanDoor
 from semnav_env.simulator.sensed import Motion
-from semnav_env.verifier.astray import went_astray
+from semnav_env.verifier.astray import wrong_arms
+from semnav_env.verifier.judge_record import (
+    ASTRAY,
+    DOOR_CROSSED,
+    NO_ARMS,
+    NO_DISTANCES,
+    TOO_STILL,
+    JudgeRecord,
+    join_record,
+    judge_motion,
+    set_arms,
+    set_distances,
+)
+from semnav_env.verifier.judge_state import Outcome, first_state, limit_goal, outcome, put_motion
 from semnav_env.verifier.mission import Mission
 from semnav_env.verifier.verdict import Verdict, verdicts
 
@@ -32,6 +46,7 @@ class Verifier:
     Attributes:
         mission: likewise.
         follower: how far the command has truly come.
+        record: what is kept count of, for `judge_motion`.
         failure: why the episode failed; None if it has not.
         crossed: names of the doors that were crossed, in order.
     """
@@ -45,28 +60,75 @@ class Verifier:
         self.failure: Verdict | None = None
         self.crossed: list[str] = []
         self._met: list[Goal] = []
-        self._still = 0.0
-        self._last = mission.start
+        self._state, self._arms, self._distances = first_state(mission), NO_ARMS, NO_DISTANCES
+        self.record = self._join()
+        self._head_for(self.follower.goal)
+
+    def _join(self) -> JudgeRecord:
+        doors = self.mission.floor_plan.door_ends.copy()  # not read-only: of one type with others
+        return join_record(self._state, doors, self._arms, self._distances)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "record"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self.record = self._join()
 
     def update(self, motion: Motion) -> bool:
         """Judge one control period; returns whether it completed a clause."""
-        pose, speed, yaw_rate, _, seconds = motion
-        rules = self.mission.rules.success
-        still = speed < rules.still_speed and abs(yaw_rate) < rules.still_yaw_rate
-        self._still = self._still + seconds if still else 0.0
-        goal = self.follower.goal
-        allowed = rules.still_seconds + wait_of(goal)
-        completed = self.follower.advance(self._scene, pose, speed, seconds)
+        self.write(motion)
+        events = judge_motion(self.record)
+        completed = self.advance(motion)
+        self.think(events, completed)
+        return completed
+
+    def write(self, motion: Motion) -> None:
+        """Put the motion of a control period into the record, for `judge_motion`."""
+        put_motion(self._state, motion)
+
+    def advance(self, motion: Motion) -> bool:
+        """Let the follower see a control period; returns whether it completed a clause."""
+        return self.follower.advance(self._scene, motion.pose, motion.speed, motion.seconds)
+
+    def think(self, events: int, completed: bool) -> None:
+        """Word a verdict if something has happened in a control period.
+
+        Args:
+            events: that `judge_motion` returned.
+            completed: whether a clause was completed, as `advance` returned.
+        """
+        if not events and not completed:
+            return
+        goal, crossed = self._goal, None
+        if events & DOOR_CROSSED:
+            crossed = self.mission.floor_plan.doors[int(self.read().crossed_door)]
+            self.crossed.append(crossed.name)
         if completed:
             self._met.append(goal)
-        self._judge(goal, completed, pose, self._still > allowed)
-        self._last = pose
-        return completed
+            self._head_for(self.follower.goal)
+        if (self.failure is None and not self.follower.done) or completed:
+            if crossed is not None and not _may_cross(goal, crossed, self.mission.rules.door):
+                self.failure = Verdict.WRONG_DOOR
+            elif not completed and events & ASTRAY:
+                self.failure = Verdict.WRONG_TURN
+            elif not self.follower.done and events & TOO_STILL:
+                self.failure = Verdict.STOPPED_SHORT
+
+    def head_along(self, distances: FloatArray) -> None:
+        """Measure the way to the goal in a field of distances, see `WaysTo.distances`."""
+        self._distances = distances
+        set_distances(self.record, distances)
+
+    def read(self) -> Outcome:
+        """What the record says of the last control period."""
+        return outcome(self._state)
 
     def out_of_time(self) -> None:
         """The episode ended before the command was carried out."""
         if not self.over:
-            stopped = self._still > self.mission.rules.success.final_still_seconds
+            still, rules = float(self._state["still_seconds"][0]), self.mission.rules.success
+            stopped = still > rules.final_still_seconds
             self.failure = Verdict.STOPPED_SHORT if stopped else Verdict.OUT_OF_TIME
 
     @property
@@ -107,26 +169,14 @@ class Verifier:
     def _scene(self) -> Scene:
         return self.mission.scene
 
-    def _judge(self, goal: Goal, completed: bool, pose: Pose, too_still: bool) -> None:
-        crossed, rules = self._crossed_door(pose), self.mission.rules.door
-        if crossed is not None:
-            self.crossed.append(crossed.name)
-        if (self.failure is None and not self.follower.done) or completed:
-            if crossed is not None and not _may_cross(goal, crossed, rules):
-                self.failure = Verdict.WRONG_DOOR
-            elif not completed and self._went_astray(goal, pose):
-                self.failure = Verdict.WRONG_TURN
-            elif not self.follower.done and too_still:
-                self.failure = Verdict.STOPPED_SHORT
-
-    def _went_astray(self, goal: Goal, pose: Pose) -> bool:
-        clause = self.mission.command.clauses[self.follower.active]
-        return went_astray(clause, goal, pose, self.mission.rules.success)
-
-    def _crossed_door(self, pose: Pose) -> PlanDoor | None:
-        plan = self.mission.floor_plan
-        index = first_crossed(plan.door_ends, *self._last[:2], *pose[:2])
-        return None if index < 0 else plan.doors[index]
+    def _head_for(self, goal: Goal) -> None:
+        """Tell the record of a new goal."""
+        self._goal = goal
+        clauses, rules = self.mission.command.clauses, self.mission.rules.success
+        limit_goal(self._state, goal, rules)
+        done = self.follower.done
+        self._arms = NO_ARMS if done else wrong_arms(clauses[self.follower.active], goal, rules)
+        set_arms(self.record, self._arms)
 
 
 def _may_cross(goal: Goal, crossed: PlanDoor, rules: DoorRules) -> bool:

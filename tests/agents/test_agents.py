@@ -62,7 +62,7 @@ def test_the_scripted_agent_acts_on_the_observation_alone() -> None:
     agent, other = ScriptedAgent(), ScriptedAgent()
     observation, info = env.reset(seed=5, options=START)
     agent.reset(info)
-    other.reset({name: info[name] for name in ("robot_spec", "lidar_spec")})
+    other.reset({name: info[name] for name in ("robot", "lidar")})
     for _ in range(10):
         action = agent.act(observation)
         assert np.array_equal(action, other.act(observation))

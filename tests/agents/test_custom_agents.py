@@ -15,11 +15,13 @@ import pytest
 from semnav_env.agents.custom import agent_factory
 from semnav_env.agents.evaluation import SUITES, run_suite
 from semnav_env.agents.registry import make_agent
+from semnav_env.robots import RobotSpec
 from semnav_env.scripts.main import main
 from tests.support.paths import ROOT
 
 MODULE = '''
 import numpy as np
+from semnav_env.robots import RobotSpec
 
 class Standing:
     """Never moves."""
@@ -27,7 +29,7 @@ class Standing:
     observation = "raw"
 
     def reset(self, info):
-        self.size = info["robot_spec"].action_size
+        self.size = RobotSpec(**info["robot"]).action_size
 
     def act(self, observation):
         return np.zeros(self.size, np.float32)
@@ -54,7 +56,7 @@ class Still:
     observation = "raw"
 
     def reset(self, info: dict[str, Any]) -> None:
-        self.size = info["robot_spec"].action_size
+        self.size = RobotSpec(**info["robot"]).action_size
 
     def act(self, observation: dict[str, Any]) -> np.ndarray:
         return np.zeros(self.size, np.float32)

@@ -20,7 +20,7 @@ from semnav_env.episodes import Expected, StaleEpisodeError, load_episodes, writ
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.metrics import METRIC_NAMES, Metrics
-from semnav_env.robots import ROBOTS
+from semnav_env.robots import ROBOTS, RobotSpec
 from semnav_env.scripts.main import main
 from semnav_env.verifier import plan_goals
 
@@ -86,7 +86,7 @@ class Statue:
     observation = "truth"
 
     def reset(self, info: dict[str, Any]) -> None:
-        self.action = np.zeros(info["robot_spec"].action_size, dtype=np.float32)
+        self.action = np.zeros(RobotSpec(**info["robot"]).action_size, dtype=np.float32)
 
     def act(self, observation: dict[str, Any]) -> np.ndarray:
         return self.action

@@ -167,13 +167,13 @@ def test_a_new_episode_begins_with_a_new_action(saved):
     agent = LearnedAgent.load(saved)
     near, far = observation(np.full(811, 0.5)), observation(np.full(811, 9.0))
     agent.act(near)
-    agent.reset({"robot_spec": ROBOTS["wheelchair"]})
+    agent.reset({"robot": vars(ROBOTS["wheelchair"])})
     assert np.array_equal(agent.act(far), policy().act(compact(far)))
 
 
 def test_another_robot_is_refused(saved):
     with pytest.raises(ValueError, match="trained on 'wheelchair', not 'spot'"):
-        LearnedAgent.load(saved).reset({"robot_spec": ROBOTS["spot"]})
+        LearnedAgent.load(saved).reset({"robot": vars(ROBOTS["spot"])})
 
 
 def test_a_policy_that_does_not_fit_is_refused(tmp_path):

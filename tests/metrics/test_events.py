@@ -162,8 +162,8 @@ def test_events_doors_and_collisions_are_those_of_the_verifier() -> None:
     recording, judge = recorder.recording(), env.judge
     events = events_of(recording, env.floor_plan)
     assert [e.door for e in events if isinstance(e, DoorCrossed)] == judge.verifier.crossed
-    assert recording.collisions == judge.journey.collisions > 0
-    assert len([e for e in events if isinstance(e, ContactBegun)]) == judge.journey.collisions
+    assert recording.collisions == judge.outcome.collisions > 0
+    assert len([e for e in events if isinstance(e, ContactBegun)]) == judge.outcome.collisions
     assert [e.step for e in events] == sorted(e.step for e in events)
 
 

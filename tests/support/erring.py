@@ -26,6 +26,9 @@ class ErringAgent:
         self._oracle = OracleAgent()
         self._rng = np.random.default_rng(seed)
 
+    def read_plan(self, floor_plan: FloorPlan) -> None:
+        self._oracle.read_plan(floor_plan)
+
     def reset(self, info: dict[str, Any]) -> None:
         self._oracle.reset(info)
         rng = self._rng

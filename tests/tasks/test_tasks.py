@@ -10,8 +10,9 @@ import pytest
 
 from semnav_env.commands import Command, Turn, Turning
 from semnav_env.env import SemNavEnv
+from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.lidar import TIM561
-from semnav_env.robots import SPOT, WHEELCHAIR
+from semnav_env.robots import SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.simulator import EXACT, OdometrySettings
 from semnav_env.tasks import (
     AddedTerms,
@@ -61,7 +62,7 @@ def test_a_list_of_commands_is_drawn_from() -> None:
 
 def test_a_list_of_floor_plans_is_drawn_from() -> None:
     env = SemNavEnv(task=CommandTask((AROUND,), ("office_cross", "villa_hall")))
-    plans = [env.reset(seed=seed)[1]["floor_plan"].name for seed in range(6)]
+    plans = [env.reset(seed=seed)[1]["floor_plan"] for seed in range(6)]
     assert set(plans) == {"office_cross", "villa_hall"}
 
 
@@ -156,7 +157,7 @@ def test_body_lidar_and_odometry_are_drawn_for_each_episode() -> None:
 
 def _setup(env: SemNavEnv, seed: int) -> tuple[object, ...]:
     info = env.reset(seed=seed)[1]
-    return info["robot_spec"], info["lidar_spec"], env.setup.odometry
+    return RobotSpec(**info["robot"]), LidarSpec(**info["lidar"]), env.setup.odometry
 
 
 def test_the_drawn_body_is_the_one_that_drives() -> None:

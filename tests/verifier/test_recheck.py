@@ -19,7 +19,7 @@ from semnav_env.commands import Clause, Command, GoBack, GoToRoom, parse
 from semnav_env.commands.rooms import plain_name
 from semnav_env.commands.sampling import sample_command
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Pose
+from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.grounding import Goal, GroundingError
 from semnav_env.maps import bundled_names, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
@@ -30,7 +30,7 @@ from semnav_env.rules import Rules, SuccessRules
 from semnav_env.tasks.sampling import sample_feasible
 from semnav_env.verifier import FAILURES, Verdict, Verifier, plan_mission, verifier
 from semnav_env.verifier import recheck as second
-from semnav_env.verifier.astray import went_astray
+from semnav_env.verifier.astray import wrong_arms
 from semnav_env.verifier.recheck import recheck
 from tests.support.erring import ErringAgent, ghost, targets
 
@@ -102,15 +102,15 @@ def test_both_judge_driven_episodes_alike(name: str, robot: str) -> None:
         assert driven.metrics.success == (driven.verifier.verdict is Verdict.DONE)
 
 
-def went_astray_sooner(clause: Clause, goal: Goal, pose: Pose, rules: SuccessRules) -> bool:
-    return went_astray(clause, goal, pose, replace(rules, wrong_arm_depth=0.6))
+def arms_that_end_sooner(clause: Clause, goal: Goal, rules: SuccessRules) -> FloatArray:
+    return wrong_arms(clause, goal, replace(rules, wrong_arm_depth=0.6))
 
 
 @pytest.mark.parametrize(
     ("module", "name", "value"),
     [
-        (verifier, "went_astray", went_astray_sooner),
-        (verifier, "first_crossed", lambda *_: -1),
+        (verifier, "wrong_arms", arms_that_end_sooner),
+        (verifier, "_may_cross", lambda *_: True),
     ],
 )
 def test_a_verifier_that_judges_otherwise_is_found_out(

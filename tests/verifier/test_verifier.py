@@ -13,7 +13,8 @@ from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError, PassGoal
 from semnav_env.maps import PlanDoor, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
-from semnav_env.verifier import Journey, Motion, RemainingWay, Verdict, Verifier, plan_mission
+from semnav_env.tasks import EpisodeJudge
+from semnav_env.verifier import Motion, Verdict, Verifier, plan_mission
 from semnav_env.verifier.verdict import verdicts
 
 PLAN = load_floor_plan("office_cross")
@@ -93,17 +94,17 @@ def test_a_missing_referent_is_answered_with_what_there_is() -> None:
 
 
 def test_contacts_are_counted_when_they_begin() -> None:
-    journey = Journey(WEST)
+    judge = verifier("go through the first door on the right")
     for touching in (False, True, True, False, True):
-        journey.add(Motion(WEST, 0.1, 0.0, touching, 1 / 15))
-    assert journey.collisions == 2
+        judge.update(Motion(WEST, 0.1, 0.0, touching, 1 / 15))
+    assert judge.read().collisions == 2
 
 
 def test_the_path_is_as_long_as_what_was_driven() -> None:
-    journey = Journey((0.0, 0.0, 0.0))
-    for x, y in ((3.0, 0.0), (3.0, 4.0), (0.0, 0.0)):
-        journey.add(Motion((x, y, 0.0), 1.0, 0.0, in_contact=False, seconds=1.0))
-    assert journey.path_length == pytest.approx(12.0)
+    judge, (x, y, _) = verifier("follow the hallway until the end"), WEST
+    for dx, dy in ((0.3, 0.0), (0.3, 0.4), (0.0, 0.0)):
+        judge.update(Motion((x + dx, y + dy, 0.0), 1.0, 0.0, in_contact=False, seconds=1.0))
+    assert judge.read().path_length == pytest.approx(1.2)
 
 
 def test_standing_still_for_ten_seconds_is_stopping_short() -> None:
@@ -125,16 +126,15 @@ def test_the_route_leads_through_every_goal_and_is_shortest() -> None:
 
 
 def test_the_remaining_way_shrinks_to_zero() -> None:
-    judge = verifier("go through the first door on the right")
-    way = RemainingWay(judge, GEODESIC)
-    lengths = [way.length(WEST)]
+    judge = EpisodeJudge(verifier("go through the first door on the right").mission)
+    lengths = [judge.remaining]
     for x, y in ((2.4, 9.0), (3.4, 8.8), (3.4, 8.3)):
         judge.update(Motion((x, y, 0.0), 1.0, 0.0, False, 1.0))
-        lengths.append(way.length((x, y, 0.0)))
+        lengths.append(judge.remaining)
     assert lengths == sorted(lengths, reverse=True)
     judge.update(Motion((3.4, 7.9, 0.0), 1.0, 0.0, False, 1.0))
-    assert judge.success
-    assert way.length((3.4, 7.9, 0.0)) == 0.0
+    assert judge.verifier.success
+    assert judge.remaining == 0.0
 
 
 def test_a_failure_shows_even_with_the_last_clause_done() -> None:

@@ -1,0 +1,122 @@
+"""One compiled call per control period: what a judge keeps count of, and when it must think.
+
+Everything stands in one structure, so that a call hands over one thing, and many robots' records
+can be kept by one loop.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit, types
+from numba.experimental import structref
+
+from semnav_env.features.frames import FloatArray
+from semnav_env.grounding.crossing import first_crossed
+from semnav_env.maps.geodesic import GRID_SPACING, distance_at
+from semnav_env.verifier.exact_hypot import exact_hypot
+
+DOOR_CROSSED, ASTRAY, TOO_STILL = 1, 2, 4
+"""Events of a control period, as bits: a door was crossed; the robot is inside an arm that the
+clause does not name, or far behind its junction; it has stood still for longer than is allowed."""
+
+NO_ARMS, NO_DISTANCES = np.empty((0, 5)), np.empty((0, 0))
+"""Of a record without a goal."""
+
+
+@structref.register
+class JudgeRecordType(types.StructRef):
+    """How compiled code sees `JudgeRecord`."""
+
+    def preprocess_fields(self, fields: Any) -> Any:
+        """Fields of a general type, not of a literal value."""
+        return tuple((name, types.unliteral(kind)) for name, kind in fields)
+
+
+class JudgeRecord(structref.StructRefProxy):
+    """What a judge keeps count of in an episode.
+
+    Attributes:
+        state: numbers, dtype `JUDGE_STATE`, shape (1,).
+        doors: `FloorPlan.door_ends`.
+        arms: of the corridor that lead astray, see `wrong_arms`; set with each goal.
+        distances: `WaysTo.distances` of the goal, shape (0, 0) where no way is left to go.
+    """
+
+    state: np.ndarray
+    doors: FloatArray
+    arms: FloatArray
+    distances: FloatArray
+
+
+structref.define_proxy(JudgeRecord, JudgeRecordType, list(JudgeRecord.__annotations__))
+
+
+@njit(cache=True, error_model="numpy")
+def join_record(
+    state: np.ndarray, doors: FloatArray, arms: FloatArray, distances: FloatArray
+) -> JudgeRecord:
+    """The arrays as one structure; they are shared, not copied."""
+    return JudgeRecord(state, doors, arms, distances)
+
+
+@njit(cache=True, error_model="numpy")
+def set_arms(record: JudgeRecord, arms: FloatArray) -> None:
+    """Put other arms into a record, for another goal."""
+    record.arms = arms
+
+
+@njit(cache=True, error_model="numpy")
+def set_distances(record: JudgeRecord, distances: FloatArray) -> None:
+    """Put another field of distances into a record, and read it where the robot is."""
+    record.distances = distances
+    record.state[0].remaining = _remaining(record, record.state[0])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def judge_motion(record: JudgeRecord) -> int:
+    """Take the motion of one control period into account; returns the events as bits."""
+    state = record.state[0]
+    events = 0
+    x, y = state.last_x, state.last_y
+    state.path_length += exact_hypot(state.x - x, state.y - y)
+    if state.in_contact > state.was_in_contact:
+        state.collisions += 1
+    state.was_in_contact = state.in_contact
+    still = state.speed < state.still_speed and abs(state.yaw_rate) < state.still_yaw_rate
+    state.still_seconds = state.still_seconds + state.seconds if still else 0.0
+    if state.still_seconds > state.longest_still:
+        events |= TOO_STILL
+    crossed = first_crossed(record.doors, x, y, state.x, state.y)
+    if crossed >= 0:
+        events |= DOOR_CROSSED
+    if _is_astray(record.arms, state):
+        events |= ASTRAY
+    before, now = state.remaining, _remaining(record, state)
+    state.progress = before - now if math.isfinite(before - now) else 0.0
+    state.remaining_before, state.remaining, state.crossed_door = before, now, crossed
+    state.last_x, state.last_y = state.x, state.y
+    return events
+
+
+@njit(cache=True, error_model="numpy")
+def _remaining(record: JudgeRecord, state: Any) -> float:
+    """Length of the way to the goal, metres."""
+    if record.distances.size == 0:
+        return 0.0
+    return distance_at(record.distances, state.west, state.south, GRID_SPACING, state.x, state.y)
+
+
+@njit(cache=True, error_model="numpy")
+def _is_astray(arms: FloatArray, state: Any) -> bool:
+    """Whether the robot is inside an arm that leads astray, or has missed its junction."""
+    c, s = state.corridor_cos, state.corridor_sin
+    dx, dy = state.x - state.corridor_x, state.y - state.corridor_y
+    along, offset = c * dx + s * dy, c * dy - s * dx
+    for k in range(len(arms)):
+        sign, near, far, begin, depth = arms[k]
+        if near < along < far and sign * offset - begin > depth:
+            return True
+    return bool(along > state.missed_beyond)
