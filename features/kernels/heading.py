@@ -6,11 +6,18 @@ import math
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 
 RAY_COUNT = 72
 """Number of rays around the place, one every 5 degrees."""
+
+RAY_STEP = 2.0 * math.pi / RAY_COUNT
+"""Angle between two rays, radians."""
+
+ROUGHNESS = 0.1
+"""Largest error of a direction by which rays are chosen, in steps of rays."""
 
 BIN_COUNT = 45
 """Bins of the histogram of directions: of 2 degrees, over the 90 degrees around the heading."""
@@ -35,13 +42,14 @@ def prevailing_heading(solid: FloatArray, walls: int, x: float, y: float, headin
     """
     angles = np.full(RAY_COUNT, np.inf)
     length = np.zeros(RAY_COUNT)
+    hits, distances = _first_hits(solid, x, y, heading)
     for k in range(RAY_COUNT):
-        angle = heading + (k + 0.5) * (2.0 * math.pi / RAY_COUNT)
-        hit, distance = _first_hit(solid, x, y, math.cos(angle), math.sin(angle))
+        hit = hits[k]
         if 0 <= hit < walls:
+            angle = heading + (k + 0.5) * RAY_STEP
             along = math.atan2(solid[hit, 3] - solid[hit, 1], solid[hit, 2] - solid[hit, 0])
             angles[k] = _fold(along - heading)
-            length[k] = distance / max(abs(math.sin(along - angle)), 0.1)
+            length[k] = distances[k] / max(abs(math.sin(along - angle)), 0.1)
     centre = _commonest(angles, length)
     total, mean = 0.0, 0.0
     for k in range(RAY_COUNT):
@@ -51,21 +59,65 @@ def prevailing_heading(solid: FloatArray, walls: int, x: float, y: float, headin
     return heading + mean / total if total > 0.0 else heading
 
 
-@njit(cache=True)
-def _first_hit(solid: FloatArray, x: float, y: float, c: float, s: float) -> tuple[int, float]:
-    """Which segment the ray from (x, y) in direction (c, s) meets first (-1: none), and where."""
-    nearest, hit = np.inf, -1
+@njit(cache=True, error_model="numpy")
+def _first_hits(
+    solid: FloatArray, x: float, y: float, heading: float
+) -> tuple[NDArray[np.int64], FloatArray]:
+    """Which segment each ray from (x, y) meets first (-1: none), and how far off.
+
+    Each segment is tried with the rays between the directions of its ends, and with one ray more
+    at either side where that is close.
+    """
+    cosines, sines = np.empty(RAY_COUNT), np.empty(RAY_COUNT)
+    for k in range(RAY_COUNT):
+        angle = heading + (k + 0.5) * RAY_STEP
+        cosines[k], sines[k] = math.cos(angle), math.sin(angle)
+    hits, nearest = np.full(RAY_COUNT, -1), np.full(RAY_COUNT, np.inf)
     for i in range(len(solid)):
         ax, ay = solid[i, 0] - x, solid[i, 1] - y
         bx, by = solid[i, 2] - x, solid[i, 3] - y
-        left_a, left_b = c * ay - s * ax, c * by - s * bx
-        if (left_a > 0.0) == (left_b > 0.0):
-            continue
-        share = left_a / (left_a - left_b)
-        distance = c * (ax + share * (bx - ax)) + s * (ay + share * (by - ay))
-        if 0.0 < distance < nearest:
-            nearest, hit = distance, i
-    return hit, nearest
+        first, count = _rays_between(_rough_angle(ax, ay), _rough_angle(bx, by), heading)
+        for k in range(first, first + count):
+            k = k % RAY_COUNT
+            c, s = cosines[k], sines[k]
+            left_a, left_b = c * ay - s * ax, c * by - s * bx
+            if (left_a > 0.0) == (left_b > 0.0):
+                continue
+            share = left_a / (left_a - left_b)
+            distance = c * (ax + share * (bx - ax)) + s * (ay + share * (by - ay))
+            if 0.0 < distance < nearest[k]:
+                nearest[k], hits[k] = distance, i
+    return hits, nearest
+
+
+@njit(cache=True, error_model="numpy")
+def _rays_between(a: float, b: float, heading: float) -> tuple[int, int]:
+    """The first ray between two directions that are less than half a turn apart, and how many.
+
+    All rays if that is nearly half a turn: then rounding says on which side the segment lies.
+    """
+    spread = b - a
+    spread -= 2.0 * math.pi * math.floor(spread / (2.0 * math.pi) + 0.5)
+    if abs(spread) > math.pi - RAY_STEP:
+        return 0, RAY_COUNT
+    begin = (min(a, a + spread) - heading) / RAY_STEP - 0.5
+    first = math.ceil(begin - ROUGHNESS)
+    return first, math.floor(begin + abs(spread) / RAY_STEP + ROUGHNESS) - first + 1
+
+
+@njit(cache=True, error_model="numpy")
+def _rough_angle(x: float, y: float) -> float:
+    """The direction of a vector to 0.0003 rad, in a tenth of the time of `math.atan2`.
+
+    The polynomial is that of Abramowitz and Stegun 4.4.47, shortened.
+    """
+    low, high = min(abs(x), abs(y)), max(abs(x), abs(y))
+    ratio = low / high if high > 0.0 else 0.0
+    square = ratio * ratio
+    angle = ratio * (1.0 + square * (-0.327622764 + square * (0.15931422 - 0.0464964749 * square)))
+    angle = 0.5 * math.pi - angle if abs(y) > abs(x) else angle
+    angle = math.pi - angle if x < 0.0 else angle
+    return -angle if y < 0.0 else angle
 
 
 @njit(cache=True)

@@ -26,7 +26,7 @@ def faults(episodes: Iterable[Episode]) -> Iterator[tuple[Episode, tuple[str, ..
             yield episode, (str(error),)
             continue
         if geodesic is None or found is not plan:
-            plan, geodesic = found, Geodesic(found)
+            plan, geodesic = found, found.derived(Geodesic)
         yield episode, tuple(_faults(episode, found, geodesic))
 
 

@@ -20,13 +20,14 @@ from semnav_env.commands import (
 )
 from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.episodes.random_clauses import CommandTopic, RandomClauses
+from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.grounding.follower import Follower
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.room_guide import RoomGuide
-from semnav_env.tasks.sampling import looks_along
+from semnav_env.tasks.sampling import leads_on
 from semnav_env.verifier import plan_goals
 from semnav_env.verifier.goals import check_grounded
 
@@ -207,4 +208,4 @@ class Drafter:
 
     def _faces_a_wall(self, said: tuple[Clause, ...]) -> bool:
         """Whether the robot looks across a corridor, so that nobody would count its doors."""
-        return not looks_along(self._plan, self._begin_after(said))
+        return not leads_on(corridor_at(self._plan.scene, self._begin_after(said)))

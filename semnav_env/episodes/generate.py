@@ -91,7 +91,7 @@ class Site:
     @cached_property
     def geodesic(self) -> Geodesic:
         """Shortest ways of a robot's centre."""
-        return Geodesic(self.plan)
+        return self.plan.derived(Geodesic)
 
     @cached_property
     def reach(self) -> Reach:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 from enum import StrEnum
 from functools import cached_property
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,6 +103,9 @@ class Region:
 NamedPart = TypeVar("NamedPart", PlanDoor, Region)
 """A door or a region of a plan."""
 
+Made = TypeVar("Made")
+"""What is derived from a plan."""
+
 
 @dataclass(frozen=True)
 class FloorPlan:
@@ -167,6 +171,26 @@ class FloorPlan:
         """The jambs of `doors`, open or not, shape (m, 4): x1, y1, x2, y2 in metres."""
         rows = [(*door.start, *door.end) for door in self.doors]
         return _frozen(np.array(rows, dtype=np.float64).reshape(-1, 4))
+
+    def derived(self, make: Callable[[FloorPlan], Made]) -> Made:
+        """What a function makes of the plan alone; made once and shared by all who ask."""
+        if make not in self._derived:
+            self._derived[make] = make(self)
+        made: Made = self._derived[make]
+        return made
+
+    @cached_property
+    def _derived(self) -> dict[Callable[[FloorPlan], Any], Any]:
+        """What has been derived so far."""
+        return {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The fields alone: what follows from them is made again where it is needed."""
+        return {each.name: getattr(self, each.name) for each in fields(self)}
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> FloorPlan:
+        """The plan itself: it never changes."""
+        return self
 
     @property
     def regions(self) -> tuple[Region, ...]:

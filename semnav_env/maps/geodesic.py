@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import shapely
@@ -28,8 +29,9 @@ stays passable."""
 DISCOMFORT_FACTOR = 3.0
 """Extra cost of a comfortable way right beside something solid, in multiples of its length."""
 
-MAX_KEPT_GOALS = 64
-"""Number of goals whose distances are kept: doors come up again and again, but memory is finite."""
+MAX_KEPT_GOALS = 16
+"""Number of goals whose distances are kept: doors come up again and again, but memory is finite,
+and the distances in a large plan take megabytes."""
 
 
 class Geodesic:
@@ -55,6 +57,11 @@ class Geodesic:
         )
         self._known: dict[tuple[int, int], FloatArray] = {}
 
+    def __getstate__(self) -> dict[str, Any]:
+        made_again = ("free", "_weight", "_known")
+        kept = {name: value for name, value in self.__dict__.items() if name not in made_again}
+        return kept | {"_known": {}}
+
     def to(self, goal: Point) -> WaysTo:
         """The shortest ways to a point."""
         return WaysTo(goal, self)
@@ -76,11 +83,10 @@ class Geodesic:
 
     def _cell(self, point: Point) -> tuple[int, int]:
         """The nearest free cell (row, column)."""
-        rows, columns = np.nonzero(self.free)
-        dx = self.origin[0] + GRID_SPACING * columns - point[0]
-        dy = self.origin[1] + GRID_SPACING * rows - point[1]
-        nearest = int(np.argmin(dx * dx + dy * dy))
-        return int(rows[nearest]), int(columns[nearest])
+        found = _nearest_free(self.free, *self.origin, GRID_SPACING, *point)
+        if found[0] < 0:
+            raise ValueError(f"{self._floor_plan.name} has no free place")
+        return found
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
@@ -166,6 +172,30 @@ def distance_at(
             dx, dy = west + spacing * c - x, south + spacing * r - y
             best = min(best, field[r, c] + math.sqrt(dx * dx + dy * dy))
     return best
+
+
+@njit(cache=True)
+def _nearest_free(
+    free: NDArray[np.bool_], west: float, south: float, spacing: float, x: float, y: float
+) -> tuple[int, int]:
+    """The nearest free cell (row, column), the first of those equally near; (-1, -1) without any.
+
+    It is sought in a square of cells, which grows until nothing outside it can be nearer.
+    """
+    rows, columns = free.shape
+    row, column = round((y - south) / spacing), round((x - west) / spacing)
+    half = 2
+    while True:
+        best, found = np.inf, (-1, -1)
+        for r in range(max(row - half, 0), min(row + half + 1, rows)):
+            for c in range(max(column - half, 0), min(column + half + 1, columns)):
+                dx, dy = west + spacing * c - x, south + spacing * r - y
+                if free[r, c] and dx * dx + dy * dy < best:
+                    best, found = dx * dx + dy * dy, (r, c)
+        everything = max(row, rows - row, column, columns - column) <= half
+        if everything or math.sqrt(best) < (half - 1) * spacing:
+            return found
+        half *= 2
 
 
 @njit(cache=True)

@@ -9,6 +9,7 @@ import shapely
 from shapely import Polygon
 
 from semnav_env.features.frames import Point, Pose, points_to_parent
+from semnav_env.maps.box_room import HAS_ROOM, IS_DOUBTFUL, SolidEdges
 from semnav_env.maps.floor_plan import FloorPlan, Region
 from semnav_env.robots import RobotSpec, robot_spec
 
@@ -40,6 +41,8 @@ def placement_error(
     robot = robot_spec(robot)
     if len(pose) != 3 or not all(map(math.isfinite, pose)):
         return f"the pose is {tuple(pose)}; give finite x and y in metres and heading in radians"
+    if has_room(plan, robot, pose, margin):
+        return None
     problem = _problem(plan, robot, pose, margin)
     return problem and f"a {robot.name} at {_written(pose)} {problem}{_advice(plan, robot)}"
 
@@ -67,13 +70,23 @@ def sample_pose(
     if area.is_empty:
         raise ValueError(f"{plan.name} has no corridor to start in; name a region or a pose")
     west, south, east, north = area.bounds
+    shapely.prepare(area)
     for _ in range(MAX_DRAWS):
-        x, y, heading = rng.uniform((west, south, -math.pi), (east, north, math.pi)).tolist()
-        inside = bool(shapely.contains_xy(area, x, y))
-        if inside and _problem(plan, robot, (x, y, heading), margin) is None:
-            return x, y, heading
+        x, y = rng.uniform(west, east), rng.uniform(south, north)
+        pose = x, y, rng.uniform(-math.pi, math.pi)
+        if shapely.contains_xy(area, x, y) and has_room(plan, robot, pose, margin):
+            return pose
     name = region.name if region else "a corridor"
     raise ValueError(f"a {robot.name} found no free place in {name} of {plan.name}")
+
+
+def has_room(plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float = 0.0) -> bool:
+    """Whether a robot can stand at a pose; see `placement_error`, which also says why not."""
+    halves = robot.length / 2 + margin, robot.width / 2 + margin
+    answer = plan.derived(SolidEdges.of).room(pose, *halves)
+    return answer == HAS_ROOM or (
+        answer == IS_DOUBTFUL and _problem(plan, robot, pose, margin) is None
+    )
 
 
 def _problem(plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float) -> str | None:

@@ -42,7 +42,8 @@ def follows(floor_plan: FloorPlan, command: Command, route: Route) -> bool:
     Raises:
         GroundingError: the command cannot be carried out from the start of the route.
     """
-    verifier = Verifier(plan_mission(floor_plan, Geodesic(floor_plan), command, route.start))
+    geodesic = floor_plan.derived(Geodesic)
+    verifier = Verifier(plan_mission(floor_plan, geodesic, command, route.start))
     poses = with_rest(route).tolist()
     for k, (x, y, heading) in enumerate(poses[1:], 1):
         speed = 1.0 if k < len(poses) - REST_POSES else 0.0

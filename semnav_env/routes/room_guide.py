@@ -66,7 +66,7 @@ class RoomGuide:
             there = ", ".join(self._plan.room_names) or "no room with a name"
             raise GroundingError(f"{named}: {self._plan.name} has {there}")
         if self._geodesic is None:
-            self._geodesic = Geodesic(self._plan)
+            self._geodesic = self._plan.derived(Geodesic)
         self.ways[clause] = self._into(room, begin, str(named))
         return self.ways[clause]
 

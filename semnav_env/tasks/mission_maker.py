@@ -36,7 +36,7 @@ class MissionMaker:
 
     def __init__(self, floor_plan: FloorPlan, robot: RobotSpec, rules: Rules = Rules()) -> None:
         self.floor_plan, self.robot, self.rules = floor_plan, robot, rules
-        self.geodesic = Geodesic(floor_plan)
+        self.geodesic = floor_plan.derived(Geodesic)
 
     def make(self, request: EpisodeRequest, rng: np.random.Generator) -> Mission:
         """Choose or check the start pose and the command of an episode.

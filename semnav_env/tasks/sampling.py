@@ -21,7 +21,7 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.features.corridor import corridor_at
+from semnav_env.features.corridor import Corridor, corridor_at
 from semnav_env.features.frames import Pose, to_local, wrap_angle
 from semnav_env.features.rules import DoorRules
 from semnav_env.grounding import Goal, GroundingError, ReachGoal
@@ -61,21 +61,20 @@ def sample_start(
     region = corridors[rng.integers(len(corridors))] if corridors else None
     for attempt in count():
         pose = sample_pose(floor_plan, robot, rng, region)
-        axis = corridor_at(floor_plan.scene, pose).frame[2]
-        start = (*pose[:2], wrap_angle(axis + rng.uniform(-0.2, 0.2)))
+        seen = corridor_at(floor_plan.scene, pose)
+        start = (*pose[:2], wrap_angle(seen.frame[2] + rng.uniform(-0.2, 0.2)))
         fits = (
-            looks_along(floor_plan, pose)
-            and not in_junction(floor_plan, start)
+            leads_on(seen)
             and not beside_door(floor_plan, start, rules.door)
+            and not in_junction(floor_plan, start)
         )
         if (fits or attempt >= START_TRIES) and placement_error(floor_plan, robot, start) is None:
             return start
     raise AssertionError("count() never ends")
 
 
-def looks_along(floor_plan: FloorPlan, pose: Pose) -> bool:
-    """Whether there is a corridor ahead that one would speak of, rather than the wall of one."""
-    seen = corridor_at(floor_plan.scene, pose)
+def leads_on(seen: Corridor) -> bool:
+    """Whether a corridor is one that one would speak of, rather than the wall of one."""
     return seen.end > LEAST_AHEAD and seen.half_width < WIDEST_HALF
 
 

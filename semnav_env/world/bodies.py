@@ -37,6 +37,21 @@ def solid_space(segments: FloatArray) -> pymunk.Space:
     return space
 
 
+def vacant_space(segments: FloatArray, last: pymunk.Space | None) -> pymunk.Space:
+    """A space in which nothing is but what is solid; as good as a new one, to the last bit.
+
+    Args:
+        segments: as in `solid_space`.
+        last: a space with the same segments that is no longer needed, which is cleared and taken.
+    """
+    if last is None:
+        return solid_space(segments)
+    bodies = last.bodies
+    shapes = [shape for body in bodies for shape in body.shapes]
+    last.remove(*last.constraints, *shapes, *bodies)
+    return last
+
+
 def robot_body(robot: RobotSpec, start: Pose) -> tuple[pymunk.Body, pymunk.Shape]:
     """A body whose origin and centre of gravity are the axle's middle, centre at `start`."""
     inertia = robot.mass * ((robot.length**2 + robot.width**2) / 12.0 + robot.axle**2)

@@ -6,7 +6,7 @@ import math
 
 from semnav_env.features.frames import Point, Pose
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.placement import footprint
+from semnav_env.maps.placement import footprint, has_room
 from semnav_env.robots import RobotSpec
 
 
@@ -32,6 +32,8 @@ def clearance(floor_plan: FloorPlan, robot: RobotSpec, pose: Pose) -> float:
 
 def standing_error(floor_plan: FloorPlan, robot: RobotSpec, pose: Pose) -> str | None:
     """Why the robot cannot stand at a pose; None if it can."""
+    if has_room(floor_plan, robot, pose):
+        return None
     where = f"the pose {tuple(round(value, 3) for value in pose)}"
     if not floor_plan.boundary.covers(footprint(robot, pose)):
         return f"{where} puts the {robot.name} outside the boundary of {floor_plan.name}"

@@ -14,7 +14,7 @@ from semnav_env.features.frames import Contact, FloatArray, Pose, Twist
 from semnav_env.lidar.moving import NO_MOVING_THINGS
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
-from semnav_env.world.bodies import driving_joints, robot_body, solid_space
+from semnav_env.world.bodies import driving_joints, robot_body, vacant_space
 from semnav_env.world.chipmunk import (
     address,
     chipmunk_can_be_called,
@@ -215,8 +215,9 @@ class World:
             raise RuntimeError("call reset(pose) first")
 
     def _build(self, start: Pose) -> None:
-        """A new space: episodes cannot influence each other."""
-        self._space = solid_space(self.still.segments)
+        """A space like a new one: episodes cannot influence each other."""
+        last = self.__dict__.get("_space") if self.moving is None else None
+        self._space = vacant_space(self.still.segments, last)
         self._body, shape = robot_body(self.robot, start)
         self._control = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         joints = driving_joints(self.robot, self._control, self._body)
