@@ -15,10 +15,14 @@ import numpy as np
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
 from semnav_env.features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND
 from semnav_env.features.kernels.corridor_survey import first_gap, stands_in, survey
-from semnav_env.features.scene import Door, Scene, ends_of
+from semnav_env.features.scene import Door, Scene, StillScene, ends_of
 
 MIN_CONTINUATION = 1.2
 """A corridor goes on behind a junction if it is longer than this there, metres."""
+
+MAX_KNOWN_VIEWS = 256
+"""Number of corridors that are kept for a scene that never changes: a pose is asked for again while
+commands are tried and judged there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,10 +149,20 @@ def corridor_at(scene: Scene, pose: Pose) -> Corridor:
         pose: in the scene's frame. The axis is the direction within 45 degrees of the heading
             along which most of the wall in view runs.
     """
+    if not isinstance(scene, StillScene):
+        return _surveyed(scene, ends_of(scene.walls), ends_of(scene.doors), pose)
+    views = scene.known_views
+    if pose not in views:
+        if len(views) >= MAX_KNOWN_VIEWS:
+            views.clear()
+        views[pose] = _surveyed(scene, scene.wall_ends, scene.door_ends, pose)
+    known: Corridor = views[pose]
+    return known
+
+
+def _surveyed(scene: Scene, walls: FloatArray, doors: FloatArray, pose: Pose) -> Corridor:
     named = np.array([door.name is not None for door in scene.doors], dtype=np.bool_)
-    (x, y, heading), half_width, end, (left, right), rows = survey(
-        ends_of(scene.walls), ends_of(scene.doors), named, *pose
-    )
+    (x, y, heading), half_width, end, (left, right), rows = survey(walls, doors, named, *pose)
     openings = [SideOpening(*row) for row in rows.tolist()]
     frame = x, y, wrap_angle(heading)
     return Corridor(frame, left, right, half_width, end, _junctions(openings, end))

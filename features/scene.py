@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, TypeVar, overload
 
 import numpy as np
@@ -34,6 +35,7 @@ __all__ = [
     "Rejection",
     "Scene",
     "SceneLeaf",
+    "StillScene",
     "Wall",
     "ends_of",
 ]
@@ -107,6 +109,25 @@ class Scene:
             tuple([_moved(a, move, "centre", "start", "end") for a in self.arcs]),
             tuple([_moved(r, move, "start", "end") for r in self.rejections]),
         )
+
+
+class StillScene(Scene):
+    """A scene that never changes, as that of a floor plan; what is asked for often is kept."""
+
+    @cached_property
+    def wall_ends(self) -> FloatArray:
+        """`ends_of` the walls."""
+        return ends_of(self.walls)
+
+    @cached_property
+    def door_ends(self) -> FloatArray:
+        """`ends_of` the doors."""
+        return ends_of(self.doors)
+
+    @cached_property
+    def known_views(self) -> dict[Pose, Any]:
+        """What was last found from a pose."""
+        return {}
 
 
 def _moved(item: _Item, move: Callable[[Point], Point], *points: str) -> _Item:

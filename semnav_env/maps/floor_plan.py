@@ -14,7 +14,7 @@ from shapely import Polygon, STRtree, linestrings
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.rules import DoorRules
-from semnav_env.features.scene import Door, PlainWalls, Scene
+from semnav_env.features.scene import Door, PlainWalls, StillScene
 
 
 class Material(StrEnum):
@@ -198,19 +198,19 @@ class FloorPlan:
         return self.rooms + self.corridors + self.intersections + self.areas
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> StillScene:
         """`scene_by` the usual rules."""
         return self.scene_by(DoorRules())
 
-    def scene_by(self, rules: DoorRules) -> Scene:
+    def scene_by(self, rules: DoorRules) -> StillScene:
         """All walls (glass included) and all doors that count by some rules, world frame."""
         if rules not in self._scenes:
             doors = tuple(door.as_door() for door in self.doors if door.counts(rules))
-            self._scenes[rules] = Scene(PlainWalls(self.segments), doors)
+            self._scenes[rules] = StillScene(PlainWalls(self.segments), doors)
         return self._scenes[rules]
 
     @cached_property
-    def _scenes(self) -> dict[DoorRules, Scene]:
+    def _scenes(self) -> dict[DoorRules, StillScene]:
         """The scenes that were asked for."""
         return {}
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.kernels.grid_search import descent, least_costs
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.nearness import clear_near
+from semnav_env.maps.recent_fields import RecentFields
 
 GRID_SPACING = 0.1
 """Distance between the points of the grid, metres."""
@@ -29,9 +31,12 @@ stays passable."""
 DISCOMFORT_FACTOR = 3.0
 """Extra cost of a comfortable way right beside something solid, in multiples of its length."""
 
-MAX_KEPT_GOALS = 16
-"""Number of goals whose distances are kept: doors come up again and again, but memory is finite,
-and the distances in a large plan take megabytes."""
+RECENT_FIELDS = RecentFields(max_bytes=250_000_000)
+"""Distances to the goals used last, in all plans together: doors come up again and again, but in a
+large plan the distances to one take megabytes."""
+
+_NUMBERS = count()
+"""Of `Geodesic`s, each of which has fields of its own."""
 
 
 class Geodesic:
@@ -49,18 +54,19 @@ class Geodesic:
     ) -> None:
         west, south, east, north = floor_plan.boundary.bounds
         self.origin = (west, south)
-        self._floor_plan = floor_plan
+        self._floor_plan, self._number = floor_plan, next(_NUMBERS)
         self._comfort, self._clearance = comfort, clearance
         self._shape = (
             math.ceil((north - south) / GRID_SPACING) + 1,
             math.ceil((east - west) / GRID_SPACING) + 1,
         )
-        self._known: dict[tuple[int, int], FloatArray] = {}
 
     def __getstate__(self) -> dict[str, Any]:
-        made_again = ("free", "_weight", "_known")
-        kept = {name: value for name, value in self.__dict__.items() if name not in made_again}
-        return kept | {"_known": {}}
+        made_again = ("free", "_weight")
+        return {name: value for name, value in self.__dict__.items() if name not in made_again}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state, _number=next(_NUMBERS))
 
     def to(self, goal: Point) -> WaysTo:
         """The shortest ways to a point."""
@@ -69,17 +75,14 @@ class Geodesic:
     def distances_to(self, goal: Point) -> FloatArray:
         """Cost of the way from every cell of the grid to a goal, metres, shape (rows, columns).
 
-        The arrays of the last `MAX_KEPT_GOALS` goals are kept. Cells without a way are infinite.
+        They are kept in `RECENT_FIELDS`. Cells without a way are infinite.
         """
-        row, column = self._cell(goal)
-        known = self._known.pop((row, column), None)
-        if known is None:
-            source, diagonal = np.array([(row, column)]), GRID_SPACING * math.hypot(1, 1)
-            known = least_costs(source, np.zeros(1), self._weight, GRID_SPACING, diagonal, True)
-        self._known[row, column] = known  # the latest one is the last to go
-        if len(self._known) > MAX_KEPT_GOALS:
-            del self._known[next(iter(self._known))]
-        return known
+        cell = self._cell(goal)
+        return RECENT_FIELDS.get((self._number, cell), lambda: self._distances_to_cell(cell))
+
+    def _distances_to_cell(self, cell: tuple[int, int]) -> FloatArray:
+        source, diagonal = np.array([cell]), GRID_SPACING * math.hypot(1, 1)
+        return least_costs(source, np.zeros(1), self._weight, GRID_SPACING, diagonal, True)
 
     def _cell(self, point: Point) -> tuple[int, int]:
         """The nearest free cell (row, column)."""

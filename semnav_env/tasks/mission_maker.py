@@ -53,8 +53,9 @@ class MissionMaker:
             error = placement_error(self.floor_plan, self.robot, pose)
             if error is not None:
                 raise ValueError(f"start pose {pose}: {error}")
+        drawn = command is None
         start, command = self._complete(pose, command, rng)
-        if request.implicit_steps:
+        if request.implicit_steps and not drawn:  # a drawn one can be carried out as it is
             command = self._with_implicit_steps(command, start)
         return plan_mission(
             self.floor_plan, self.geodesic, command, start, request.feasible, self.rules

@@ -22,7 +22,7 @@ from semnav_env.commands import (
     Turning,
 )
 from semnav_env.features.corridor import Corridor, corridor_at
-from semnav_env.features.frames import Pose, to_local, wrap_angle
+from semnav_env.features.frames import Pose, points_to_local, wrap_angle
 from semnav_env.features.rules import DoorRules
 from semnav_env.grounding import Goal, GroundingError, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
@@ -96,8 +96,9 @@ def beside_door(floor_plan: FloorPlan, pose: Pose, rules: DoorRules) -> bool:
     One jamb can then be out of the lidar's sight, so that a robot does not make out what who knows
     the plan counts, or just does not count.
     """
-    places = (to_local(pose, door.midpoint) for door in floor_plan.scene_by(rules).doors)
-    return any(abs(along) < ABEAM and abs(beside) < ASIDE for along, beside in places)
+    ends = floor_plan.scene_by(rules).door_ends
+    along, beside = np.abs(points_to_local(pose, (ends[:, :2] + ends[:, 2:]) / 2)).T
+    return bool(((along < ABEAM) & (beside < ASIDE)).any())
 
 
 def sample_feasible(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -10,9 +11,11 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from semnav_env.features.frames import FloatArray
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.floor_plan import FloorPlan, Surface
-from semnav_env.maps.geodesic import CLEARANCE, GRID_SPACING, MAX_KEPT_GOALS, Geodesic
+from semnav_env.maps.geodesic import CLEARANCE, GRID_SPACING, Geodesic
+from semnav_env.maps.recent_fields import RecentFields
 
 PLAN = load_floor_plan("office_cross")
 GEODESIC = Geodesic(PLAN)
@@ -66,11 +69,39 @@ def test_a_cell_is_free_where_everything_solid_is_far_enough(
     assert (Geodesic(plan).free == (inside & (distance > CLEARANCE)))[clear].all()
 
 
-def test_only_so_many_goals_are_kept_and_the_latest_stay() -> None:
-    geodesic = Geodesic(PLAN)
-    first = geodesic.to((1.0, 9.0)).distances
-    for step in range(MAX_KEPT_GOALS + 10):
-        assert geodesic.to((2.0 + 0.1 * step, 9.0)).distances.min() == 0.0
-        assert geodesic.to((1.0, 9.0)).distances is first
-    assert len(geodesic._known) == MAX_KEPT_GOALS
-    assert geodesic.to((2.0, 9.0)).length((1.0, 9.0)) == pytest.approx(1.0, abs=GRID_SPACING)
+def test_distances_are_kept_until_they_take_too_much_memory() -> None:
+    recent, made = RecentFields(max_bytes=8 * 30), []
+
+    def field(key: int) -> FloatArray:
+        made.append(key)
+        return np.full(10, float(key))
+
+    first = recent.get(0, lambda: field(0))
+    for key in range(1, 6):
+        assert recent.get(key, lambda key=key: field(key))[0] == key  # type: ignore[misc]
+        assert recent.get(0, lambda: field(0)) is first
+    recent.get(1, lambda: field(1))
+    assert made == [0, 1, 2, 3, 4, 5, 1]
+    assert recent.kept_bytes <= recent.max_bytes
+
+
+def test_geodesics_of_one_plan_are_shared_and_their_fields_kept() -> None:
+    shared = PLAN.derived(Geodesic)
+    assert PLAN.derived(Geodesic) is shared
+    assert shared.to((1.0, 9.0)).distances is shared.to((1.0, 9.0)).distances
+    copied = pickle.loads(pickle.dumps(shared))
+    assert np.array_equal(copied.to((1.0, 9.0)).distances, shared.to((1.0, 9.0)).distances)
+    assert len(pickle.dumps(PLAN)) < 100_000
+
+
+@given(x=st.floats(-3.0, 33.0), y=st.floats(-3.0, 27.0))
+def test_the_nearest_free_cell_is_found(x: float, y: float) -> None:
+    rows, columns = np.nonzero(GEODESIC.free)
+    dx, dy = GEODESIC.origin[0] + GRID_SPACING * columns - x, GEODESIC.origin[1] - y
+    nearest = int(np.argmin(dx * dx + (dy + GRID_SPACING * rows) ** 2))
+    found = GEODESIC._cell((x, y))
+    gap = math.dist(
+        (x, y), [o + GRID_SPACING * k for o, k in zip(GEODESIC.origin, found[::-1], strict=True)]
+    )
+    assert GEODESIC.free[found]
+    assert gap == pytest.approx(math.hypot(dx[nearest], dy + GRID_SPACING * rows[nearest]))
