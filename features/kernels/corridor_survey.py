@@ -93,7 +93,29 @@ def survey(
         axis; the distance of the left and of the right side at each probe, inf where there is
         none, shape (2, PROBE_COUNT); and the openings, dtype `OPENING`.
     """
-    solid = _solid(walls, doors, certain, (x, y, heading))
+    pose = (x, y, heading)
+    frame, back, end, left, right, local = survey_axis(walls, doors, certain, pose)
+    openings = np.empty(MAX_OPENINGS, OPENING)
+    sides = np.empty((2, PROBE_COUNT))
+    count = 0
+    for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
+        raw, side = probe(local, sign, back, PROBE_COUNT), sides[row]
+        count = _follow(raw, local, sign, usual, (back, end), side, openings, count)
+    return frame, 0.5 * (left + right), end, sides, openings[:count]
+
+
+@njit(cache=True)
+def survey_axis(
+    walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
+) -> tuple[Frame, float, float, float, float, float, FloatArray]:
+    """Find the axis and the end of a corridor, see `survey`.
+
+    Returns:
+        The frame of the axis; how far the corridor goes back, and where it ends; the typical
+        distances of its left and its right side; and walls and doors in the frame of the axis.
+    """
+    x, y, heading = pose
+    solid = _solid(walls, doors, certain, pose)
     heading = prevailing_heading(solid, len(walls), x, y, heading)
     local = in_frame(solid, x, y, heading)
     offset, straight = way_ahead(local)
@@ -106,14 +128,7 @@ def survey(
         shift(local, centre)
         left, right = typical_distances(local, back, straight)
     x, y = x - math.sin(heading) * offset, y + math.cos(heading) * offset
-    end = farthest_way(local, left, right)
-    openings = np.empty(MAX_OPENINGS, OPENING)
-    sides = np.empty((2, PROBE_COUNT))
-    count = 0
-    for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
-        raw, side = probe(local, sign, back, PROBE_COUNT), sides[row]
-        count = _follow(raw, local, sign, usual, (back, end), side, openings, count)
-    return (x, y, heading), 0.5 * (left + right), end, sides, openings[:count]
+    return (x, y, heading), back, farthest_way(local, left, right), left, right, local
 
 
 @njit(cache=True)

@@ -73,12 +73,18 @@ def _first_hits(
         angle = heading + (k + 0.5) * RAY_STEP
         cosines[k], sines[k] = math.cos(angle), math.sin(angle)
     hits, nearest = np.full(RAY_COUNT, -1), np.full(RAY_COUNT, np.inf)
+    directions = np.empty((2, len(solid)))
     for i in range(len(solid)):
+        directions[0, i] = _rough_angle(solid[i, 0] - x, solid[i, 1] - y)
+        directions[1, i] = _rough_angle(solid[i, 2] - x, solid[i, 3] - y)
+    for i in range(len(solid)):
+        first, count = _rays_between(directions[0, i], directions[1, i], heading)
+        if count <= 0:
+            continue
         ax, ay = solid[i, 0] - x, solid[i, 1] - y
         bx, by = solid[i, 2] - x, solid[i, 3] - y
-        first, count = _rays_between(_rough_angle(ax, ay), _rough_angle(bx, by), heading)
-        for k in range(first, first + count):
-            k = k % RAY_COUNT
+        for ray in range(first, first + count):
+            k = ray % RAY_COUNT
             c, s = cosines[k], sines[k]
             left_a, left_b = c * ay - s * ax, c * by - s * bx
             if (left_a > 0.0) == (left_b > 0.0):
@@ -97,12 +103,13 @@ def _rays_between(a: float, b: float, heading: float) -> tuple[int, int]:
     All rays if that is nearly half a turn: then rounding says on which side the segment lies.
     """
     spread = b - a
-    spread -= 2.0 * math.pi * math.floor(spread / (2.0 * math.pi) + 0.5)
+    if abs(spread) > math.pi:  # across the direction of -x
+        spread -= math.copysign(2.0 * math.pi, spread)
     if abs(spread) > math.pi - RAY_STEP:
         return 0, RAY_COUNT
-    begin = (min(a, a + spread) - heading) / RAY_STEP - 0.5
+    begin = (min(a, a + spread) - heading) * (1.0 / RAY_STEP) - 0.5
     first = math.ceil(begin - ROUGHNESS)
-    return first, math.floor(begin + abs(spread) / RAY_STEP + ROUGHNESS) - first + 1
+    return first, math.floor(begin + abs(spread) * (1.0 / RAY_STEP) + ROUGHNESS) - first + 1
 
 
 @njit(cache=True, error_model="numpy")
