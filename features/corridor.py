@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
 from semnav_env.features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND
-from semnav_env.features.kernels.corridor_survey import first_gap, stands_in, survey
+from semnav_env.features.kernels.corridor_survey import first_gap, stands_in, survey, survey_axis
 from semnav_env.features.scene import Door, Scene, StillScene, ends_of
 
 MIN_CONTINUATION = 1.2
@@ -135,6 +137,14 @@ class Corridor:
         return math.inf if gap < 0 else gap * PROBE_SPACING - PROBED_BEHIND
 
 
+class CorridorAxis(NamedTuple):
+    """Where a corridor runs, without what lies along it; see `Corridor`."""
+
+    frame: Pose
+    half_width: float
+    end: float
+
+
 def _probe(along: float) -> int:
     return round((along + PROBED_BEHIND) / PROBE_SPACING)
 
@@ -150,22 +160,31 @@ def corridor_at(scene: Scene, pose: Pose) -> Corridor:
             along which most of the wall in view runs.
     """
     if not isinstance(scene, StillScene):
-        return _surveyed(scene, ends_of(scene.walls), ends_of(scene.doors), pose)
+        named = np.array([door.name is not None for door in scene.doors], dtype=np.bool_)
+        return _surveyed(ends_of(scene.walls), ends_of(scene.doors), named, pose)
     views = scene.known_views
     if pose not in views:
         if len(views) >= MAX_KNOWN_VIEWS:
             views.clear()
-        views[pose] = _surveyed(scene, scene.wall_ends, scene.door_ends, pose)
+        views[pose] = _surveyed(scene.wall_ends, scene.door_ends, scene.named_doors, pose)
     known: Corridor = views[pose]
     return known
 
 
-def _surveyed(scene: Scene, walls: FloatArray, doors: FloatArray, pose: Pose) -> Corridor:
-    named = np.array([door.name is not None for door in scene.doors], dtype=np.bool_)
+def _surveyed(
+    walls: FloatArray, doors: FloatArray, named: NDArray[np.bool_], pose: Pose
+) -> Corridor:
     (x, y, heading), half_width, end, (left, right), rows = survey(walls, doors, named, *pose)
     openings = [SideOpening(*row) for row in rows.tolist()]
     frame = x, y, wrap_angle(heading)
     return Corridor(frame, left, right, half_width, end, _junctions(openings, end))
+
+
+def axis_at(scene: StillScene, pose: Pose) -> CorridorAxis:
+    """The axis of the corridor that `corridor_at` would give; it takes half the time."""
+    walls, doors = scene.wall_ends, scene.door_ends
+    (x, y, heading), _, end, left, right, _ = survey_axis(walls, doors, scene.named_doors, pose)
+    return CorridorAxis((x, y, wrap_angle(heading)), 0.5 * (left + right), end)
 
 
 def doorway_at(scene: Scene, pose: Pose) -> Door | None:

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Any, TypeVar, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from semnav_env.features.elements import (
     Arc,
@@ -123,6 +124,11 @@ class StillScene(Scene):
     def door_ends(self) -> FloatArray:
         """`ends_of` the doors."""
         return ends_of(self.doors)
+
+    @cached_property
+    def named_doors(self) -> NDArray[np.bool_]:
+        """Which doors have a name."""
+        return np.array([door.name is not None for door in self.doors], dtype=np.bool_)
 
     @cached_property
     def known_views(self) -> dict[Pose, Any]:

@@ -11,7 +11,7 @@ from semnav_env.features.frames import FloatArray
 NEIGHBOURS = np.array([(j, i) for j in (-1, 0, 1) for i in (-1, 0, 1) if (j, i) != (0, 0)])
 """Steps to the cells around one, (row, column), shape (8, 2)."""
 
-ROUND = 2.5
+ROUND = 2.0
 """Cells that are reached within the cost of so many straight steps are worked on together: fewer
 make many rounds, more let cells be worked on again and again. It changes no result."""
 
@@ -48,6 +48,10 @@ def least_costs(
     cost = np.full(price.size, np.inf)
     soon, later = np.empty(price.size, np.int64), np.empty(price.size, np.int64)
     waits = np.zeros(price.size, np.bool_)  # whether a cell is in one of them
+    steps, lengths = np.empty(8, np.int64), np.empty(8)
+    for k in range(8):
+        steps[k] = NEIGHBOURS[k, 0] * wide + NEIGHBOURS[k, 1]
+        lengths[k] = diagonal if NEIGHBOURS[k, 0] * NEIGHBOURS[k, 1] else straight
     laters = 0
     for k in range(len(sources)):
         cell = (sources[k, 0] + 1) * wide + sources[k, 1] + 1
@@ -63,11 +67,11 @@ def least_costs(
             soons -= 1
             cell = soon[soons]
             waits[cell] = False
+            here, own = cost[cell], price[cell]
             for k in range(8):
-                beside = cell + NEIGHBOURS[k, 0] * wide + NEIGHBOURS[k, 1]
-                length = diagonal if NEIGHBOURS[k, 0] * NEIGHBOURS[k, 1] else straight
-                ground = 0.5 * (price[cell] + price[beside]) if both else price[beside]
-                then = cost[cell] + length * ground
+                beside = cell + steps[k]
+                ground = 0.5 * (own + price[beside]) if both else price[beside]
+                then = here + lengths[k] * ground
                 if then >= cost[beside]:
                     continue
                 cost[beside] = then

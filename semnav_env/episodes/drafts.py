@@ -20,7 +20,7 @@ from semnav_env.commands import (
 )
 from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.episodes.random_clauses import CommandTopic, RandomClauses
-from semnav_env.features.corridor import corridor_at
+from semnav_env.features.corridor import axis_at
 from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.grounding.follower import Follower
@@ -208,4 +208,4 @@ class Drafter:
 
     def _faces_a_wall(self, said: tuple[Clause, ...]) -> bool:
         """Whether the robot looks across a corridor, so that nobody would count its doors."""
-        return not leads_on(corridor_at(self._plan.scene, self._begin_after(said)))
+        return not leads_on(axis_at(self._plan.scene, self._begin_after(said)))

@@ -6,6 +6,7 @@ import math
 from itertools import count
 
 import numpy as np
+from numba import njit
 
 from semnav_env.commands import (
     LAST,
@@ -21,8 +22,8 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.features.corridor import Corridor, corridor_at
-from semnav_env.features.frames import Pose, points_to_local, wrap_angle
+from semnav_env.features.corridor import CorridorAxis, axis_at, corridor_at
+from semnav_env.features.frames import FloatArray, Pose, wrap_angle
 from semnav_env.features.rules import DoorRules
 from semnav_env.grounding import Goal, GroundingError, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
@@ -61,7 +62,7 @@ def sample_start(
     region = corridors[rng.integers(len(corridors))] if corridors else None
     for attempt in count():
         pose = sample_pose(floor_plan, robot, rng, region)
-        seen = corridor_at(floor_plan.scene, pose)
+        seen = axis_at(floor_plan.scene, pose)
         start = (*pose[:2], wrap_angle(seen.frame[2] + rng.uniform(-0.2, 0.2)))
         fits = (
             leads_on(seen)
@@ -73,7 +74,7 @@ def sample_start(
     raise AssertionError("count() never ends")
 
 
-def leads_on(seen: Corridor) -> bool:
+def leads_on(seen: CorridorAxis) -> bool:
     """Whether a corridor is one that one would speak of, rather than the wall of one."""
     return seen.end > LEAST_AHEAD and seen.half_width < WIDEST_HALF
 
@@ -86,7 +87,7 @@ def in_junction(floor_plan: FloorPlan, pose: Pose) -> bool:
     """
     x, y, heading = pose
     views = (corridor_at(floor_plan.scene, (x, y, heading + turn)) for turn in (0.0, math.pi))
-    mouths = [o for view in views for junction in view.junctions for o in junction.openings]
+    mouths = (o for view in views for junction in view.junctions for o in junction.openings)
     return any(mouth.near < OUTSIDE and mouth.far > -OUTSIDE for mouth in mouths)
 
 
@@ -96,9 +97,17 @@ def beside_door(floor_plan: FloorPlan, pose: Pose, rules: DoorRules) -> bool:
     One jamb can then be out of the lidar's sight, so that a robot does not make out what who knows
     the plan counts, or just does not count.
     """
-    ends = floor_plan.scene_by(rules).door_ends
-    along, beside = np.abs(points_to_local(pose, (ends[:, :2] + ends[:, 2:]) / 2)).T
-    return bool(((along < ABEAM) & (beside < ASIDE)).any())
+    return bool(_any_beside(floor_plan.scene_by(rules).door_ends, *pose))
+
+
+@njit(cache=True)
+def _any_beside(doors: FloatArray, x: float, y: float, heading: float) -> bool:
+    c, s = math.cos(heading), math.sin(heading)
+    for x1, y1, x2, y2 in doors:
+        dx, dy = (x1 + x2) / 2 - x, (y1 + y2) / 2 - y
+        if abs(c * dx + s * dy) < ABEAM and abs(c * dy - s * dx) < ASIDE:
+            return True
+    return False
 
 
 def sample_feasible(
