@@ -107,7 +107,7 @@ def survey(
 @njit(cache=True)
 def survey_axis(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
-) -> tuple[Frame, float, float, float, float, float, FloatArray]:
+) -> tuple[Frame, float, float, float, float, FloatArray]:
     """Find the axis and the end of a corridor, see `survey`.
 
     Returns:

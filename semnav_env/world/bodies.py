@@ -47,8 +47,9 @@ def vacant_space(segments: FloatArray, last: pymunk.Space | None) -> pymunk.Spac
     if last is None:
         return solid_space(segments)
     bodies = last.bodies
-    shapes = [shape for body in bodies for shape in body.shapes]
+    shapes = [shape for body in bodies for shape in body.shapes if shape.space is last]
     last.remove(*last.constraints, *shapes, *bodies)
+    last._removed_shapes.clear()  # kept for callbacks until Pymunk's own next step
     return last
 
 

@@ -5,8 +5,11 @@ import pickle
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
+from semnav_env.maps import load_floor_plan
+from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import ROBOTS, SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.world import World
 from tests.support.driving import at_the_wall, random_commands, trace
@@ -31,6 +34,24 @@ def test_what_came_before_a_reset_does_not_matter() -> None:
     for world in (used, fresh):
         world.reset((3.0, 2.0, 0.5))
     assert trace(used, commands) == trace(fresh, commands)
+
+
+@robots
+def test_a_cleared_space_is_as_good_as_a_new_one(robot: RobotSpec) -> None:
+    """One world is reset again and again in contact; each time a new one drives beside it."""
+    plan, rng, contacts = load_floor_plan("office_cross"), np.random.default_rng(0), 0
+    used = World(plan, robot)
+    for episode in range(12):
+        pose, fresh = sample_pose(plan, robot, rng), World(plan, robot)
+        used.reset(pose)
+        fresh.reset(pose)
+        for command in random_commands(episode, 30) + [(1.0, 0.1, 0.2)] * 60:
+            for world in (used, fresh):
+                world.step(command)
+            assert (used.pose, used.velocity) == (fresh.pose, fresh.velocity)
+            assert (used.contacts, used.touches) == (fresh.contacts, fresh.touches)
+            contacts += used.in_contact
+    assert contacts > 200
 
 
 @robots
