@@ -75,7 +75,7 @@ class Episode:
             FloorPlanError: there is none of that name.
         """
         plan = load_floor_plan(self.floor_plan)
-        found = fingerprint(plan)
+        found = plan.derived(fingerprint)
         if found != self.plan_hash:
             raise StaleEpisodeError(
                 f"{self.id}: {self.floor_plan} has changed since the episode was made (its "

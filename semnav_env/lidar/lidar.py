@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TypeAlias
+from weakref import WeakValueDictionary
 
 import numpy as np
 from numba import njit
@@ -45,6 +46,23 @@ def measure(
     corrupt(out, sensor, seed, episode, step)
 
 
+Cullings: TypeAlias = WeakValueDictionary[float, Culling]
+"""Those of a floor plan by the range of the lidar, while one uses them: they take megabytes."""
+
+
+def _cullings(floor_plan: FloorPlan) -> Cullings:
+    """None yet."""
+    return WeakValueDictionary()
+
+
+def _shared_culling(floor_plan: FloorPlan, range_max: float) -> Culling:
+    known = floor_plan.derived(_cullings)
+    culling = known.get(range_max)
+    if culling is None:
+        known[range_max] = culling = Culling.of(floor_plan.opaque_segments, range_max)
+    return culling
+
+
 class Lidar:
     """A lidar on a robot in a floor plan; glass does not stop its beams.
 
@@ -69,7 +87,7 @@ class Lidar:
     ) -> None:
         self.spec = lidar_spec(spec)
         self.mount = mount
-        culling = Culling.of(floor_plan.opaque_segments, self.spec.range_max)
+        self._culling = culling = _shared_culling(floor_plan, self.spec.range_max)
         tables = (self.spec.cosines_sines, self.spec.sensor)
         self.arrays = (culling.grid, culling.starts, culling.ends, *tables, *moving)
 

@@ -15,8 +15,8 @@ from semnav_env.maps.rules import FloorPlanError, check_plan
 MAX_PATH_LENGTH = 4096
 """Length of the longest path, characters, as on Linux."""
 
-MAX_KEPT_OFFICES = 64
-"""Number of generated offices that are kept in memory, those used last."""
+MAX_KEPT_OFFICES = 128
+"""Number of generated offices that are kept in memory, those used last: those of a split."""
 
 MAX_KEPT_FILES = 16
 """Number of plans read from files that are kept in memory, those used last."""
