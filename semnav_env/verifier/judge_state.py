@@ -78,12 +78,12 @@ def limit_goal(state: np.ndarray, goal: Goal, rules: SuccessRules) -> None:
         state["corridor_cos"], state["corridor_sin"] = math.cos(heading), math.sin(heading)
 
 
-def put_motion(state: np.ndarray, motion: Motion) -> None:
-    """Write the motion of a control period."""
+def put_motion(numbers: memoryview, motion: Motion) -> None:
+    """Write the motion of a control period into the bytes of a state."""
     pose, speed, yaw_rate, in_contact, seconds = motion
-    _MOTION_FORMAT.pack_into(state.data, 0, *pose, speed, yaw_rate, in_contact, seconds)
+    _MOTION_FORMAT.pack_into(numbers, 0, *pose, speed, yaw_rate, in_contact, seconds)
 
 
-def outcome(state: np.ndarray) -> Outcome:
-    """Read what the record says."""
-    return Outcome(*_OUTCOME_FORMAT.unpack_from(state.data, _MOTION_FORMAT.size))
+def outcome(numbers: memoryview) -> Outcome:
+    """Read from the bytes of a state what it says."""
+    return Outcome(*_OUTCOME_FORMAT.unpack_from(numbers, _MOTION_FORMAT.size))

@@ -65,11 +65,13 @@ class Verifier:
         self._head_for(self.follower.goal)
 
     def _join(self) -> JudgeRecord:
+        self._numbers = memoryview(self._state.view(np.uint8))
         doors = self.mission.floor_plan.door_ends.copy()  # not read-only: of one type with others
         return join_record(self._state, doors, self._arms, self._distances)
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "record"}
+        left_out = ("record", "_numbers")
+        return {name: value for name, value in self.__dict__.items() if name not in left_out}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
@@ -85,7 +87,7 @@ class Verifier:
 
     def write(self, motion: Motion) -> None:
         """Put the motion of a control period into the record, for `judge_motion`."""
-        put_motion(self._state, motion)
+        put_motion(self._numbers, motion)
 
     def advance(self, motion: Motion) -> bool:
         """Let the follower see a control period; returns whether it completed a clause."""
@@ -122,7 +124,7 @@ class Verifier:
 
     def read(self) -> Outcome:
         """What the record says of the last control period."""
-        return outcome(self._state)
+        return outcome(self._numbers)
 
     def out_of_time(self) -> None:
         """The episode ended before the command was carried out."""
