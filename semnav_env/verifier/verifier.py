@@ -65,7 +65,7 @@ class Verifier:
         self._head_for(self.follower.goal)
 
     def _join(self) -> JudgeRecord:
-        self._numbers = memoryview(self._state.view(np.uint8))
+        self._numbers = self._state.view(np.uint8).data
         doors = self.mission.floor_plan.door_ends.copy()  # not read-only: of one type with others
         return join_record(self._state, doors, self._arms, self._distances)
 
