@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from semnav_env.agents.planning.obstacles import points_of_segments
+from semnav_env.agents.planning.obstacles import point_counts, points_of_segments
 from semnav_env.agents.planning.planner import DriveTarget
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.scene import Door
@@ -30,10 +30,12 @@ def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
     Returns:
         shape (N, 2), robot frame.
     """
-    lines = [points_of_segments(door[None]) for door in doors]
+    points = points_of_segments(doors)
     reach = np.array((robot.length, robot.width)) / 2 + DOORWAY_DISTANCE
-    others = [line for line in lines if not (np.abs(line) < reach).all(axis=1).any()]
-    return np.concatenate([np.empty((0, 2)), *others])
+    owner = np.repeat(np.arange(len(doors)), point_counts(doors))
+    stood_in = owner[(np.abs(points) < reach).all(axis=1)]
+    others: FloatArray = points[~np.isin(owner, stood_in)]
+    return others
 
 
 def target_behind(door: Door, approach: Point) -> DriveTarget:

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from semnav_env.agents.planning.obstacle_kernels import (
     CENTRE,
@@ -148,9 +148,17 @@ def points_of_segments(segments: FloatArray, spacing: float = 0.02) -> FloatArra
     Returns:
         shape (N, 2).
     """
-    if not len(segments):
-        return np.empty((0, 2))
+    starts, ends = segments[:, :2], segments[:, 2:]
+    counts = point_counts(segments, spacing)
+    index = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    owner = np.repeat(np.arange(len(segments)), counts)
+    steps = (ends - starts) / (counts - 1)[:, None]
+    points: FloatArray = starts[owner] + index[:, None] * steps[owner]
+    points[np.cumsum(counts) - 1] = ends  # exactly, whatever the rounding
+    return points
+
+
+def point_counts(segments: FloatArray, spacing: float = 0.02) -> NDArray[np.intp]:
+    """How many of `points_of_segments` lie on each segment, shape (n,)."""
     lengths = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
-    counts = np.maximum(2, np.ceil(lengths / spacing).astype(int) + 1)
-    rows = zip(segments, counts, strict=True)
-    return np.concatenate([np.linspace(row[:2], row[2:], count) for row, count in rows])
+    return np.maximum(2, np.ceil(lengths / spacing).astype(np.intp) + 1)
