@@ -1,4 +1,4 @@
-"""The same ranges as `raster.cast`, by trying every segment: what tests compare it with."""
+"""A lidar by brute force in NumPy: the yardstick of the benchmark, and what tests compare with."""
 
 from __future__ import annotations
 

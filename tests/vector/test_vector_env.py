@@ -1,0 +1,139 @@
+"""Many robots in one environment: the same bits as the single environments, whatever the threads."""
+
+import copy
+import pickle
+
+import gymnasium as gym
+import numpy as np
+import pytest
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+
+from semnav_env.env import SemNavEnv
+from semnav_env.vector import SemNavVectorEnv
+
+EACH = (
+    {"floor_plan": "heidelberg_hallway"},
+    {"floor_plan": "office_cross", "max_seconds": 3.0},
+    {"floor_plan": "office_cross", "max_seconds": 4.0},
+    {"floor_plan": "office:small:3", "max_seconds": 2.0},
+    {"floor_plan": "heidelberg_hallway", "max_seconds": 5.0, "corrects_drift": False},
+)
+STEPS = 100
+
+
+def actions(space, count=STEPS, seed=5):
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        drawn = rng.uniform(-1.0, 1.0, space.shape).astype(np.float32)
+        drawn[:, 0] = np.abs(drawn[:, 0])
+        yield drawn
+
+
+def assert_same(found, expected):
+    if isinstance(expected, dict):
+        assert set(found) == set(expected)
+        for key, value in expected.items():
+            assert_same(found[key], value)
+    elif isinstance(expected, np.ndarray) and expected.dtype == object:
+        for one, other in zip(found, expected, strict=True):
+            assert_same(one, other)
+    elif isinstance(expected, np.ndarray):
+        np.testing.assert_array_equal(found, expected)
+    else:
+        assert found == expected
+
+
+def assert_goes_on_like(found, expected, steps=STEPS):
+    for action in actions(expected.action_space, steps):
+        for one, other in zip(found.step(action), expected.step(action), strict=True):
+            assert_same(one, other)
+
+
+def singles(mode, **options):
+    return SyncVectorEnv(
+        [lambda each=each: SemNavEnv(**options | each) for each in EACH], autoreset_mode=mode
+    )
+
+
+@pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_a_vector_gives_the_bits_of_single_environments(mode, threads):
+    together = SemNavVectorEnv(len(EACH), each=EACH, threads=threads, autoreset_mode=mode)
+    alone = singles(mode)
+    for one, other in zip(together.reset(seed=3), alone.reset(seed=3), strict=True):
+        assert_same(one, other)
+    assert_goes_on_like(together, alone)
+
+
+@pytest.mark.parametrize("observation", ["raw", "truth", "all"])
+@pytest.mark.parametrize("robot", ["wheelchair", "spot"])
+def test_every_observation_and_body_can_be_in_a_vector(observation, robot):
+    options = {"observation": observation, "robot": robot}
+    together = SemNavVectorEnv(len(EACH), each=EACH, **options)
+    alone = singles(AutoresetMode.NEXT_STEP, **options)
+    together.reset(seed=4), alone.reset(seed=4)
+    assert_goes_on_like(together, alone, steps=40)
+
+
+def test_a_copy_goes_on_like_the_original():
+    original = SemNavVectorEnv(3, floor_plan="office_cross", max_seconds=2.0, threads=2)
+    original.reset(seed=1)
+    for action in actions(original.action_space, 20):
+        original.step(action)
+    for duplicate in (pickle.loads(pickle.dumps(original)), copy.deepcopy(original)):
+        reference = copy.deepcopy(original)
+        assert_goes_on_like(duplicate, reference, steps=30)
+
+
+def test_gymnasium_makes_it_by_its_entry_point():
+    envs = gym.make_vec(
+        "semnav_env:SemNav-v0", num_envs=2, vectorization_mode="vector_entry_point"
+    )
+    assert isinstance(envs.unwrapped, SemNavVectorEnv)
+    observations, infos = envs.reset(seed=0)
+    assert observations in envs.observation_space
+    assert infos["_pose"].all()
+    envs.close()
+
+
+def test_each_robot_can_be_told_its_own_command():
+    envs = SemNavVectorEnv(2, floor_plan="heidelberg_hallway")
+    commands = ["go through the second door on the right", "go through the first door on the left"]
+    pose = (-2.5, -0.6, 0.25)
+    _, infos = envs.reset(
+        seed=0, options={"each": [{"command": text, "pose": pose} for text in commands]}
+    )
+    assert infos["command"].tolist() == commands
+
+
+def test_only_those_of_the_mask_are_reset():
+    envs = SemNavVectorEnv(3, floor_plan="office_cross", autoreset_mode=AutoresetMode.DISABLED)
+    first, _ = envs.reset(seed=0)
+    mask = np.array([True, False, True])
+    again, infos = envs.reset(seed=9, options={"reset_mask": mask})
+    np.testing.assert_array_equal(infos["_pose"], mask)
+    np.testing.assert_array_equal(again["odometry"][1], first["odometry"][1])
+
+
+@pytest.mark.parametrize(
+    ("bad", "message"),
+    [
+        (np.zeros((2, 3)), "shape"),
+        (np.full((2, 2), np.nan), "finite"),
+    ],
+)
+def test_bad_actions_are_refused(bad, message):
+    envs = SemNavVectorEnv(2)
+    envs.reset(seed=0)
+    with pytest.raises(ValueError, match=message):
+        envs.step(bad)
+
+
+def test_a_step_before_the_first_reset_is_refused():
+    with pytest.raises(RuntimeError, match="reset"):
+        SemNavVectorEnv(2).step(np.zeros((2, 2)))
+
+
+def test_robots_of_different_shapes_are_refused():
+    with pytest.raises(ValueError, match="action"):
+        SemNavVectorEnv(2, each=[{"robot": "spot"}, {"robot": "wheelchair"}])
