@@ -39,22 +39,21 @@ class EpisodeJudge:
     def update(self, motion: Motion) -> Judgement:
         """Judge one control period."""
         self.write(motion)
-        events = judge_motion(self.verifier.record)
-        return self.think(events, self.verifier.advance(motion))
+        return self.think(judge_motion(self.verifier.record))
 
     def write(self, motion: Motion) -> None:
         """Put the motion of a control period into the verifier's record."""
         self._motion = motion
         self.verifier.write(motion)
 
-    def think(self, events: int, completed: bool) -> Judgement:
-        """Say what became of a control period, see `Verifier.think`."""
+    def think(self, events: int) -> Judgement:
+        """Say what became of a control period, given the events of `judge_motion`."""
         verifier = self.verifier
         self.outcome = outcome = verifier.read()
-        if not events and not completed:
+        if not events:
             return Judgement(outcome.progress, False, False, False)
-        was_over = verifier.failure is not None or (verifier.follower.done and not completed)
-        verifier.think(events, completed)
+        was_over = verifier.over
+        completed = verifier.think(events)
         ended = verifier.over and not was_over
         success = ended and verifier.success
         progress = outcome.progress

@@ -14,13 +14,15 @@ from numba import njit, types
 from numba.experimental import structref
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.maps.geodesic import GRID_SPACING, distance_at
 from semnav_env.verifier.exact_hypot import exact_hypot
 
-DOOR_CROSSED, ASTRAY, TOO_STILL = 1, 2, 4
-"""Events of a control period, as bits: a door was crossed; the robot is inside an arm that the
-clause does not name, or far behind its junction; it has stood still for longer than is allowed."""
+DOOR_CROSSED, ASTRAY, TOO_STILL = 8, 16, 32
+"""Events beside those of `clause_progress`, as bits: a door was crossed; the robot is inside an arm
+that the clause does not name, or far behind its junction; it has stood still for longer than is
+allowed."""
 
 NO_ARMS, NO_DISTANCES = np.empty((0, 5)), np.empty((0, 0))
 """Of a record without a goal."""
@@ -43,12 +45,14 @@ class JudgeRecord(structref.StructRefProxy):
         doors: `FloorPlan.door_ends`.
         arms: of the corridor that lead astray, see `wrong_arms`; set with each goal.
         distances: `WaysTo.distances` of the goal, shape (0, 0) where no way is left to go.
+        progress: `Follower.progress` of the verifier's follower.
     """
 
     state: np.ndarray
     doors: FloatArray
     arms: FloatArray
     distances: FloatArray
+    progress: np.ndarray
 
 
 structref.define_proxy(JudgeRecord, JudgeRecordType, list(JudgeRecord.__annotations__))
@@ -56,10 +60,14 @@ structref.define_proxy(JudgeRecord, JudgeRecordType, list(JudgeRecord.__annotati
 
 @njit(cache=True, error_model="numpy")
 def join_record(
-    state: np.ndarray, doors: FloatArray, arms: FloatArray, distances: FloatArray
+    state: np.ndarray,
+    doors: FloatArray,
+    arms: FloatArray,
+    distances: FloatArray,
+    progress: np.ndarray,
 ) -> JudgeRecord:
     """The arrays as one structure; they are shared, not copied."""
-    return JudgeRecord(state, doors, arms, distances)
+    return JudgeRecord(state, doors, arms, distances, progress)
 
 
 @njit(cache=True, error_model="numpy")
@@ -79,7 +87,9 @@ def set_distances(record: JudgeRecord, distances: FloatArray) -> None:
 def judge_motion(record: JudgeRecord) -> int:
     """Take the motion of one control period into account; returns the events as bits."""
     state = record.state[0]
-    events = 0
+    pose = (state.x, state.y, state.heading)
+    events = note_pose(record.progress, pose, state.speed, state.seconds)
+    events &= CLAUSE_DONE | TRAIL_DUE
     x, y = state.last_x, state.last_y
     state.path_length += exact_hypot(state.x - x, state.y - y)
     if state.in_contact > state.was_in_contact:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.rules import DoorRules
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.crossing import first_crossed
@@ -67,7 +67,8 @@ class Verifier:
     def _join(self) -> JudgeRecord:
         self._numbers = self._state.view(np.uint8).data
         doors = self.mission.floor_plan.door_ends.copy()  # not read-only: of one type with others
-        return join_record(self._state, doors, self._arms, self._distances)
+        progress = self.follower.progress
+        return join_record(self._state, doors, self._arms, self._distances, progress)
 
     def __getstate__(self) -> dict[str, Any]:
         left_out = ("record", "_numbers")
@@ -80,28 +81,17 @@ class Verifier:
     def update(self, motion: Motion) -> bool:
         """Judge one control period; returns whether it completed a clause."""
         self.write(motion)
-        events = judge_motion(self.record)
-        completed = self.advance(motion)
-        self.think(events, completed)
-        return completed
+        return self.think(judge_motion(self.record))
 
     def write(self, motion: Motion) -> None:
         """Put the motion of a control period into the record, for `judge_motion`."""
         put_motion(self._numbers, motion)
 
-    def advance(self, motion: Motion) -> bool:
-        """Let the follower see a control period; returns whether it completed a clause."""
-        return self.follower.advance(self._scene, motion.pose, motion.speed, motion.seconds)
-
-    def think(self, events: int, completed: bool) -> None:
-        """Word a verdict if something has happened in a control period.
-
-        Args:
-            events: that `judge_motion` returned.
-            completed: whether a clause was completed, as `advance` returned.
-        """
-        if not events and not completed:
-            return
+    def think(self, events: int) -> bool:
+        """Do what the events of `judge_motion` call for; returns whether a clause was completed."""
+        if not events:
+            return False
+        completed = self.follower.think(events, self._scene, self._pose())
         goal, crossed = self._goal, None
         if events & DOOR_CROSSED:
             crossed = self.mission.floor_plan.doors[int(self.read().crossed_door)]
@@ -116,6 +106,7 @@ class Verifier:
                 self.failure = Verdict.WRONG_TURN
             elif not self.follower.done and events & TOO_STILL:
                 self.failure = Verdict.STOPPED_SHORT
+        return completed
 
     def head_along(self, distances: FloatArray) -> None:
         """Measure the way to the goal in a field of distances, see `WaysTo.distances`."""
@@ -167,6 +158,10 @@ class Verifier:
         """One per clause."""
         follower, clauses = self.follower, len(self.mission.command.clauses)
         return verdicts(clauses, follower.active, self.failure, follower.skipped)
+
+    def _pose(self) -> Pose:
+        x, y, heading = self._state[["x", "y", "heading"]][0].item()
+        return x, y, heading
 
     def _scene(self) -> Scene:
         return self.mission.scene
