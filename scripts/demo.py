@@ -137,7 +137,7 @@ class Arguments:
             return
         verdict = "done" if info["is_success"] else " / ".join(outcome["verdicts"])
         pose = ",".join(f"{value:.2f}" for value in start["pose"])
-        print(f"from {pose} in {start['floor_plan'].name}")
+        print(f"from {pose} in {start['floor_plan']}")
         print(
             f'"{start["command"]}": {verdict} after {seconds:.1f} s and '
             f"{info['path_length']:.1f} m, {info['collisions']} collisions"

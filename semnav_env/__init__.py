@@ -8,5 +8,6 @@ import gymnasium
 gymnasium.register(
     "SemNav-v0",
     entry_point="semnav_env.env:SemNavEnv",
+    vector_entry_point="semnav_env.vector:SemNavVectorEnv",
     disable_env_checker=True,  # it cannot step after a first reset that was refused
 )

@@ -21,7 +21,7 @@ from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.robots.actions import Actions
 from semnav_env.rules import Rules, with_doors_of
-from semnav_env.simulator import OdometrySettings, RobotSetup, Sensed, Simulator
+from semnav_env.simulator import OdometrySettings, RobotSetup, Simulator
 from semnav_env.verifier import Mission
 from semnav_env.world import World
 
@@ -89,6 +89,9 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     draw from instead: the name of a split, a file, or `Episode`s. max_seconds: of simulated time.
     render_mode: "rgb_array" or "human" (extra `render`).
 
+    ## Vectorized Environment
+    `SemNavVectorEnv`, by `gymnasium.make_vec(..., vectorization_mode="vector_entry_point")`.
+
     ## Version History
     v0: first version. References: see CITATION.cff.
     """
@@ -151,10 +154,10 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         mission = self._missions.make(request, self.np_random)
         sensed = self.simulator.reset(mission.start, self.np_random)
         self._begin(mission)
-        self._believe(sensed)
+        self.tracker.update(*sensed[:4])
         self._started = True
         specs = {"robot": vars(self.robot).copy(), "lidar": vars(self.lidar_spec).copy()}
-        return self._observation(), mission.info | specs | request.info
+        return self.observe(), mission.info | specs | request.info
 
     def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Drive for one control period.
@@ -167,33 +170,34 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             raise RuntimeError("call reset() before step()")
         sensed = self.simulator.step(self._actions.twist(action))
         motion = sensed.motion
-        self._renderer.note(motion.pose)
-        self._believe(sensed)
-        judgement, verifier = self.judge.update(motion), self.judge.verifier
-        terms = self.rewards.terms(tasks.Tick(*judgement, motion, self.belief, np.asarray(action)))
-        terminated = verifier.over
+        belief = self.tracker.update(*sensed[:4])
+        judgement = self.judge.update(motion)
+        terms = self.rewards.terms(tasks.Tick(*judgement, motion, belief, np.asarray(action)))
+        terminated = self.judge.verifier.over
         truncated = not terminated and self.simulator.steps >= self.max_steps
-        if truncated:
-            verifier.out_of_time()
-        if self.render_mode == "human":
-            self.render()
-        info = self.judge.info | {"reward_terms": terms}
-        if terminated or truncated:
-            self.episode_source.note(verifier.success)
-            info |= self.judge.end_info | self.world.social()
-            info["impossible"] = self.belief.impossible
-        return self._observation(), sum(terms.values()), terminated, truncated, info
+        ended = self.conclude(truncated) if terminated or truncated else {}
+        self.renderer.note(self, motion.pose)
+        info = self.judge.info | {"reward_terms": terms} | ended
+        return self.observe(), sum(terms.values()), terminated, truncated, info
+
+    def observe(self) -> Any:
+        """A fresh observation from where the robot is now."""
+        moment = Moment(self.belief, self.tracker, self.tracker.command, self.tokens)
+        return self.observation_type.observe(moment)
+
+    def conclude(self, truncated: bool) -> dict[str, Any]:
+        """End the episode; returns what `info` says at its end."""
+        ended = self.judge.conclude(truncated) | self.world.social()
+        self.episode_source.note(ended["is_success"])
+        return ended | {"impossible": self.belief.impossible}
 
     def render(self) -> NDArray[np.uint8] | None:
         """The picture, shape (height, width, 3), or a window in "human" mode."""
-        if self.render_mode is None:
-            gym.logger.warn("render() does nothing: give render_mode to gymnasium.make")
-            return None
-        return self._renderer.draw(self, self.render_mode)
+        return self.renderer.draw(self)
 
     def close(self) -> None:
         """Close the window, if any."""
-        self._renderer.close()
+        self.renderer.close()
 
     @property
     def robot(self) -> RobotSpec:
@@ -211,6 +215,11 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         return self.simulator.world
 
     @property
+    def belief(self) -> Belief:
+        """What the robot believes now."""
+        return self.tracker.belief or self.tracker.believe()
+
+    @property
     def seconds(self) -> float:
         """Simulated time since the start of the episode."""
         return self.simulator.steps / self.setup.control_hz
@@ -221,7 +230,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         self.simulator = Simulator(floor_plan, setup, self.plan_source.dynamics)
         self._missions = tasks.MissionMaker(floor_plan, setup.robot, self.rules)
         self._actions = Actions(setup.robot)
-        self._renderer = Renderer(self.world.still)
+        self.renderer = Renderer(self.world.still)
         self.tracker = BeliefTracker(
             setup.lidar,
             setup.robot.lidar_mount,
@@ -234,16 +243,7 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     def _begin(self, mission: Mission) -> None:
         """Give a mission to the judge, and its command to the robot."""
         self.judge = tasks.EpisodeJudge(mission)
-        self._tokens = encode(mission.command, self.floor_plan.room_names)
+        self.tokens = encode(mission.command, self.floor_plan.room_names)
         odometry_frame = (0.0, 0.0, 0.0) if self.setup.exact else mission.start
         self.tracker.begin(mission.command, mission.ways_seen_from(odometry_frame))
-        self._renderer.begin(mission.start)
-
-    def _believe(self, sensed: Sensed) -> None:
-        ranges, odometry, velocity, bumps, _ = sensed
-        self.__dict__.pop("belief", None)  # let go of, its scene need not be copied
-        self.belief: Belief = self.tracker.update(ranges, odometry, velocity, bumps)
-
-    def _observation(self) -> Any:
-        moment = Moment(self.belief, self.tracker, self.tracker.command, self._tokens)
-        return self.observation_type.observe(moment)
+        self.renderer.begin(mission.start)

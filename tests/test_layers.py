@@ -183,7 +183,7 @@ def needed(name, seen):
     return seen
 
 
-ROBOTS_SIDE = {"belief", "features", "commands", "grounding", "rules"}
+ROBOTS_SIDE = {"belief", "features", "commands", "grounding", "rules", "lazy_names"}
 """What runs on a robot as it is."""
 
 

@@ -27,7 +27,7 @@ from semnav_env.belief.understand import (
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Contact, FloatArray, Pose, Twist
-from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
+from semnav_env.features.kernels.scratch import Scratch, allocate_features, allocate_scratch
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
@@ -125,12 +125,17 @@ class BeliefTracker:
 
     def __getstate__(self) -> dict[str, Any]:
         self._keep_last_scene()
-        left_out = ("senses", "_buffer", "_last_source")
+        left_out = ("senses", "_buffer", "_last_source", "_scratch")
         return {name: value for name, value in self.__dict__.items() if name not in left_out}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         self._last_source = nothing
+        self.use_scratch(allocate_scratch(self.lidar.beams))
+
+    def use_scratch(self, scratch: Scratch) -> None:
+        """Use other working memory; trackers of one thread that share it spare the cache."""
+        self._scratch = scratch
         self.senses = self._join()
 
     def begin(self, command: Command, ways: Mapping[int, Way] = NO_WAYS) -> None:
@@ -203,8 +208,7 @@ class BeliefTracker:
         x, y, heading = odometry
         if not math.isfinite(x + y + heading):
             raise ValueError(f"odometry is {odometry}; it must be a finite (x, y, heading)")
-        if seconds is None:
-            seconds = self._period
+        seconds = self._period if seconds is None else seconds
         if velocity is None:
             velocity = self._mean_velocity(odometry, seconds)
         self.let_go()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from shapely import MultiPolygon, Polygon, box
+from shapely import box
 from shapely.affinity import translate
 
 from semnav_env.features.frames import Point

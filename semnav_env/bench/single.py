@@ -1,97 +1,75 @@
-"""How long a step, its parts and a reset take: medians of several runs in one process."""
+"""A single environment: its step, the parts of it, and its reset."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
-from statistics import median
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
 
 from semnav_env.belief import BeliefTracker
-from semnav_env.belief.understand import extract_features
+from semnav_env.belief.understand import extract_features, understand
+from semnav_env.bench.timing import Part, seconds_per_call
 from semnav_env.env import SemNavEnv
 from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import compose
 from semnav_env.lidar.raster import cast
+from semnav_env.maps import FloorPlan
+from semnav_env.simulator.sensing import sense
 
 RESETS = 20
 """Resets timed in a run; one takes as long as many steps."""
 
 
-@dataclass(frozen=True)
-class Timing:
-    """One part.
-
-    Attributes:
-        name: what was timed.
-        microseconds: median over the runs of the mean of one call.
-        share: of a whole step.
-    """
-
-    name: str
-    microseconds: float
-    share: float
-
-    @property
-    def per_second(self) -> float:
-        """Calls per second."""
-        return 1e6 / self.microseconds
-
-
-ALTERNATING_TWISTS = ((0.3, 0.0, 0.2), (-0.3, 0.0, -0.2))
-"""Twists that are driven in turn, so that the robot stays near its start and touches nothing."""
-
-
-def benchmark(floor_plan: str, robot: str, observation: str, runs: int, steps: int) -> list[Timing]:
-    """Time the parts of a step and the whole of it, the whole first.
+def step_parts(floor_plan: str | FloorPlan, robot: str, observation: str, steps: int) -> list[Part]:
+    """A step and a reset.
 
     Args:
-        floor_plan: bundled name or path.
+        floor_plan: where to drive.
         robot: name of a body.
         observation: as in `SemNavEnv`.
-        runs: how often each part is timed; the median counts.
-        steps: calls per run.
+        steps: calls in a timing.
     """
     env = gym.make(
         "semnav_env:SemNav-v0", robot=robot, floor_plan=floor_plan, observation=observation
     )
-    bare = env.unwrapped
-    assert isinstance(bare, SemNavEnv)
     env.reset(seed=0)
-    actions = _actions(bare, steps)
-    parts: list[tuple[str, Callable[[], float]]] = [
-        ("step (gymnasium.make)", lambda: _drive(env, actions)),
-        ("step (SemNavEnv)", lambda: _drive(bare, actions)),
-        *_kernel_parts(bare, steps),
-        ("reset", lambda: _seconds_per_call(lambda _: bare.reset(), RESETS)),
-    ]
-    for _, part in parts:
-        part()
-    runs_by_part = [[part() for _, part in parts] for _ in range(runs)]
-    seconds = [median(column) for column in zip(*runs_by_part, strict=True)]
+    assert env.action_space.shape
+    actions = cruising_actions(steps, env.action_space.shape)
     return [
-        Timing(name, 1e6 * each, each / seconds[0])
-        for (name, _), each in zip(parts, seconds, strict=True)
+        Part(f'step, observation="{observation}"', lambda: _drive(env, actions)),
+        Part(f'reset, observation="{observation}"', lambda: seconds_per_call(env.reset, RESETS)),
     ]
 
 
-def _seconds_per_call(call: Callable[[int], object], times: int) -> float:
-    """The mean; `call` is given the number of the call."""
-    begin = time.perf_counter()
-    for i in range(times):
-        call(i)
-    return (time.perf_counter() - begin) / times
+def kernel_parts(floor_plan: str | FloorPlan, robot: str, steps: int) -> list[Part]:
+    """What a step is made of, each part by itself where the robot happens to stand."""
+    env = SemNavEnv(robot, floor_plan)
+    env.reset(seed=0)
+    lidar, pose, scene = env.simulator.lidar, env.world.pose, env.floor_plan.scene
+    tracker = BeliefTracker(env.lidar_spec, lidar.mount, env.extractor)
+    tracker.begin(env.tracker.command)
+    out = lidar.ranges(pose, (0, 0, 0))
+    tracker.update(out, pose)
+    exact: list[Any] = [*compose(pose, env.robot.lidar_mount), *lidar.arrays[:5], out]
+    calls = {
+        "sense: physics, odometry, scan": lambda: sense(env.simulator.arrays),
+        "of it the exact scan": lambda: cast(*exact),
+        "understand: features, memory, progress": lambda: understand(tracker.senses),
+        "of it the features": lambda: extract_features(tracker.senses),
+        "corridor around the robot (when a clause is grounded)": lambda: corridor_at(scene, pose),
+    }
+    return [
+        Part(name, lambda call=call: seconds_per_call(call, steps))  # type: ignore[misc]
+        for name, call in calls.items()
+    ]
 
 
-def _actions(env: SemNavEnv, steps: int) -> np.ndarray:
-    """Driving along at 0.75 m/s and more, with a little steering."""
-    rng = np.random.default_rng(0)
-    actions = rng.uniform(-0.05, 0.05, (steps, env.robot.action_size)).astype(np.float32)
-    actions[:, 0] += 0.55
+def cruising_actions(steps: int, shape: tuple[int, ...]) -> np.ndarray:
+    """Driving along at about half of the largest speed with a little steering."""
+    actions = np.random.default_rng(0).uniform(-0.05, 0.05, (steps, *shape)).astype(np.float32)
+    actions[..., 0] += 0.55
     return actions
 
 
@@ -105,31 +83,3 @@ def _drive(env: gym.Env[Any, Any], actions: np.ndarray) -> float:
             env.reset()
             begin += time.perf_counter() - stopped
     return (time.perf_counter() - begin) / len(actions)
-
-
-def _kernel_parts(env: SemNavEnv, steps: int) -> list[tuple[str, Callable[[], float]]]:
-    """The parts of a step by themselves, at the environment's present pose."""
-    lidar, pose = env.simulator.lidar, env.world.pose
-    tracker = BeliefTracker(env.lidar_spec, lidar.mount, env.extractor)
-    tracker.begin(env.judge.verifier.mission.command)
-    lidar_pose = compose(pose, env.robot.lidar_mount)
-    velocity = (0.3, 0.0, 0.2)
-    out = lidar.ranges(pose, (0, 0, 0))
-    arguments: list[Any] = [*lidar_pose, *lidar.arrays[:5], out]
-    tracker.update(out, pose, velocity)
-    scene = env.floor_plan.scene
-
-    def repeat(call: Callable[[int], object]) -> Callable[[], float]:
-        return lambda: _seconds_per_call(call, steps)
-
-    return [
-        ("scan without noise", repeat(lambda i: cast(*arguments))),
-        ("scan with noise", repeat(lambda i: lidar.ranges(pose, (0, 0, i), out))),
-        ("features", repeat(lambda i: extract_features(tracker.senses))),
-        (
-            "features, memory, goal",
-            repeat(lambda i: tracker.update(out, pose, velocity)),
-        ),
-        ("world step", repeat(lambda i: env.world.step(ALTERNATING_TWISTS[i // 15 % 2]))),
-        ("hallway (a few times a second)", repeat(lambda i: corridor_at(scene, pose))),
-    ]

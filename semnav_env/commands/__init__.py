@@ -1,7 +1,6 @@
 """Commands: texts become typed clauses, and clauses become texts and tokens."""
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from semnav_env.commands.clauses import (
     Approach,
@@ -18,12 +17,10 @@ from semnav_env.commands.clauses import (
     Turning,
 )
 from semnav_env.commands.command import MAX_CLAUSES, Command
-from semnav_env.commands.decoding import decode
 from semnav_env.commands.encoding import encode
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.paraphrases import paraphrases
 from semnav_env.commands.parser import correct, parse, readings
-from semnav_env.commands.program import from_program, to_program
 from semnav_env.commands.references import (
     LAST,
     MAX_FROM_END,
@@ -38,8 +35,10 @@ from semnav_env.commands.references import (
 )
 from semnav_env.commands.sampling import sample_clause, sample_command
 from semnav_env.commands.tokens import CLAUSE_FEATURES, token_mask, token_space
+from semnav_env.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from semnav_env.commands.decoding import decode
     from semnav_env.commands.interpreters import (
         GrammarInterpreter,
         Interpretation,
@@ -47,6 +46,7 @@ if TYPE_CHECKING:
         ModelInterpreter,
         TemplateInterpreter,
     )
+    from semnav_env.commands.program import from_program, to_program
 
 __all__ = [
     "CLAUSE_FEATURES",
@@ -95,17 +95,17 @@ __all__ = [
     "token_space",
 ]
 
-_IMPORTED_WHEN_ASKED_FOR = {
-    "GrammarInterpreter": "interpreters",
-    "Interpretation": "interpreters",
-    "Interpreter": "interpreters",
-    "ModelInterpreter": "interpreters",
-    "TemplateInterpreter": "interpreters",
-}
-"""Names that few users need, by their modules."""
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _IMPORTED_WHEN_ASKED_FOR:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_IMPORTED_WHEN_ASKED_FOR[name]}"), name)
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "decoding": ("decode",),
+        "interpreters": (
+            "GrammarInterpreter",
+            "Interpretation",
+            "Interpreter",
+            "ModelInterpreter",
+            "TemplateInterpreter",
+        ),
+        "program": ("from_program", "to_program"),
+    },
+)

@@ -1,8 +1,13 @@
 """Frozen episodes: what is said where, and what is right; in splits, for training and testing."""
 
+from typing import TYPE_CHECKING
+
 from semnav_env.episodes.episode import Episode, Expected, StaleEpisodeError
-from semnav_env.episodes.files import EpisodeFileError, read_episodes, write_episodes
-from semnav_env.episodes.splits import SPLITS, Split, evenly, is_episodes, load_episodes
+from semnav_env.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from semnav_env.episodes.files import EpisodeFileError, read_episodes, write_episodes
+    from semnav_env.episodes.splits import SPLITS, Split, evenly, is_episodes, load_episodes
 
 __all__ = [
     "SPLITS",
@@ -17,3 +22,11 @@ __all__ = [
     "read_episodes",
     "write_episodes",
 ]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "files": ("EpisodeFileError", "read_episodes", "write_episodes"),
+        "splits": ("SPLITS", "Split", "evenly", "is_episodes", "load_episodes"),
+    },
+)

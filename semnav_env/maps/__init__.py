@@ -1,10 +1,15 @@
 """Floor plans: the geometry of a storey and the names of its doors and regions."""
 
+from typing import TYPE_CHECKING
+
+from semnav_env.lazy_names import lazy_names
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
-from semnav_env.maps.generator import DISTRIBUTIONS, OfficeSettings, generate_office
 from semnav_env.maps.library import bundled_names, load_floor_plan
 from semnav_env.maps.rules import FloorPlanError
-from semnav_env.maps.writer import save_floor_plan
+
+if TYPE_CHECKING:
+    from semnav_env.maps.generator import DISTRIBUTIONS, OfficeSettings, generate_office
+    from semnav_env.maps.writer import save_floor_plan
 
 __all__ = [
     "DISTRIBUTIONS",
@@ -20,3 +25,11 @@ __all__ = [
     "load_floor_plan",
     "save_floor_plan",
 ]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "generator": ("DISTRIBUTIONS", "OfficeSettings", "generate_office"),
+        "writer": ("save_floor_plan",),
+    },
+)

@@ -16,6 +16,9 @@ from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.rules import DoorRules
 from semnav_env.features.scene import Door, PlainWalls, StillScene
 
+OFFICE_PREFIX = "office"
+"""First part of the names of generated offices, as in "office:medium:17"."""
+
 
 class Material(StrEnum):
     """Material of a surface; glass stops the body but not the beam."""

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from rapidfuzz import process
 
-from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.generator.naming import OFFICE_PREFIX, office_named
+from semnav_env.maps.floor_plan import OFFICE_PREFIX, FloorPlan
 from semnav_env.maps.reader import read_plan
 from semnav_env.maps.rules import FloorPlanError, check_plan
 
@@ -75,6 +74,8 @@ def _bundled(name: str) -> FloorPlan:
 
 @lru_cache(maxsize=MAX_KEPT_OFFICES)
 def _office(name: str) -> FloorPlan:
+    from semnav_env.maps.generator.naming import office_named  # most environments need no office
+
     try:
         return office_named(name)
     except ValueError as error:

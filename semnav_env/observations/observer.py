@@ -82,6 +82,8 @@ class EntryObservation:
 
     Attributes:
         exact: whether lidar and odometry are to have no errors and the scene is the floor plan's.
+        row_size: how many numbers `write_row` writes; after `space`.
+        places: of the entries in that row, by name; after `space`.
 
     Raises:
         ValueError: no such mode, or a name that is taken.
@@ -100,8 +102,9 @@ class EntryObservation:
         """The Gymnasium space of what `observe` returns."""
         places = {e.name: slice(STARTS[e.name], STARTS[e.name] + e.size) for e in ENTRIES}
         places["scan"] = slice(ROW_SIZE, ROW_SIZE + lidar.beams)
-        self._size = ROW_SIZE + (lidar.beams if "scan" in self._names else 0)
-        self._split = itemgetter(*(places[name] for name in self._names))
+        self.row_size = ROW_SIZE + (lidar.beams if "scan" in self._names else 0)
+        self.places = {name: places[name] for name in self._names}
+        self._split = itemgetter(*self.places.values())
         spaces: dict[str, gym.Space[Any]] = {entry.name: entry.space for entry in ENTRIES}
         spaces |= {"scan": scan_space(lidar), "command": command_space()}
         chosen = {name: spaces[name] for name in MODES[self.mode]}
@@ -110,7 +113,7 @@ class EntryObservation:
     def observe(self, moment: Moment) -> dict[str, Array]:
         """The entries as fresh arrays."""
         belief, tracker, _, tokens = moment
-        row = np.empty(self._size, np.float32)
+        row = np.empty(self.row_size, np.float32)
         if belief is tracker.belief:
             write_row(row, tracker.senses)
         else:

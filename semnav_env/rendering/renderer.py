@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,19 +28,25 @@ class Renderer:
         """Begin a new episode: forget the trail."""
         self._trail = [start[:2]]
 
-    def note(self, pose: Pose) -> None:
-        """Add the place of the robot to the trail."""
-        self._trail.append(pose[:2])
+    def note(self, env: RenderedEnvironment, pose: Pose) -> None:
+        """Add the place of the robot to the trail, and show it in "human" mode."""
+        if env.render_mode is not None:
+            self._trail.append(pose[:2])
+        if env.render_mode == "human":
+            self.draw(env)
 
-    def draw(self, env: RenderedEnvironment, mode: str) -> NDArray[np.uint8] | None:
-        """The picture, or None in "human" mode, where it goes to a window."""
+    def draw(self, env: RenderedEnvironment) -> NDArray[np.uint8] | None:
+        """The picture, or None in "human" mode, where it goes to a window, and without a mode."""
+        if env.render_mode is None:
+            gym.logger.warn("render() does nothing: give render_mode to gymnasium.make")
+            return None
         from semnav_env.rendering.snapshot import snapshot  # most environments are never drawn
         from semnav_env.rendering.viewer import Viewer
 
         if self._viewer is None:
             self._viewer = Viewer(self._floor_plan, fps=env.metadata["render_fps"])
         frame = snapshot(env, self._trail)
-        if mode == "human":
+        if env.render_mode == "human":
             self._viewer.show(frame)
             return None
         return self._viewer.draw(frame)

@@ -27,10 +27,15 @@ from semnav_env.world import World
 class RenderedEnvironment(Protocol):
     """What of an environment is shown."""
 
+    render_mode: str | None
     tracker: BeliefTracker
-    belief: Belief
     judge: EpisodeJudge
     metadata: dict[str, Any]
+
+    @property
+    def belief(self) -> Belief:
+        """What the robot believes."""
+        ...
 
     @property
     def robot(self) -> RobotSpec:

@@ -121,6 +121,11 @@ class Simulator:
         """Control periods since the reset."""
         return int(self._record["step"][0])
 
+    @property
+    def motion(self) -> Motion:
+        """The true motion of the last control period."""
+        return self._sensed(TOUCHED if self.world.in_contact else 0).motion
+
     def reset(self, start: Pose, rng: np.random.Generator) -> Sensed:
         """Put the robot at rest at a pose, world frame; returns what it senses there.
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from semnav_env.commands import parse
 from semnav_env.episodes.episode import Episode, Expected
-from semnav_env.episodes.splits import load_episodes
 from semnav_env.features.validation import check_kind
 from semnav_env.tasks.request import EpisodeRequest
 
@@ -85,6 +84,8 @@ def spelled_out(request: EpisodeRequest, episodes: FrozenEpisodes | None) -> Epi
 
 def _read(episodes: object) -> Sequence[Episode]:
     if isinstance(episodes, str | Path):
+        from semnav_env.episodes.splits import load_episodes  # most environments need none
+
         return load_episodes(episodes)
     if not isinstance(episodes, Sequence):
         right = "the name of a split, the path of a file, or a list of Episodes"

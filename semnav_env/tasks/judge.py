@@ -85,10 +85,11 @@ class EpisodeJudge:
             "pose": self._motion.pose,
         }
 
-    @property
-    def end_info(self) -> dict[str, Any]:
-        """What is known at the end, for `info`."""
+    def conclude(self, truncated: bool) -> dict[str, Any]:
+        """End the episode, whose time may be over; returns what is known then, for `info`."""
         verifier = self.verifier
+        if truncated:
+            verifier.out_of_time()
         return {
             "is_success": verifier.success,
             "crossed_doors": tuple(verifier.crossed),

@@ -151,6 +151,15 @@ class World:
             demand_velocity(self.record)
             run_substeps_by_pymunk(self.record, self._space, self._control, self._body)
 
+    @property
+    def needs_python(self) -> bool:
+        """Whether `demand` and `arrive` have to be called, and not the compiled `drive` alone."""
+        return self.moving is not None or not self._compiled
+
+    def note_commands(self, commands: FloatArray) -> None:
+        """Take in the commands that were carried out without `demand`, shape (k, 3), in order."""
+        self._journal.extend(commands.ravel().tolist())
+
     def arrive(self) -> None:
         """Put an end to a control period for everything that moves besides the robot."""
         if self.moving is not None:

@@ -186,7 +186,7 @@ def test_a_belief_of_ones_own_is_observed_as_the_last_one_is(mode: str) -> None:
     env.reset(seed=5, options=START)
     for action in actions(12, 2):
         observation, *_ = env.step(action)
-    moment = Moment(env.belief, env.tracker, env.tracker.command, env._tokens)
+    moment = Moment(env.belief, env.tracker, env.tracker.command, env.tokens)
     copied = moment._replace(belief=env.belief._replace())
     again = env.observation_type.observe(copied)
     assert {k: v.tobytes() for k, v in again.items()} == {

@@ -57,7 +57,7 @@ def test_an_event_calls_for_thinking(pose: Pose, speed: float, seconds: float, e
         verifier.write(moved((3.4, 8.5, 0.0)))
         judge_motion(verifier.record)
     verifier.write(moved(pose, speed, seconds))
-    assert judge_motion(verifier.record) == event
+    assert judge_motion(verifier.record) & (DOOR_CROSSED | ASTRAY | TOO_STILL) == event
 
 
 @pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda j: pickle.loads(pickle.dumps(j))])

@@ -11,12 +11,9 @@ from numbers import Integral
 
 from rapidfuzz import process
 
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.floor_plan import OFFICE_PREFIX, FloorPlan
 from semnav_env.maps.generator.distributions import DISTRIBUTIONS
 from semnav_env.maps.generator.settings import OfficeSettings
-
-OFFICE_PREFIX = "office"
-"""First part of the names of generated offices."""
 
 CUSTOM_DISTRIBUTION = "custom"
 """Name that stands for settings which are those of no fixed distribution."""

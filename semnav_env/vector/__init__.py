@@ -1,0 +1,5 @@
+"""Many robots in one environment: the calls of a single one, over all of them, on threads."""
+
+from semnav_env.vector.vector_env import SemNavVectorEnv
+
+__all__ = ["SemNavVectorEnv"]

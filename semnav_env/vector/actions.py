@@ -1,0 +1,48 @@
+"""The actions of many robots as velocities."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.env import SemNavEnv
+from semnav_env.features.frames import FloatArray
+
+
+class TeamActions:
+    """Actions of several robots with one action space, see `Actions`.
+
+    Args:
+        envs: of the robots.
+    """
+
+    def __init__(self, envs: Sequence[SemNavEnv]) -> None:
+        self._shape = (len(envs), *(envs[0].action_space.shape or ()))
+        self._columns = [0, 2] if self._shape[1] == 2 else [0, 1, 2]
+        self._speeds = np.zeros((len(envs), 3))
+        for k, env in enumerate(envs):
+            self.renew(k, env)
+
+    def renew(self, index: int, env: SemNavEnv) -> None:
+        """Take in the body of a robot, which may be another one in each episode."""
+        robot = env.robot
+        self._speeds[index] = robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate
+
+    def twists(self, actions: NDArray[Any]) -> FloatArray:
+        """Actions as velocities, shape (n, 3).
+
+        Raises:
+            ValueError: they are not finite or have another shape.
+        """
+        shares = np.asarray(actions, dtype=np.float64)
+        if shares.shape != self._shape:
+            raise ValueError(f"the actions have shape {shares.shape}; it must be {self._shape}")
+        if not np.isfinite(shares).all():
+            raise ValueError("the actions must be finite, in [-1, 1]")
+        twists = np.zeros((len(shares), 3))
+        twists[:, self._columns] = np.clip(shares, -1.0, 1.0)
+        twists *= self._speeds
+        return twists

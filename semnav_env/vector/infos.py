@@ -1,0 +1,77 @@
+"""Infos of many robots, as Gymnasium's vector environments give them.
+
+Beside the array NAME stands the mask `_NAME`: which robots have that entry. A dictionary in an info
+becomes a dictionary of arrays.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Infos = dict[str, Any]
+
+
+def step_infos(
+    verdicts: NDArray[Any], periods: np.ndarray, terms: dict[str, Any], driven: NDArray[np.bool_]
+) -> Infos:
+    """What is known after each control period of the robots that were driven.
+
+    Args:
+        verdicts: of each robot.
+        periods: dtype `PERIOD`, shape (n,).
+        terms: of the rewards.
+        driven: which robots were driven.
+    """
+    names = ("collisions", "path_length", "in_contact", "pose")
+    entries: Infos = {"verdicts": _where(driven, verdicts)}
+    entries |= {name: _where(driven, periods[name]) for name in names}
+    return masked(entries | {"reward_terms": masked(terms, driven)}, driven)
+
+
+def masked(entries: Infos, mask: NDArray[np.bool_]) -> Infos:
+    """Entries with the same mask beside each of them."""
+    found: Infos = {}
+    for name, value in entries.items():
+        found[name], found[f"_{name}"] = value, mask.copy()
+    return found
+
+
+def info_of(infos: Infos, index: int) -> Infos:
+    """The info of one robot, in plain values."""
+    return {
+        name: _plain(value, index)
+        for name, value in infos.items()
+        if f"_{name}" in infos and infos[f"_{name}"][index]
+    }
+
+
+def without(infos: Infos, mask: NDArray[np.bool_]) -> Infos:
+    """Infos in which some robots have no entries."""
+    left: Infos = {}
+    for name, value in infos.items():
+        kept = infos[f"_{name}"] & ~mask if f"_{name}" in infos else mask & ~mask
+        if kept.any():
+            left[name] = without(value, mask) if isinstance(value, dict) else _where(kept, value)
+            left[f"_{name}"] = kept
+    return left
+
+
+def _where(mask: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[Any]:
+    """The values where the mask holds; zeros, or None, elsewhere."""
+    if mask.all():
+        return values.copy()
+    kept: NDArray[Any] = np.full(values.shape, None if values.dtype == object else 0, values.dtype)
+    kept[mask] = values[mask]
+    return kept
+
+
+def _plain(value: Any, index: int) -> Any:
+    if isinstance(value, dict):
+        return info_of(value, index)
+    item = value[index]
+    if isinstance(item, np.ndarray):
+        return tuple(item.tolist())
+    return item.item() if isinstance(item, np.generic) else item

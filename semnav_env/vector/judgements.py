@@ -1,0 +1,80 @@
+"""What became of many robots in one control period."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.env import SemNavEnv
+from semnav_env.features.frames import FloatArray
+from semnav_env.simulator.sensing import TOUCHED
+from semnav_env.tasks.judge import Judgement
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Judgements:
+    """One entry for each robot; zero for those that were not driven.
+
+    Attributes:
+        driven: which robots were driven.
+        thought: in which of them something happened.
+        progress: as in `Judgement`; so are clause, success and failure.
+        clause: whether a clause was completed.
+        success: whether the command was completed.
+        failure: whether the episode failed.
+        in_contact: whether the body touches anything.
+        terminated: whether the episode is over.
+        truncated: whether its time is over.
+    """
+
+    driven: Mask
+    thought: Mask
+    progress: FloatArray
+    clause: Mask
+    success: Mask
+    failure: Mask
+    in_contact: Mask
+    terminated: Mask
+    truncated: Mask
+
+    def judgement(self, index: int) -> Judgement:
+        """That of one robot."""
+        flags = (bool(each[index]) for each in (self.clause, self.success, self.failure))
+        return Judgement(float(self.progress[index]), *flags)
+
+
+def judge(envs: Sequence[SemNavEnv], periods: np.ndarray, driven: Mask) -> Judgements:
+    """Let minds and judges think where something happened, and say what became of all robots.
+
+    Args:
+        envs: of the robots.
+        periods: what the compiled calls said, dtype `PERIOD`, shape (n,).
+        driven: which robots were driven.
+    """
+    progress = np.where(driven, periods["progress"], 0.0)
+    clause, success, failure, terminated = np.zeros((4, len(envs)), dtype=bool)
+    events = periods["sensed"] | periods["understood"] | periods["judged"]
+    thought = driven & (events != 0)
+    for k in np.flatnonzero(thought).tolist():
+        progress[k], clause[k], success[k], failure[k] = _think(envs[k], periods[k])
+        terminated[k] = envs[k].judge.verifier.over
+    latest = np.array([env.max_steps for env in envs])
+    truncated = driven & ~terminated & (periods["steps"] >= latest)
+    in_contact = driven & periods["in_contact"]
+    flags = (clause, success, failure, in_contact, terminated, truncated)
+    return Judgements(driven, thought, progress, *flags)
+
+
+def _think(env: SemNavEnv, period: Any) -> Judgement:
+    """Do what the events of one robot call for."""
+    understood = int(period["understood"])
+    bumps = env.world.touches if period["sensed"] & TOUCHED else []
+    if understood or bumps:
+        env.tracker.think(understood, bumps)
+    return env.judge.think(int(period["judged"]))

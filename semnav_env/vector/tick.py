@@ -1,0 +1,98 @@
+"""One control period of many robots, and their observations, in compiled calls.
+
+Each robot is driven, understands and is judged by the kernels that a single environment calls, one
+robot after the other; robots share nothing, so any part of the list can run in any thread.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from semnav_env.belief.understand import understand
+from semnav_env.features.frames import FloatArray
+from semnav_env.observations.row import write_row
+from semnav_env.simulator.sensing import TOUCHED, sense
+from semnav_env.vector.robot_arrays import RobotArrays
+from semnav_env.verifier.judge_record import judge_motion
+
+PERIOD = np.dtype(
+    [(name, "i8") for name in ("sensed", "understood", "judged", "steps", "collisions")]
+    + [("pose", "f8", 3), ("path_length", "f8"), ("progress", "f8"), ("in_contact", "?")]
+)
+"""What became of one robot in one control period.
+
+The events of `sense`, `understand` and `judge_motion`; control periods since the reset; contacts
+begun since then; the true pose, world frame; metres driven since the reset; metres by which the
+way to the goal got shorter; whether the body touches anything.
+"""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def tick(
+    robots: Any,
+    first: int,
+    last: int,
+    twists: FloatArray,
+    driven: NDArray[np.bool_],
+    seconds: float,
+    periods: np.ndarray,
+) -> None:
+    """Drive some of the robots for one control period, let them understand, and judge them.
+
+    Args:
+        robots: list of `RobotArrays`.
+        first: index of the first one to drive.
+        last: index behind the last one.
+        twists: demanded velocities of all robots, shape (n, 3).
+        driven: which robots are to be driven at all, shape (n,).
+        seconds: duration of a control period.
+        periods: dtype `PERIOD`, shape (n,); written for those that are driven.
+    """
+    for k in range(first, last):
+        if driven[k]:
+            _tick_robot(robots[k], twists[k], seconds, periods[k])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def write_rows(robots: Any, first: int, last: int, rows: NDArray[np.float32]) -> None:
+    """Write the observations of some of the robots, see `write_row`; rows has one for each."""
+    for k in range(first, last):
+        write_row(rows[k], robots[k].senses)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _tick_robot(robot: RobotArrays, twist: FloatArray, seconds: float, period: Any) -> None:
+    command = robot.simulator.drive[0].command
+    command.forward, command.left, command.turn = twist[0], twist[1], twist[2]
+    period.sensed = sense(robot.simulator)
+    _hand_over(robot, period.sensed & TOUCHED, seconds)
+    period.understood = understand(robot.senses)
+    period.judged = judge_motion(robot.judge)
+    motion, judged = robot.simulator.sensing[0], robot.judge.state[0]
+    period.pose[0], period.pose[1], period.pose[2] = judged.x, judged.y, judged.heading
+    period.steps, period.in_contact = motion.step, judged.in_contact != 0
+    period.collisions, period.path_length = judged.collisions, judged.path_length
+    period.progress = judged.progress
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _hand_over(robot: RobotArrays, in_contact: int, seconds: float) -> None:
+    """Give what was sensed to the robot's mind, and the true motion to its judge."""
+    sensing, estimate, state = (
+        robot.simulator.sensing[0],
+        robot.senses.estimate[0],
+        robot.judge.state[0],
+    )
+    robot.senses.ranges[:] = robot.simulator.ranges
+    pose, velocity, odometry = sensing.pose, sensing.velocity, sensing.odometry
+    estimate.odometry[0], estimate.odometry[1] = odometry.x, odometry.y
+    estimate.odometry[2], estimate.seconds = odometry.heading, seconds
+    estimate.velocity[0], estimate.velocity[1] = velocity.forward, velocity.left
+    estimate.velocity[2] = velocity.turn
+    state.x, state.y, state.heading = pose.x, pose.y, pose.heading
+    state.speed, state.yaw_rate = sensing.speed, velocity.turn
+    state.in_contact, state.seconds = in_contact, seconds

@@ -1,0 +1,261 @@
+"""The vector environment: many robots, one call."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from semnav_env.env import SemNavEnv
+from semnav_env.vector.actions import TeamActions
+from semnav_env.vector.infos import Infos, info_of, step_infos, without
+from semnav_env.vector.judgements import Mask, judge
+from semnav_env.vector.observations import TeamObservations, team_observations
+from semnav_env.vector.rewards import team_rewards
+from semnav_env.vector.team import Team
+
+Arrays = NDArray[Any]
+
+
+class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
+    """Many `SemNavEnv` at once.
+
+        envs = gym.make_vec("semnav_env:SemNav-v0", num_envs=64,
+                            vectorization_mode="vector_entry_point")
+
+    Every robot observes, bit for bit, what it would observe in an environment of its own, whatever
+    the number of threads. Physics, lidar, understanding and judging run in compiled code, thread by
+    thread; Python is asked only where something has happened.
+
+    Infos are arrays with one entry for each robot, and beside each NAME a mask `_NAME`, as
+    Gymnasium has them. "pose" has shape (n, 3).
+
+    Args:
+        num_envs: how many robots.
+        each: arguments of `SemNavEnv` that differ, one mapping for each robot.
+        threads: as many as there are cores if not given; 1 for none beside the caller's.
+        autoreset_mode: when a robot whose episode is over begins the next one: in the next step, in
+            the same one, or not by itself.
+        options: arguments of `SemNavEnv` for all robots.
+
+    Attributes:
+        envs: the single environments; they are stepped together only.
+
+    Raises:
+        ValueError: as `SemNavEnv`; or the environments' spaces or control rates differ.
+    """
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        *,
+        each: Sequence[Mapping[str, Any]] | None = None,
+        threads: int | None = None,
+        autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
+        **options: Any,
+    ) -> None:
+        each = [{}] * num_envs if each is None else each
+        if num_envs < 1 or len(each) != num_envs:
+            raise ValueError(
+                f"num_envs is {num_envs} and each has {len(each)} entries; "
+                "there must be one for each of at least one robot"
+            )
+        if threads is not None and threads < 1:
+            raise ValueError(f"threads is {threads}; it must be at least 1")
+        self.num_envs, self._threads = num_envs, threads
+        self.envs = [SemNavEnv(**{**options, **own}) for own in each]
+        first = self.envs[0]
+        _check_alike(self.envs)
+        self._mode = AutoresetMode(autoreset_mode)
+        self.metadata = first.metadata | {"autoreset_mode": self._mode}
+        self.render_mode = first.render_mode
+        self.single_action_space = first.action_space
+        self.single_observation_space = first.observation_space
+        self.action_space = batch_space(first.action_space, num_envs)
+        self.observation_space = batch_space(first.observation_space, num_envs)
+        self._actions = TeamActions(self.envs)
+        self._rewards = team_rewards(self.envs)
+        self._over = np.zeros(num_envs, dtype=bool)
+        self._verdicts = np.full(num_envs, None, dtype=object)
+        self._team: Team | None = None
+        self._observations: TeamObservations
+
+    def reset(
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begin episodes.
+
+        Args:
+            seed: of the first robot, those of the others count on; or one for each.
+            options: of `SemNavEnv.reset`, for all robots; besides "each", one mapping (or None) for
+                each robot, and "reset_mask", which of them are to begin anew.
+
+        Raises:
+            ValueError: as `SemNavEnv.reset`; or lists of another length.
+        """
+        seeds = self._one_each("seed", _seeds(seed, self.num_envs))
+        common = dict(options or {})
+        mask = np.asarray(common.pop("reset_mask", np.ones(self.num_envs, dtype=bool)))
+        if mask.shape != (self.num_envs,) or mask.dtype != bool or not mask.any():
+            raise ValueError(f"reset_mask must be {self.num_envs} booleans, not all False")
+        own = self._one_each("each", common.pop("each", [None] * self.num_envs))
+        if self._team is None and not mask.all():
+            raise ValueError("the first reset must be of all robots: leave reset_mask away")
+        infos: Infos = {}
+        for k in _indices(mask):
+            infos = self._begin(infos, k, seeds[k], {**common, **(own[k] or {})} or None)
+        if self._team is None:
+            self._gather()
+        return self._observations.observe(self._gathered), infos
+
+    def step(self, actions: Arrays) -> tuple[Any, Arrays, Arrays, Arrays, dict[str, Any]]:
+        """Drive all robots for one control period; those that begin anew stand still.
+
+        Raises:
+            ValueError: the actions are not finite or have another shape.
+            RuntimeError: before the first `reset`.
+        """
+        if self._team is None:
+            raise RuntimeError("call reset() before step()")
+        twists, driven = self._actions.twists(actions), ~self._over
+        if self._mode is AutoresetMode.DISABLED and not driven.all():
+            raise RuntimeError(f"robots {np.flatnonzero(self._over)} must be reset first")
+        self._team.drive(twists, driven)
+        judged = judge(self.envs, self._team.periods, driven)
+        terms = self._rewards.terms(judged, actions)
+        rewards = sum(terms.values(), start=np.zeros(self.num_envs))
+        begin, over = self._over, judged.terminated | judged.truncated
+        ends = {k: self.envs[k].conclude(bool(judged.truncated[k])) for k in _indices(over)}
+        for k in _indices(judged.thought | over):
+            self._verdicts[k] = self.envs[k].judge.verifier.verdicts
+        infos = step_infos(self._verdicts, self._team.periods, terms, driven)
+        for k, end in ends.items():
+            infos = self._add_info(infos, end, k)
+        self._over = over
+        if self._mode is AutoresetMode.SAME_STEP:
+            begin, self._over = over, np.zeros_like(over)
+            infos = self._final(infos, over)
+        for k in _indices(begin):
+            infos = self._begin(infos, k)
+        if self.render_mode is not None:
+            self._show(driven)
+        observations = self._observations.observe(self._team)
+        return observations, rewards, judged.terminated, judged.truncated, infos
+
+    def render(self) -> tuple[Any, ...]:
+        """The picture of each robot."""
+        return tuple(env.render() for env in self.envs)
+
+    def call(self, name: str, *arguments: Any, **options: Any) -> tuple[Any, ...]:
+        """What a method of each single environment returns, or the value of an attribute."""
+        found = [env.get_wrapper_attr(name) for env in self.envs]
+        return tuple(each(*arguments, **options) if callable(each) else each for each in found)
+
+    def get_attr(self, name: str) -> tuple[Any, ...]:
+        """The value of an attribute of each single environment."""
+        return self.call(name)
+
+    def set_attr(self, name: str, values: Any) -> None:
+        """Set an attribute of the single environments: a list with one for each, or one value."""
+        values = values if isinstance(values, list | tuple) else [values] * self.num_envs
+        for env, value in zip(self.envs, self._one_each("values", values), strict=True):
+            env.set_wrapper_attr(name, value)
+
+    def close_extras(self, **_: Any) -> None:
+        """Stop the threads and close the windows."""
+        if self._team is not None:
+            self._team.close()
+        for env in self.envs:
+            env.close()
+
+    def __getstate__(self) -> dict[str, Any]:
+        if self._team is not None:
+            self._team.hand_over_log()
+        return self.__dict__ | {"_team": None if self._team is None else self._team.periods}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        periods = state["_team"]
+        if periods is not None:
+            self._gather()
+            self._gathered.periods[:] = periods
+
+    @property
+    def _gathered(self) -> Team:
+        assert self._team is not None
+        return self._team
+
+    def _gather(self) -> None:
+        """Take in all robots, which have been reset."""
+        self._team = Team(self.envs, self._threads)
+        self._observations = team_observations(self.envs)
+
+    def _begin(
+        self,
+        infos: Infos,
+        index: int,
+        seed: int | None = None,
+        options: dict[str, Any] | None = None,
+    ) -> Infos:
+        """Reset one robot; returns the infos with its own."""
+        env = self.envs[index]
+        _, info = env.reset(seed=seed, options=options)
+        self._over[index] = False
+        self._verdicts[index] = env.judge.verifier.verdicts
+        self._actions.renew(index, env)
+        if self._team is not None:
+            self._team.renew(index)
+            self._observations.renew(index, env)
+        if "pose" not in infos:
+            infos = infos | {"pose": np.zeros((self.num_envs, 3))}
+        return self._add_info(infos, info, index)
+
+    def _final(self, infos: Infos, over: Mask) -> Infos:
+        """Infos in which what is known of episodes that are over is said to be final."""
+        finals = {k: info_of(infos, k) for k in _indices(over)}
+        infos = without(infos, over) if finals else infos
+        for k, info in finals.items():
+            final = {"final_obs": self.envs[k].observe(), "final_info": info}
+            infos = self._add_info(infos, final, k)
+        return infos
+
+    def _show(self, driven: Mask) -> None:
+        """Let pictures go on, and windows show them."""
+        for k in _indices(driven):
+            self.envs[k].renderer.note(self.envs[k], self.envs[k].world.pose)
+
+    def _one_each(self, name: str, values: Sequence[Any]) -> Sequence[Any]:
+        if len(values) != self.num_envs:
+            raise ValueError(f"{name} has {len(values)} entries for {self.num_envs} robots")
+        return values
+
+
+def _indices(mask: Mask) -> list[int]:
+    indices: list[int] = np.flatnonzero(mask).tolist()
+    return indices
+
+
+def _seeds(seed: int | Sequence[int | None] | None, count: int) -> Sequence[int | None]:
+    if seed is None:
+        return [None] * count
+    return [seed + k for k in range(count)] if isinstance(seed, int) else seed
+
+
+def _check_alike(envs: Sequence[SemNavEnv]) -> None:
+    """Refuse environments that cannot be stepped together."""
+    first = envs[0]
+    for k, env in enumerate(envs):
+        for name, own, usual in (
+            ("action space", env.action_space, first.action_space),
+            ("observation space", env.observation_space, first.observation_space),
+            ("control rate", env.setup.control_hz, first.setup.control_hz),
+        ):
+            if own != usual:
+                raise ValueError(f"robot {k} has the {name} {own}; robot 0 has {usual}")
