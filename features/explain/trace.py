@@ -61,7 +61,8 @@ class Trace:
             directions = scratch.circle_directions[: 2 * beams_per_turn]
         else:
             given, record = scan.ranges[:beams].copy(), settings.as_record()[0]
-            ranges = filter_ranges(given, increment, scan.range_min, limit, 0, record, scratch)
+            filter_ranges(given, increment, scan.range_min, limit, 0, record, scratch)
+            ranges = scratch.filtered[:beams]
         found = (beams_per_turn, settings, scratch, features)
         return cls(ranges, directions, increment, scan.range_min, limit, *found)
 

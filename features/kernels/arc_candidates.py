@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
 from semnav_env.features.kernels.lines import offset
 
@@ -31,7 +31,7 @@ MIN_BOW = 0.25 * 0.25 / 8.0
 quarter of the expected s / 4 with s = c^2 / (8 R)."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def end_of_run(first: int, count: int, settings: Any, pieces: np.ndarray) -> tuple[int, float]:
     """Last piece of the run that begins with `first`, and its heading change as a sum of sines.
 
@@ -52,7 +52,7 @@ def end_of_run(first: int, count: int, settings: Any, pieces: np.ndarray) -> tup
     return last, heading_change
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def turn_sine(a: Any, b: Any, settings: Any) -> float:
     """Sine of the heading change between two pieces that may be chords of one circle, else 0.
 
@@ -69,14 +69,14 @@ def turn_sine(a: Any, b: Any, settings: Any) -> float:
     return float(sine) if fits & meets & (cosine >= MIN_TURN_COSINE) else 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def chord(piece: Any) -> float:
     """Length of a piece, metres."""
     dx, dy = piece.end_x - piece.start_x, piece.end_y - piece.start_y
     return float(dx * piece.along_x + dy * piece.along_y)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_bent_like_arc(
     first: int, last: int, heading_change: float, settings: Any, scratch: Any
 ) -> bool:
@@ -106,7 +106,7 @@ def is_bent_like_arc(
     return bool(bow >= MIN_BOW * expected * extent / length)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def may_be_column(piece: Any, settings: Any) -> bool:
     """Whether a piece stands free at both ends and is uneven: perhaps a thin column."""
     uneven = (MIN_COLUMN_SCATTER * settings.sigma) ** 2 * piece.points

@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.lines import offset
 
 RESIDUAL_FLOOR = 0.1
 """Residuals below this share of sigma do not make a fit better: it keeps the logarithm finite."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def straight_scatter(start: int, end: int, first: int, last: int, scratch: Any) -> float:
     """Sum of squared distances of points first to last from the nearer of the pieces beside them.
 
@@ -32,7 +31,7 @@ def straight_scatter(start: int, end: int, first: int, last: int, scratch: Any) 
     return total
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_arc(arc: Any, straight: float, lines: int, settings: Any) -> bool:
     """Whether an arc is round enough, and explains its points better than straight lines do.
 
@@ -56,7 +55,7 @@ def is_arc(arc: Any, straight: float, lines: int, settings: Any) -> bool:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def extent(arc: Any) -> float:
     """Angle that an arc spans about its centre, radians; see `elements.Arc.extent`."""
     ax, ay = arc.start_x - arc.centre_x, arc.start_y - arc.centre_y

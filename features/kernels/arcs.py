@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.arc_candidates import end_of_run, is_bent_like_arc, may_be_column
@@ -18,6 +17,7 @@ from semnav_env.features.kernels.circles import (
     circle_residuals,
     refine_circle,
 )
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.layout import ROUND
 
 MAX_CIRCLE_DEVIATIONS = 3.0
@@ -27,7 +27,7 @@ EDGE_DEVIATION = 0.25
 """Standard deviation of where a beam ends at an edge, on top of its spacing, in sigma."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_arcs(
     directions: FloatArray, groups: int, pieces: int, settings: Any, scratch: Any, arcs: np.ndarray
 ) -> int:
@@ -52,7 +52,7 @@ def find_arcs(
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def explain_run(
     directions: FloatArray,
     groups: int,
@@ -91,7 +91,7 @@ def explain_run(
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def piece_before_cut(start: int, end: int, worst: int, pieces: np.ndarray) -> int:
     """The piece with the worst point, after which a run is cut; never the last of the run."""
     cut = start
@@ -100,7 +100,7 @@ def piece_before_cut(start: int, end: int, worst: int, pieces: np.ndarray) -> in
     return cut
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def try_arc(
     directions: FloatArray,
     groups: int,
@@ -136,13 +136,13 @@ def try_arc(
     return -1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_convex_at(circle: tuple[float, float, float], x: float, y: float) -> bool:
     """Whether a circle bulges towards the scanner at its point (x, y)."""
     return (circle[0] - x) * x + (circle[1] - y) * y > 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def grow_run(
     circle: tuple[float, float, float],
     piece: int,
@@ -183,14 +183,14 @@ def grow_run(
     return taken, reached
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_on_circle(circle: tuple[float, float, float], x: float, y: float, settings: Any) -> bool:
     """Whether a point is as near to a circle as noise lets its points be."""
     distance = math.hypot(x - circle[0], y - circle[1]) - circle[2]
     return bool(abs(distance) <= MAX_CIRCLE_DEVIATIONS * settings.sigma)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def edge_ray(
     point: int, step: int, directions: FloatArray, groups: int, settings: Any, scratch: Any
 ) -> Ray:
@@ -225,7 +225,7 @@ def edge_ray(
     return step * y / size, -step * x / size, noise / variance
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def write_arc(
     circle: tuple[float, float, float],
     first: int,

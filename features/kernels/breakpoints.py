@@ -15,8 +15,7 @@ from __future__ import annotations
 import math
 from typing import Any, TypeAlias
 
-from numba import njit
-
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.strategies import BreakpointRule
 
 ThresholdTerms: TypeAlias = tuple[float, float, float, float]
@@ -30,7 +29,7 @@ _LEE = int(BreakpointRule.LEE)
 _WEERAKOON = int(BreakpointRule.WEERAKOON)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def breakpoint_terms(angle: float, settings: Any) -> ThresholdTerms:
     """The coefficients of the rule in the settings, for two beams that are `angle` apart."""
     rule = settings.breakpoint_rule
@@ -49,7 +48,7 @@ def breakpoint_terms(angle: float, settings: Any) -> ThresholdTerms:
     return certad(angle, settings)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def incidence_factor(angle: float, breakpoint_angle: float) -> float:
     """sin(da) / sin(lambda - da): the law of sines in the triangle of two beams and a wall.
 
@@ -61,13 +60,13 @@ def incidence_factor(angle: float, breakpoint_angle: float) -> float:
     return math.sin(angle) / math.sin(max(breakpoint_angle, 2.0 * angle) - angle)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def constant(settings: Any) -> ThresholdTerms:
     """D = C0: what the papers start from (Weerakoon (3))."""
     return 0.0, 0.0, 0.0, settings.breakpoint_distance
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def borges_aldon(angle: float, settings: Any) -> ThresholdTerms:
     """D = r_n sin(da) / sin(lambda - da) + 3 sigma (Weerakoon (5), Barbret (2.3)).
 
@@ -78,7 +77,7 @@ def borges_aldon(angle: float, settings: Any) -> ThresholdTerms:
     return 0.0, 0.0, incidence_factor(angle, settings.breakpoint_angle), 3.0 * settings.sigma
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def certad(angle: float, settings: Any) -> ThresholdTerms:
     """D = min(r_n, r_n+1) sin(da) / sin(lambda - da) + 3 sigma (Weerakoon (6)).
 
@@ -88,7 +87,7 @@ def certad(angle: float, settings: Any) -> ThresholdTerms:
     return incidence_factor(angle, settings.breakpoint_angle), 0.0, 0.0, 3.0 * settings.sigma
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def dietmayer(angle: float, settings: Any) -> ThresholdTerms:
     """D = C0 + C1 min(r_n, r_n+1), C1 = sqrt(2 (1 - cos da)) (Weerakoon (7)).
 
@@ -98,7 +97,7 @@ def dietmayer(angle: float, settings: Any) -> ThresholdTerms:
     return 2.0 * abs(math.sin(0.5 * angle)), 0.0, 0.0, settings.breakpoint_distance
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def santos(angle: float, settings: Any) -> ThresholdTerms:
     """D = C0 + C1 min(r_n, r_n+1) / (cot(beta) (cos(da / 2) - sin(da / 2))) (Weerakoon (8)).
 
@@ -114,7 +113,7 @@ def santos(angle: float, settings: Any) -> ThresholdTerms:
     return 2.0 * math.sin(half) / divisor, 0.0, 0.0, settings.breakpoint_distance
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def lee(angle: float, settings: Any) -> ThresholdTerms:
     """|r_n - r_n+1| / (r_n + r_n+1) <= k (after Weerakoon (9)).
 
@@ -128,7 +127,7 @@ def lee(angle: float, settings: Any) -> ThresholdTerms:
     return math.sqrt(max(squared, 0.0)), 0.0, 0.0, 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def weerakoon(angle: float, settings: Any) -> ThresholdTerms:
     """D = min (1 - 3 s) sin(da) / sin(lambda - da) + 3 s max (Weerakoon (12)).
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.arcs import find_arcs
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.corners import find_corners
 from semnav_env.features.kernels.corridor_probes import find_corridors
 from semnav_env.features.kernels.doors import find_doors
@@ -30,7 +30,7 @@ from semnav_env.features.kernels.segmentation import group_points
 from semnav_env.features.kernels.walls import fit_pieces, flag_pieces, select_walls
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def extract_arrays(
     ranges: FloatArray,
     directions: FloatArray,
@@ -69,9 +69,8 @@ def extract_arrays(
     features = Features(walls, doors, corners, corridors, arcs, counts)
     beams_per_turn = count_beams_per_turn(len(ranges), increment, settings.dropout_beams)
     if settings.veil_angle > 0.0 or settings.median_beams > 0:
-        ranges = filter_ranges(
-            ranges, increment, range_min, limit, beams_per_turn, settings, scratch
-        )
+        filter_ranges(ranges, increment, range_min, limit, beams_per_turn, settings, scratch)
+        ranges = scratch.filtered[: len(ranges)]
     beams = beams_per_turn if beams_per_turn > 0 else len(ranges)
     sweep, rays = ranges[:beams], directions[:beams]
     groups, pieces = find_pieces(sweep, rays, increment, range_min, limit, 0, settings, scratch)
@@ -106,7 +105,7 @@ def extract_arrays(
         renumber_beams(arcs, counts[ARCS], beams_per_turn, seam)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_pieces(
     ranges: FloatArray,
     directions: FloatArray,
@@ -131,7 +130,7 @@ def find_pieces(
     return groups, merge_pieces(pieces, settings, scratch)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_features(
     ranges: FloatArray,
     directions: FloatArray,

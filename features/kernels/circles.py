@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.normal_equations import solve_step
 
 Ray: TypeAlias = tuple[float, float, float]
@@ -28,7 +27,7 @@ MIN_SQUARED_COSINE = 0.1
 """Added to the squared cosine of the incidence: no point is exact, however grazing its beam."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def algebraic_circle(
     xs: FloatArray, ys: FloatArray, first: int, last: int
 ) -> tuple[float, float, float]:
@@ -65,7 +64,7 @@ def algebraic_circle(
     return mean_x + x, mean_y + y, math.sqrt(x * x + y * y + xx + yy)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def taubin_root(xx: float, xy: float, yy: float, xz: float, yz: float, zz: float) -> float:
     """Smallest root, from below, of the characteristic polynomial of Taubin's fit."""
     z = xx + yy
@@ -82,7 +81,7 @@ def taubin_root(xx: float, xy: float, yy: float, xz: float, yz: float, zz: float
     return root
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def refine_circle(
     xs: FloatArray,
     ys: FloatArray,
@@ -102,7 +101,7 @@ def refine_circle(
     return circle
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def gauss_newton(
     xs: FloatArray,
     ys: FloatArray,
@@ -146,7 +145,7 @@ def gauss_newton(
     return solve_step((x, y, radius), (xx, xy, yy, xr, yr, rr), (bx, by, br))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def circle_residuals(
     xs: FloatArray, ys: FloatArray, first: int, last: int, circle: tuple[float, float, float]
 ) -> tuple[float, int]:

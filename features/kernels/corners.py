@@ -6,10 +6,10 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.elements import CornerKind
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
 
 OUTER, INNER, POTENTIAL = int(CornerKind.OUTER), int(CornerKind.INNER), int(CornerKind.POTENTIAL)
@@ -23,7 +23,7 @@ PARTNER_TRIALS = 3
 of the corner, may come first."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_corners(
     count: int, is_ring: bool, settings: Any, scratch: Any, corners: np.ndarray
 ) -> int:
@@ -63,7 +63,7 @@ def find_corners(
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def join_ends(count: int, is_ring: bool, settings: Any, scratch: Any) -> None:
     """Pair the end of every wall with the start of the wall it meets, nearest in order first.
 
@@ -86,7 +86,7 @@ def join_ends(count: int, is_ring: bool, settings: Any, scratch: Any) -> None:
                 joints[k].kind, joints[k].x, joints[k].y = kind, x, y
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def meets_near(x: float, y: float, count: int, settings: Any, joints: np.ndarray) -> bool:
     """Whether a full corner that was found already is at this place."""
     for k in range(count):
@@ -96,13 +96,13 @@ def meets_near(x: float, y: float, count: int, settings: Any, joints: np.ndarray
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_same_place(dx: float, dy: float, settings: Any) -> bool:
     """Whether two corners that far apart are one."""
     return bool(dx * dx + dy * dy < settings.corner_fuse**2)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def full_corner(a: Any, b: Any, settings: Any) -> tuple[int, float, float]:
     """Kind and place of the corner where one wall ends and a later one starts.
 
@@ -137,7 +137,7 @@ def full_corner(a: Any, b: Any, settings: Any) -> tuple[int, float, float]:
     return kind, a.end_x + past_a * a.along_x, a.end_y + past_a * a.along_y
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def write_potential(
     found: int,
     x: float,
@@ -159,7 +159,7 @@ def write_potential(
     return write_corner(found, x, y, POTENTIAL, ending, starting, corner_ends, corners)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def write_corner(
     found: int,
     x: float,

@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.corners import INNER, OUTER
 from semnav_env.features.kernels.segmentation import is_return
 
@@ -22,7 +22,7 @@ ROUNDING_MARGIN = 1e-6
 """More than rounding can add to a distance, metres."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_corridors(
     ranges: FloatArray,
     directions: FloatArray,
@@ -70,14 +70,14 @@ def find_corridors(
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_remote(corner: Any, settings: Any) -> bool:
     """Whether no probe of a corner can have its midpoint near enough."""
     farthest = settings.corridor_distance_max + 0.5 * settings.corridor_probe
     return bool(corner.x**2 + corner.y**2 > farthest**2)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def probe_direction(
     kind: int, ending: int, starting: int, probe: int, scratch: Any
 ) -> tuple[float, float]:
@@ -93,7 +93,7 @@ def probe_direction(
     return sense * wall.along_x, sense * wall.along_y
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_near_walls(
     corner: Any, ending: int, starting: int, walls: int, settings: Any, scratch: Any
 ) -> int:
@@ -114,7 +114,7 @@ def find_near_walls(
     return near
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def nearest_wall(
     x: float,
     y: float,
@@ -154,7 +154,7 @@ def nearest_wall(
     return float(-NOT_SQUARE if is_any else -NO_WALL_MET)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def corridor_fault(entry: Any, settings: Any) -> int:
     """`TOO_NARROW`, or `TOO_NEAR` or `TOO_FAR` for where its midpoint is; 0 if nothing is wrong."""
     width = math.hypot(entry.end_x - entry.start_x, entry.end_y - entry.start_y)
@@ -166,7 +166,7 @@ def corridor_fault(entry: Any, settings: Any) -> int:
     return TOO_FAR if away > settings.corridor_distance_max else 0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def view_fault(
     entry: Any,
     ranges: FloatArray,
@@ -190,7 +190,7 @@ def view_fault(
     return 0 if is_free else HIDDEN
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def repeat_fault(entry: Any, found: int, corridors: np.ndarray, settings: Any) -> int:
     """`REPEATED` if one found before has its midpoint within half the least width; else 0."""
     least = settings.corridor_half_width

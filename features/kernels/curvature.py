@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.lines import split_further
 
 MIN_TURN = math.radians(20.0)
@@ -21,7 +20,7 @@ NEXT_STEP, PREVIOUS_STEP, ARM_AHEAD, ARM_BEHIND, CURVATURE, MIN_CURVATURE = rang
 curvature, and that of the least turn which counts."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def cut_where_it_turns(
     xs: FloatArray, ys: FloatArray, first: int, last: int, settings: Any, scratch: Any
 ) -> int:
@@ -62,7 +61,7 @@ def cut_where_it_turns(
     return int(split_further(xs, ys, first, corners + 1, limit, scratch.stack, scratch.vertices))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def step_from(xs: FloatArray, ys: FloatArray, i: int, end: int, way: int, length: float) -> int:
     """The first point from i towards `end` that is `length` away, or `end` if none is."""
     k = i
@@ -73,7 +72,7 @@ def step_from(xs: FloatArray, ys: FloatArray, i: int, end: int, way: int, length
     return k
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def arm_from(
     xs: FloatArray, ys: FloatArray, first: int, i: int, column: int, slack: float, table: FloatArray
 ) -> int:
@@ -87,7 +86,7 @@ def arm_from(
         at = to
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def write_curvature(
     xs: FloatArray, ys: FloatArray, first: int, i: int, settings: Any, table: FloatArray
 ) -> None:
@@ -110,7 +109,7 @@ def write_curvature(
     table[i - first, MIN_CURVATURE] = 1.0 - math.cos(least)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_peaks(first: int, last: int, table: FloatArray, peaks: Any) -> int:
     """Write the sharpest of every run of points that turn enough; returns how many.
 
@@ -130,7 +129,7 @@ def find_peaks(first: int, last: int, table: FloatArray, peaks: Any) -> int:
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def drop_shoulders(first: int, count: int, table: FloatArray, peaks: Any) -> int:
     """Drop peaks with a sharper one beside them within their arms; returns how many are left.
 

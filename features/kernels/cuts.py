@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.curvature import cut_where_it_turns
 from semnav_env.features.kernels.lines import split
 from semnav_env.features.kernels.optimal_partition import PIECE_PRICE, partition
@@ -16,7 +15,7 @@ _DYNAMIC = int(Segmentation.DYNAMIC)
 _CURVATURE = int(Segmentation.CURVATURE)
 
 
-@njit(cache=True, error_model="numpy", inline="always")  # handing over scratch takes 0.1 us
+@kernel
 def cut(xs: FloatArray, ys: FloatArray, first: int, last: int, settings: Any, scratch: Any) -> int:
     """Cut points first to last; returns how many cuts were written to `scratch.vertices`.
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.lines import offset
 from semnav_env.features.kernels.segmentation import is_return
 
@@ -47,7 +46,7 @@ MIN_INCIDENCE_SINE = 0.02
 far apart there."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def measure_gap(
     ranges: FloatArray,
     directions: FloatArray,
@@ -100,7 +99,7 @@ def measure_gap(
     return True
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def reach_beyond(
     ranges: FloatArray,
     directions: FloatArray,
@@ -119,7 +118,7 @@ def reach_beyond(
     return float(ranges[beam] - gap.distance / slant)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def measure_walls(
     ranges: FloatArray,
     directions: FloatArray,
@@ -145,7 +144,7 @@ def measure_walls(
     evidence.missing_wall_less = min(missing_before, missing_after)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def measure_place(gap: Any, along_x: float, along_y: float, length: float, evidence: Any) -> None:
     """Measure width, place, and direction relative to the scan's longest wall.
 
@@ -169,7 +168,7 @@ def measure_place(gap: Any, along_x: float, along_y: float, length: float, evide
     evidence.longest_wall = min(length, MAX_WALL_LENGTH)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def missing_wall(
     ranges: FloatArray,
     directions: FloatArray,
@@ -221,7 +220,7 @@ def missing_wall(
     return missing
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def wall_misfit(
     gap: Any, step: int, pieces: int, settings: Any, scratch: Any
 ) -> tuple[float, float]:
@@ -266,14 +265,14 @@ def wall_misfit(
     return best, length
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def misfit_at(wall: Any, x: float, y: float, allowance: float, settings: Any) -> float:
     """Distance of a point from a wall's line as a share of what is allowed there."""
     allowed = allowance + settings.confidence * line_deviation(wall, x, y, settings.sigma)
     return float(abs(offset(wall, x, y)) / max(allowed, 1e-9))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def line_deviation(piece: Any, x: float, y: float, sigma: float) -> float:
     """Standard deviation of a fitted line, across itself, beside (x, y), metres.
 

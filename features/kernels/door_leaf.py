@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.layout import AT_END, AT_START, NO_LEAF
 
 MAX_HINGE_GAP = 0.12
@@ -19,7 +18,7 @@ MIN_LEAF_ANGLE = math.radians(20.0)
 """Least angle of a leaf to the wall and to the closed door, radians: what is flatter is wall."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_leaf(gap: Any, pieces: int, scratch: Any) -> tuple[int, float]:
     """Which jamb the leaf hangs on, and its angle to the closed door; see `elements.SceneLeaf`.
 
@@ -49,7 +48,7 @@ def find_leaf(gap: Any, pieces: int, scratch: Any) -> tuple[int, float]:
     return hinge, angle
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def leaf_angle(gap: Any, piece: Any, first: bool, at_start: bool) -> float:
     """Angle from the closed door to a piece, both seen from a jamb; positive away from the scanner.
 

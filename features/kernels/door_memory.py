@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.remembered import Ends, place_for_new
 
 REMEMBERED_DOOR = np.dtype(
@@ -64,7 +64,7 @@ UNKNOWN, OPEN, FILLED = range(3)
 """What a scan can tell of an opening."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def door_counts(doors: Any, k: int) -> bool:
     """Whether door `k` of the remembered ones is likely enough to be taken for a door.
 
@@ -82,7 +82,7 @@ def door_counts(doors: Any, k: int) -> bool:
     return True
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _comes_first(rival: Any, i: int, door: Any, k: int) -> bool:
     """Whether a rival is likelier, or was seen more often, or at least earlier."""
     if rival.log_odds != door.log_odds:
@@ -90,7 +90,7 @@ def _comes_first(rival: Any, i: int, door: Any, k: int) -> bool:
     return bool(rival.hits > door.hits or (rival.hits == door.hits and i < k))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def remember_door(door: Ends, confidence: float, memory: Any, used: int) -> int:
     """Fuse a door with the remembered one that it repeats, or add it.
 
@@ -123,13 +123,13 @@ def remember_door(door: Ends, confidence: float, memory: Any, used: int) -> int:
     return used
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _set(new: Any, door: Ends, log_odds: float) -> None:
     new.start_x, new.start_y, new.end_x, new.end_y = door
     new.hits, new.log_odds = 1, log_odds
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _fuse(old: Any, door: Ends, log_odds: float) -> None:
     x1, y1, x2, y2 = door
     share = 1.0 / min(old.hits + 1, MAX_WEIGHING_SIGHTINGS)
@@ -141,7 +141,7 @@ def _fuse(old: Any, door: Ends, log_odds: float) -> None:
     old.log_odds = min(old.log_odds + log_odds, MAX_LOG_ODDS)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _apart(old: Any, door: Ends) -> float:
     """The larger distance between the starts and between the ends of two doors, metres."""
     return max(
@@ -150,7 +150,7 @@ def _apart(old: Any, door: Ends) -> float:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def doubt_unseen_doors(
     ranges: FloatArray,
     angle_min: float,
@@ -178,7 +178,7 @@ def doubt_unseen_doors(
         door.seen = False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def look_at(
     ranges: FloatArray,
     angle_min: float,
@@ -219,7 +219,7 @@ def look_at(
     return OPEN
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _beyond(
     ranges: FloatArray,
     angle_min: float,

@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.door_evidence import measure_gap, measure_place, measure_walls
 from semnav_env.features.kernels.door_leaf import find_leaf
 from semnav_env.features.kernels.evidence_layout import BIAS_ROW, OFFSET_ROW, OUTPUT_ROW
@@ -22,7 +22,7 @@ MAX_BEAM_SPACING = 0.3
 farther apart, but the jamb is still taken to lie this close to the last point."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_doors(
     ranges: FloatArray,
     directions: FloatArray,
@@ -52,7 +52,7 @@ def find_doors(
     return keep_best(found, pieces, settings, scratch, doors)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_candidates(
     ranges: FloatArray,
     directions: FloatArray,
@@ -107,7 +107,7 @@ def find_candidates(
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_accepted(gap: Any, settings: Any, evidence: Any) -> bool:
     """Whether a candidate is confident enough, and has the walls in line that are asked for."""
     both_in_line = evidence.misfit_more <= 1.0
@@ -117,7 +117,7 @@ def is_accepted(gap: Any, settings: Any, evidence: Any) -> bool:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def score(evidence: FloatArray, scorer: FloatArray, levels: FloatArray) -> float:
     """How likely a gap with that evidence is a door, 0 to 1; see `features.door_scorer`.
 
@@ -136,7 +136,7 @@ def score(evidence: FloatArray, scorer: FloatArray, levels: FloatArray) -> float
     return float(1.0 / (1.0 + math.exp(-total)))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def longest_wall(pieces: int, scratch: Any) -> tuple[float, float, float]:
     """Direction and length of the longest straight piece; length 0 if there is none."""
     best = -1
@@ -149,7 +149,7 @@ def longest_wall(pieces: int, scratch: Any) -> tuple[float, float, float]:
     return wall.along_x, wall.along_y, wall.length
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def farthest_beam(jamb: Any, widest: float, increment: float) -> int:
     """How many beams from a jamb the other one can be, at most.
 
@@ -161,7 +161,7 @@ def farthest_beam(jamb: Any, widest: float, increment: float) -> int:
     return int(span / increment) + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def set_gap(start: Any, end: Any, increment: float, settings: Any, gap: Any) -> bool:
     """Write the gap between two jambs; returns whether it can have the width of a door.
 
@@ -188,7 +188,7 @@ def set_gap(start: Any, end: Any, increment: float, settings: Any, gap: Any) -> 
     return bool(width - gap.start_spacing - gap.end_spacing <= widest)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def beam_spacing(jamb: Any, distance: float, increment: float) -> float:
     """Distance between the hits of neighbouring beams near a jamb on the chord's line, metres."""
     square = jamb.x * jamb.x + jamb.y * jamb.y
@@ -197,7 +197,7 @@ def beam_spacing(jamb: Any, distance: float, increment: float) -> float:
     return float(square * increment / distance)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def keep_best(found: int, pieces: int, settings: Any, scratch: Any, doors: np.ndarray) -> int:
     """Keep the best of every set of candidates whose midpoints are close together.
 
@@ -226,7 +226,7 @@ def keep_best(found: int, pieces: int, settings: Any, scratch: Any, doors: np.nd
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def suppress_near(candidates: np.ndarray, found: int, best: int, nearest: float) -> None:
     """Suppress the open candidates near the best one."""
     chosen = candidates[best]
@@ -238,7 +238,7 @@ def suppress_near(candidates: np.ndarray, found: int, best: int, nearest: float)
             other.state = SUPPRESSED
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def write_door(gap: Any, pieces: int, scratch: Any, door: Any) -> None:
     """Write a door, its jambs where they are expected: half a beam spacing past the last points."""
     start, end = 0.5 * gap.start_spacing, 0.5 * gap.end_spacing

@@ -7,13 +7,12 @@ remembered wall is such a landmark.
 from __future__ import annotations
 
 import math
-from typing import Any
-
-import numpy as np
-from numba import njit
+from typing import Any, TypeAlias
 
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.normal_equations import solve_step
+from semnav_env.features.kernels.remembered import Ends
 
 MIN_LANDMARK_SIGHTINGS = 5
 """A remembered wall tells where the robot is once it was seen this often."""
@@ -37,12 +36,19 @@ OUTLIER_DISTANCE = 0.1
 DRIFT_DEVIATION, DRIFT_ANGLE_DEVIATION = 0.01, 0.004
 """Standard deviations of the drift from one scan to the next, metres and radians."""
 
-XX, XY, YY, XR, YR, RR, BX, BY, BR = range(9)
-"""Entries of the normal equations: matrix and right-hand side for x, y and rotation, in the order
-in which `solve_step` takes them."""
+Sums: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
+"""Normal equations for x, y and rotation: the entries xx, xy, yy, xr, yr, rr of the matrix, and the
+right-hand side."""
+
+PRIOR: Sums = (
+    *(1.0 / DRIFT_DEVIATION**2, 0.0, 1.0 / DRIFT_DEVIATION**2),
+    *(0.0, 0.0, 1.0 / DRIFT_ANGLE_DEVIATION**2),
+    *(0.0, 0.0, 0.0),
+)
+"""What is known of the drift before any wall is seen."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def without_drift(walls: FloatArray, known: Any, pose: Pose) -> Pose:
     """The pose at which the walls of a scan lie best on the remembered ones.
 
@@ -63,20 +69,30 @@ def without_drift(walls: FloatArray, known: Any, pose: Pose) -> Pose:
     Returns:
         The corrected pose.
     """
-    sums = np.zeros(9)
-    sums[XX] = sums[YY] = 1.0 / DRIFT_DEVIATION**2
-    sums[RR] = 1.0 / DRIFT_ANGLE_DEVIATION**2
+    sums = PRIOR
     for i in range(len(walls)):
-        like, begin, end = _nearest_like(walls[i], known)
-        if like >= 0:
-            _add(walls[i], begin, end, known[like], pose, sums)
+        ends = (walls[i, 0], walls[i, 1], walls[i, 2], walls[i, 3])
+        sums = with_sighting(ends, known, pose, sums)
+    return corrected(pose, sums)
+
+
+@kernel
+def with_sighting(wall: Ends, known: Any, pose: Pose, sums: Sums) -> Sums:
+    """The normal equations with what a wall of a scan adds to them; see `without_drift`."""
+    like, begin, end = _nearest_like(wall, known)
+    return _added(wall, begin, end, known[like], pose, sums) if like >= 0 else sums
+
+
+@kernel
+def corrected(pose: Pose, sums: Sums) -> Pose:
+    """The pose after the step that solves the normal equations."""
     xx, xy, yy, xr, yr, rr, bx, by, br = sums
     return solve_step(pose, (xx, xy, yy, xr, yr, rr), (bx, by, br))
 
 
-@njit(cache=True, error_model="numpy")
-def _nearest_like(wall: FloatArray, known: Any) -> tuple[int, float, float]:
-    """The remembered wall nearest beside a wall, shape (4,), that faces and runs as it does.
+@kernel
+def _nearest_like(wall: Ends, known: Any) -> tuple[int, float, float]:
+    """The remembered wall nearest beside a wall that faces and runs as it does.
 
     Returns:
         Its index, -1 if there is none; and the shares of the wall between which both are.
@@ -107,16 +123,15 @@ def _nearest_like(wall: FloatArray, known: Any) -> tuple[int, float, float]:
     return like, begin, end
 
 
-@njit(cache=True, error_model="numpy")
-def _add(
-    wall: FloatArray, begin: float, end: float, old: Any, pose: Pose, sums: FloatArray
-) -> None:
+@kernel
+def _added(wall: Ends, begin: float, end: float, old: Any, pose: Pose, sums: Sums) -> Sums:
     """Add both ends of a stretch of a wall beside a remembered one to the normal equations.
 
     With the unit normal n of the remembered line and d = n . (p - q), a shift moves d by n, and a
     rotation about the lidar moves it by the lever arm (p - lidar) x n.
     """
     x1, y1, x2, y2 = wall
+    xx, xy, yy, xr, yr, rr, bx, by, br = sums
     ux, uy = x2 - x1, y2 - y1
     dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
     length = math.sqrt(dx * dx + dy * dy)
@@ -128,12 +143,13 @@ def _add(
         off = nx * (x - old.start_x) + ny * (y - old.start_y)
         lever = ny * (x - pose[0]) - nx * (y - pose[1])
         counts = weight / (1.0 + (off / OUTLIER_DISTANCE) ** 2)
-        sums[XX] += counts * nx * nx
-        sums[XY] += counts * nx * ny
-        sums[YY] += counts * ny * ny
-        sums[XR] += counts * nx * lever
-        sums[YR] += counts * ny * lever
-        sums[RR] += counts * lever * lever
-        sums[BX] -= counts * nx * off
-        sums[BY] -= counts * ny * off
-        sums[BR] -= counts * lever * off
+        xx += counts * nx * nx
+        xy += counts * nx * ny
+        yy += counts * ny * ny
+        xr += counts * nx * lever
+        yr += counts * ny * lever
+        rr += counts * lever * lever
+        bx -= counts * nx * off
+        by -= counts * ny * off
+        br -= counts * lever * off
+    return xx, xy, yy, xr, yr, rr, bx, by, br

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.breakpoints import (
     ThresholdTerms,
     breakpoint_terms,
     incidence_factor,
 )
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.segmentation import is_return
 
 MAX_MIXED_PIXELS = 2
@@ -22,7 +21,7 @@ ROUNDING_SHARE = 1e-9
 """More than rounding can add to a range, as a share of it."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def filter_ranges(
     ranges: FloatArray,
     increment: float,
@@ -31,13 +30,15 @@ def filter_ranges(
     beams_per_turn: int,
     settings: Any,
     scratch: Any,
-) -> FloatArray:
-    """The ranges, without mixed pixels if `veil_angle` is set and as medians if `median_beams` is.
+) -> None:
+    """Remove mixed pixels if `veil_angle` is set, and take medians if `median_beams` is.
 
-    In a full circle of `beams_per_turn` beams, the first comes after the last, and beams beyond it
-    repeat the first ones. `beams_per_turn` is 0 for other scans.
+    The result is written to `scratch.filtered`. In a full circle of `beams_per_turn` beams, the
+    first comes after the last, and beams beyond it repeat the first ones. `beams_per_turn` is 0
+    for other scans.
     """
     beams = beams_per_turn if 0 < beams_per_turn < len(ranges) else len(ranges)
+    filtered, half = scratch.filtered[: len(ranges)], settings.median_beams
     if settings.veil_angle > 0.0:
         clear = scratch.clear[: len(ranges)]
         for i in range(beams):
@@ -47,19 +48,18 @@ def filter_ranges(
             clear[i] = math.nan if veiled else ranges[i]
         repeat_first_beams(ranges, beams, range_min, limit, clear)
         ranges = clear
-    if settings.median_beams > 0:
-        smooth, half = scratch.smooth[: len(ranges)], settings.median_beams
+    for i in range(len(ranges)):
+        filtered[i] = ranges[i]
+    if half > 0:
         reach = breakpoint_terms(increment, settings)
         for i in range(beams):
-            smooth[i] = median_range(
+            filtered[i] = median_range(
                 ranges, i, increment, range_min, limit, beams_per_turn, half, reach, scratch.window
             )
-        repeat_first_beams(ranges, beams, range_min, limit, smooth)
-        ranges = smooth
-    return ranges
+        repeat_first_beams(ranges, beams, range_min, limit, filtered)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def repeat_first_beams(
     ranges: FloatArray, beams: int, range_min: float, limit: float, out: FloatArray
 ) -> None:
@@ -72,7 +72,7 @@ def repeat_first_beams(
         out[i] = out[i - beams] if seen else ranges[i]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def return_at(
     ranges: FloatArray, i: int, range_min: float, limit: float, beams_per_turn: int
 ) -> float:
@@ -83,14 +83,14 @@ def return_at(
     return float(ranges[beam])
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def point_distance(first: float, second: float, angle: float) -> float:
     """Distance between the points of two beams (law of cosines); NaN if one has no return."""
     sine = math.sin(0.5 * angle)
     return math.sqrt((first - second) ** 2 + 4.0 * first * second * sine * sine)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def flat_slope_sign(
     first: float, second: float, angle: float, incidence: float, slack: float
 ) -> int:
@@ -105,7 +105,7 @@ def flat_slope_sign(
     return 1 if second > first else -1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_mixed_pixel(
     ranges: FloatArray,
     i: int,
@@ -141,7 +141,7 @@ def is_mixed_pixel(
     return not is_on_flat_wall(ranges, i, increment, range_min, limit, beams_per_turn, settings)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_on_flat_wall(
     ranges: FloatArray,
     i: int,
@@ -163,7 +163,7 @@ def is_on_flat_wall(
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def continues_line(first: float, second: float, third: float, angle: float, settings: Any) -> bool:
     """Whether three beams in a row end on one line that is met flatly, within the noise.
 
@@ -179,7 +179,7 @@ def continues_line(first: float, second: float, third: float, angle: float, sett
     return bool(inverse > 0.0 and abs(1.0 / inverse - third) <= tolerance)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def median_range(
     ranges: FloatArray,
     i: int,
@@ -217,7 +217,7 @@ def median_range(
     return float(window[count // 2]) if count % 2 == 1 else at
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def joined_beams(
     ranges: FloatArray,
     i: int,

@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
 from semnav_env.features.kernels.segmentation import is_return
 
@@ -16,7 +16,7 @@ MIN_CIRCLE_BEAMS = 8
 """A scan of fewer beams per turn is not taken for a full circle."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def count_beams_per_turn(beams: int, increment: float, dropout_beams: int) -> int:
     """Number of beams in a full turn if the scan covers one, else 0.
 
@@ -29,7 +29,7 @@ def count_beams_per_turn(beams: int, increment: float, dropout_beams: int) -> in
     return int(beams_per_turn + 0.5)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_seam(pieces: int, scratch: Any) -> tuple[int, bool]:
     """Where to unroll the circle, given the pieces of the scan as it came.
 
@@ -45,7 +45,7 @@ def find_seam(pieces: int, scratch: Any) -> tuple[int, bool]:
     return 0, True
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def unroll(
     ranges: FloatArray,
     directions: FloatArray,
@@ -80,7 +80,7 @@ def unroll(
             scratch.circle_directions[k, 0], scratch.circle_directions[k, 1] = x, y
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def close_seam(pieces: int, scratch: Any) -> None:
     """Take back the flags of a break where the circle was cut at a corner."""
     if pieces > 0:
@@ -88,7 +88,7 @@ def close_seam(pieces: int, scratch: Any) -> None:
         scratch.pieces[pieces - 1].flags &= ~(END_BREAK | END_RUPTURE)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def repeat_pieces(pieces: int, points: int, beams_per_turn: int, scratch: Any) -> int:
     """Append the pieces of the first half turn once more, a full turn later.
 
@@ -112,7 +112,7 @@ def repeat_pieces(pieces: int, points: int, beams_per_turn: int, scratch: Any) -
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def renumber_beams(items: np.ndarray, count: int, beams_per_turn: int, seam: int) -> None:
     """Number `first` and `last` beam of walls or arcs as the scan does."""
     for k in range(count):

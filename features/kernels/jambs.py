@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba import njit
+from semnav_env.features.kernels.compiling import kernel
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def find_jambs(groups: int, pieces: int, scratch: Any) -> tuple[int, int]:
     """Write where openings may start and end: the ends of pieces, and of groups beyond them.
 
@@ -55,13 +55,13 @@ def find_jambs(groups: int, pieces: int, scratch: Any) -> tuple[int, int]:
     return starts, ends
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def write_point(jamb: Any, point: int, piece: int, scratch: Any) -> None:
     """A jamb at a single point; `piece` is the next one on the side away from the opening."""
     write_jamb(jamb, scratch.xs[point], scratch.ys[point], scratch.beams[point], piece)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def write_jamb(jamb: Any, x: float, y: float, beam: int, piece: int) -> None:
     """Set every field of a jamb."""
     jamb.x, jamb.y, jamb.beam, jamb.piece = x, y, beam, piece

@@ -6,13 +6,13 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def split(
     xs: FloatArray,
     ys: FloatArray,
@@ -34,7 +34,7 @@ def split(
     return int(split_further(xs, ys, first, 1, limit, stack, vertices))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def split_further(
     xs: FloatArray,
     ys: FloatArray,
@@ -65,7 +65,7 @@ def split_further(
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float) -> int:
     """The inner point farthest from the chord (Barbret (1.4)), or -1 if all are within limit."""
     dx, dy = xs[last] - xs[first], ys[last] - ys[first]
@@ -84,7 +84,7 @@ def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def gather(xs: FloatArray, ys: FloatArray, first: int, last: int, piece: Any) -> None:
     """Mean and central second-moment sums of points first to last (inclusive)."""
     x0, y0 = xs[first], ys[first]
@@ -105,7 +105,7 @@ def gather(xs: FloatArray, ys: FloatArray, first: int, last: int, piece: Any) ->
     piece.yy = syy - sy * sy / count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def refit(xs: FloatArray, ys: FloatArray, piece: Any) -> None:
     """Bring moments and line up to date after `first` or `last` moved by a few points.
 
@@ -125,7 +125,7 @@ def refit(xs: FloatArray, ys: FloatArray, piece: Any) -> None:
     fit(xs, ys, piece)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def count_point(x: float, y: float, sign: int, piece: Any) -> None:
     """Add a point to the moments of a piece (sign 1) or take it out (-1)."""
     dx, dy = x - piece.mean_x, y - piece.mean_y
@@ -139,7 +139,7 @@ def count_point(x: float, y: float, sign: int, piece: Any) -> None:
     piece.points = count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def absorb(piece: Any, other: Any) -> None:
     """Add the points of `other` to the moments of `piece` (the parallel-axis theorem)."""
     count = piece.points + other.points
@@ -155,7 +155,7 @@ def absorb(piece: Any, other: Any) -> None:
     piece.last = max(piece.last, other.last)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def fit(xs: FloatArray, ys: FloatArray, piece: Any) -> None:
     """Total least squares line through a piece, and its ends projected on that line.
 
@@ -184,7 +184,7 @@ def fit(xs: FloatArray, ys: FloatArray, piece: Any) -> None:
     piece.end_x, piece.end_y = mean_x + end * along_x, mean_y + end * along_y
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def offset(piece: Any, x: float, y: float) -> float:
     """Signed distance of a point from a piece's line, metres; positive on its left."""
     return float(piece.along_x * (y - piece.mean_y) - piece.along_y * (x - piece.mean_x))

@@ -9,8 +9,9 @@ import numpy as np
 from numba import njit
 
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.door_memory import door_counts, doubt_unseen_doors, remember_door
-from semnav_env.features.kernels.drift import without_drift
+from semnav_env.features.kernels.drift import PRIOR, corrected, with_sighting
 from semnav_env.features.kernels.layout import DOORS, WALLS
 from semnav_env.features.kernels.pass_through import is_passed_by_beams
 from semnav_env.features.kernels.remembered import Ends, place_for_new
@@ -47,7 +48,7 @@ SAME_LINE_GAP = 0.3
 """Largest gap along the line between two sightings of one wall, metres: nothing passes through."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def remember(
     walls: Any,
     doors: Any,
@@ -92,7 +93,7 @@ def remember(
     used.scans += 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) -> Pose:
     """The pose of the lidar, corrected by the remembered walls that the scan shows again.
 
@@ -102,15 +103,16 @@ def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) 
         pose: of the lidar by odometry, in the memory's frame.
         memory: as in `remember`.
     """
-    seen = np.empty((counts[WALLS], 4))
+    known, _, counters = memory
+    known, sums = known[: counters[0].walls], PRIOR
     for i in range(counts[WALLS]):
         wall = walls[i]
-        seen[i] = placed((wall.start_x, wall.start_y, wall.end_x, wall.end_y), pose)
-    known, _, counters = memory
-    return without_drift(seen, known[: counters[0].walls], pose)
+        ends = placed((wall.start_x, wall.start_y, wall.end_x, wall.end_y), pose)
+        sums = with_sighting(ends, known, pose, sums)
+    return corrected(pose, sums)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def doubt_passed_walls(
     ranges: FloatArray,
     angle_min: float,
@@ -135,13 +137,13 @@ def doubt_passed_walls(
             wall.hits = max(min(wall.hits, MAX_WEIGHING_SIGHTINGS) - PASSED_WALL_LOSS, 0)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def wall_counts(walls: Any, k: int) -> bool:
     """Whether wall `k` of the remembered ones was seen often enough."""
     return bool(walls[k].hits >= MIN_WALL_SIGHTINGS)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def how_many_count(walls: Any, doors: Any, counters: Any) -> tuple[int, int]:
     """How many of the remembered walls and doors count."""
     used = counters[0]
@@ -173,7 +175,7 @@ def what_counts(walls: Any, doors: Any, counters: Any) -> tuple[FloatArray, Any]
     return wall_ends[:n], doors[: used.doors][counting]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def placed(ends: Ends, frame: tuple[float, float, float]) -> Ends:
     """The ends of a wall or door, moved from a frame to the frame's parent."""
     x1, y1, x2, y2 = ends
@@ -182,7 +184,7 @@ def placed(ends: Ends, frame: tuple[float, float, float]) -> Ends:
     return x + c * x1 - s * y1, y + s * x1 + c * y1, x + c * x2 - s * y2, y + s * x2 + c * y2
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def remember_wall(wall: Ends, memory: Any, used: int) -> int:
     """Fuse a wall with the first remembered one that it continues or repeats, or add it.
 
@@ -216,7 +218,7 @@ def remember_wall(wall: Ends, memory: Any, used: int) -> int:
     return used
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _on_one_line(old: Any, wall: Ends) -> bool:
     """Whether two nearly parallel walls meet, and lie on one line where they do.
 
@@ -236,7 +238,7 @@ def _on_one_line(old: Any, wall: Ends) -> bool:
     return bool(abs((x - old.start_x) * dy - (y - old.start_y) * dx) < SAME_LINE_OFFSET * length)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _fuse_wall(old: Any, wall: Ends) -> None:
     """Fuse a wall with an old one: their mean line by length and sightings, over both extents.
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE
 from semnav_env.features.kernels.lines import absorb, fit, offset
 
@@ -16,7 +15,7 @@ MERGE_CHI_SQUARE = 13.8
 may add to the squared residuals, in variances of a point."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def joint_scatter(a: Any, b: Any) -> float:
     """Squared residuals of the one line fitted to the points of two pieces."""
     weight = a.points * b.points / (a.points + b.points)
@@ -27,7 +26,7 @@ def joint_scatter(a: Any, b: Any) -> float:
     return float(0.5 * (xx + yy - math.sqrt((xx - yy) ** 2 + 4.0 * xy * xy)))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def merge_cost(a: Any, b: Any, settings: Any) -> float:
     """What joining two successive pieces adds to the squared residuals.
 
@@ -42,7 +41,7 @@ def merge_cost(a: Any, b: Any, settings: Any) -> float:
     return float(cost) if cost <= allowed else math.inf
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def merge_pieces(count: int, settings: Any, scratch: Any) -> int:
     """Join successive pieces that are one line until none are left; returns how many remain."""
     before = count + 1
@@ -53,7 +52,7 @@ def merge_pieces(count: int, settings: Any, scratch: Any) -> int:
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def merge_neighbours(count: int, settings: Any, scratch: Any) -> int:
     """Join successive pieces that are one line; returns how many remain.
 
@@ -76,7 +75,7 @@ def merge_neighbours(count: int, settings: Any, scratch: Any) -> int:
     return min(kept + 1, count)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def merge_across_spikes(count: int, settings: Any, scratch: Any) -> int:
     """Join two pieces that are one line with the few noisy points between them.
 
@@ -99,7 +98,7 @@ def merge_across_spikes(count: int, settings: Any, scratch: Any) -> int:
     return min(kept + 1, count)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_spike(
     xs: FloatArray, ys: FloatArray, before: Any, piece: Any, after: Any, settings: Any
 ) -> bool:
@@ -114,7 +113,7 @@ def is_spike(
     return True
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def join(piece: Any, following: Any) -> None:
     """Add the points of the following piece; the line must be fitted anew."""
     ends = END_BREAK | END_RUPTURE

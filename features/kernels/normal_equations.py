@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from numba import njit
+from semnav_env.features.kernels.compiling import kernel
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def solve_step(
     guess: tuple[float, float, float],
     normal: tuple[float, float, float, float, float, float],

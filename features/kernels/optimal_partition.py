@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 PIECE_PRICE = 20.0
 """What one more piece must gain, in minus twice the log likelihood: by the Bayesian information
@@ -18,7 +17,7 @@ SUM_X, SUM_Y, SUM_XX, SUM_XY, SUM_YY, LEAST_COST, LAST_START, TRIAL_COST = range
 where the last piece of their best partition starts, and the cost of each start under trial."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def partition(
     xs: FloatArray,
     ys: FloatArray,
@@ -77,7 +76,7 @@ def partition(
     return trace(first, last, table, scratch.vertices)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def accumulate(xs: FloatArray, ys: FloatArray, first: int, last: int, table: FloatArray) -> None:
     """Sums of x, y, xx, xy, yy of the points before each, about the first point."""
     table[0, SUM_X : SUM_YY + 1] = 0.0
@@ -91,7 +90,7 @@ def accumulate(xs: FloatArray, ys: FloatArray, first: int, last: int, table: Flo
         table[row + 1, SUM_YY] = table[row, SUM_YY] + y * y
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def scatter(table: FloatArray, first: int, end: int) -> float:
     """Squared distances of points first to end (exclusive) from their least squares line."""
     count = end - first
@@ -102,7 +101,7 @@ def scatter(table: FloatArray, first: int, end: int) -> float:
     return float(max(0.5 * (xx + yy - math.sqrt((xx - yy) ** 2 + 4.0 * xy * xy)), 0.0))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def trace(first: int, last: int, table: FloatArray, vertices: Any) -> int:
     """The cuts of the cheapest partition, in order."""
     cuts = 2

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 SAMPLES, MIN_SAMPLES_IN_VIEW = 6, 4
 """Places along a wall at which beams are looked at, and how many of them must be in the scan."""
@@ -26,7 +25,7 @@ PASS_DEPTH = 0.4
 """A beam passes through a wall if it ends this far behind it, metres: odometry drifts."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_passed_by_beams(
     ranges: FloatArray,
     angle_min: float,

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
-from numba import njit
+from semnav_env.features.kernels.compiling import kernel
 
 Ends: TypeAlias = tuple[float, float, float, float]
 """Start and end of a wall or door: x1, y1, x2, y2 in metres."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def place_for_new(memory: Any, used: int) -> tuple[int, int]:
     """Place of a new entry, and how many are used then; a full memory replaces the rarest one."""
     if used < len(memory):

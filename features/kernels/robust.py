@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.layout import ROUND
 from semnav_env.features.kernels.lines import fit, offset
 
@@ -25,7 +24,7 @@ REWEIGHTINGS = 2
 """How often the weights are computed anew."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def refit_robustly(count: int, settings: Any, scratch: Any) -> None:
     """Fit the pieces that could be walls once more, each point weighted by how near it is.
 
@@ -40,7 +39,7 @@ def refit_robustly(count: int, settings: Any, scratch: Any) -> None:
                 reweight(scratch.xs, scratch.ys, settings, piece)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def reweight(xs: FloatArray, ys: FloatArray, settings: Any, piece: Any) -> None:
     """One step: weighted moments of all points from the first to the last, and their line.
 

@@ -70,7 +70,7 @@ class Scratch(NamedTuple):
 
     Attributes:
         clear: ranges without mixed pixels, shape (n,).
-        smooth: medians of ranges, shape (n,).
+        filtered: what the filters made of the ranges, shape (n,).
         window: ranges of one median in order, shape (9,).
         circle_ranges: a full circle unrolled twice over, shape (2 n,).
         circle_directions: unit vectors of its beams, shape (2 n, 2).
@@ -97,7 +97,7 @@ class Scratch(NamedTuple):
     """
 
     clear: FloatArray
-    smooth: FloatArray
+    filtered: FloatArray
     window: FloatArray
     circle_ranges: FloatArray
     circle_directions: FloatArray
@@ -146,7 +146,7 @@ def allocate_scratch(beams: int, door_candidates: int = MAX_DOOR_CANDIDATES) -> 
     beams += MAX_MISSING_BEAMS
     return Scratch(
         clear=np.empty(beams),
-        smooth=np.empty(beams),
+        filtered=np.empty(beams),
         window=np.empty(2 * MAX_MEDIAN_BEAMS + 1),
         circle_ranges=np.empty(2 * beams),
         circle_directions=np.empty((2 * beams, 2)),

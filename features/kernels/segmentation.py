@@ -6,22 +6,22 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.breakpoints import breakpoint_terms
+from semnav_env.features.kernels.compiling import kernel
 
 SMALLEST_FLOAT = 5e-324
 """The smallest positive number: a range of zero is no return."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_return(distance: float, range_min: float, limit: float) -> bool:
     """Whether a range is a usable return; anything else is a rupture (Barbret (2.1))."""
     return distance >= range_min and distance < limit and distance > 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def group_points(
     ranges: FloatArray,
     directions: FloatArray,
@@ -75,7 +75,7 @@ def group_points(
     return np.int64(points), np.int64(groups)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def bridge_reach(angle: float, before: float, after: float, settings: Any) -> float:
     """How far points on either side of a few missing returns may be apart, metres."""
     nearer, farther, previous, offset = breakpoint_terms(angle, settings)

@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.cuts import cut
 from semnav_env.features.kernels.layout import (
     END_BREAK,
@@ -27,7 +27,7 @@ PRIOR_POINTS = 4
 """Weight of the scanner's known `sigma` in the variance of a wall, in points."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
     """Cut every group into straight pieces of two points or more and fit their lines.
 
@@ -60,7 +60,7 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def settle_border(xs: FloatArray, ys: FloatArray, near: float, before: Any, after: Any) -> None:
     """Move the border of two pieces until every point is with the line it is nearer to.
 
@@ -88,7 +88,7 @@ def settle_border(xs: FloatArray, ys: FloatArray, near: float, before: Any, afte
     before.last, after.first = last, first
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def extend(xs: Any, ys: Any, near: float, first: int, last: int, head: Any, tail: Any) -> None:
     """Let a group's first and last piece take the points beyond them that are near their lines."""
     while head.first > first and abs(offset(head, xs[head.first - 1], ys[head.first - 1])) <= near:
@@ -97,13 +97,13 @@ def extend(xs: Any, ys: Any, near: float, first: int, last: int, head: Any, tail
         tail.last += 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def prefers_second(first: Any, second: Any, x: float, y: float) -> bool:
     """Whether a point is nearer to the line of the second piece than to that of the first."""
     return bool(abs(offset(first, x, y)) > abs(offset(second, x, y)))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def flag_pieces(
     ranges: FloatArray,
     range_min: float,
@@ -136,7 +136,7 @@ def flag_pieces(
             piece.flags |= END_BREAK if seen else END_RUPTURE
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def point_variance(scatter: float, points: int, sigma: float) -> float:
     """Variance of a point across its line, square metres.
 
@@ -147,7 +147,7 @@ def point_variance(scatter: float, points: int, sigma: float) -> float:
     return (scatter + PRIOR_POINTS * sigma * sigma) / (points - 2 + PRIOR_POINTS)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def wall_fault(piece: Any, settings: Any) -> int:
     """Why a piece is no wall: `TOO_FEW_BEAMS`, `TOO_SHORT` or `PART_OF_ARC`; 0 if it is one."""
     if piece.points < settings.wall_beams:
@@ -157,7 +157,7 @@ def wall_fault(piece: Any, settings: Any) -> int:
     return PART_OF_ARC if piece.flags & ROUND else 0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def select_walls(count: int, settings: Any, scratch: Any, walls: np.ndarray) -> int:
     """Write the pieces that are long and dense enough to be walls; returns how many."""
     found = 0

@@ -39,7 +39,8 @@ def filtered_ranges(scan: Scan, chosen: ExtractorSettings) -> FloatArray:
     limits = scan.range_min, min(scan.range_max, chosen.rupture_range)
     ranges, record = scan.ranges[:beams].copy(), chosen.as_record()[0]
     scratch = allocate_scratch(beams)
-    return filter_ranges(ranges, scan.angle_increment, *limits, turn, record, scratch)
+    filter_ranges(ranges, scan.angle_increment, *limits, turn, record, scratch)
+    return scratch.filtered[:beams]
 
 
 def with_ranges(scan: Scan, ranges: FloatArray) -> Scan:
