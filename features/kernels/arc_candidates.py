@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.layout import END_BREAK, END_RUPTURE, START_BREAK, START_RUPTURE
 from semnav_env.features.kernels.lines import offset
@@ -78,7 +79,13 @@ def chord(piece: Any) -> float:
 
 @kernel
 def is_bent_like_arc(
-    first: int, last: int, heading_change: float, settings: Any, scratch: Any
+    first: int,
+    last: int,
+    heading_change: float,
+    settings: Any,
+    xs: FloatArray,
+    ys: FloatArray,
+    pieces: np.ndarray,
 ) -> bool:
     """Whether the points of a run lie off its pieces as those of bows lie off their chords.
 
@@ -86,7 +93,6 @@ def is_bent_like_arc(
     of that is required, where R is the length of the run over its heading change. A lone piece has
     no heading change; its scatter decides.
     """
-    pieces = scratch.pieces
     if first == last:
         return may_be_column(pieces[first], settings)
     runs = last - first + 1.0
@@ -100,7 +106,7 @@ def is_bent_like_arc(
         expected += chord_length * chord_length * (piece.points // 2)
         low = piece.first + piece.points // 4
         for i in range(low, low + piece.points // 2):
-            bow -= offset(piece, scratch.xs[i], scratch.ys[i])
+            bow -= offset(piece, xs[i], ys[i])
     if extent < 0.0:
         bow, extent = -bow, -extent
     return bool(bow >= MIN_BOW * expected * extent / length)

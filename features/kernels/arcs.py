@@ -37,13 +37,14 @@ def find_arcs(
     one arc and otherwise split where it fits worst (Yan et al., section 2).
     """
     found = first = 0
+    xs, ys, straight = scratch.xs, scratch.ys, scratch.pieces
     while settings.arcs and first < pieces:
-        if scratch.pieces[first].flags & ROUND:
+        if straight[first].flags & ROUND:
             first += 1
             continue
-        last, heading_change = end_of_run(first, pieces, settings, scratch.pieces)
+        last, heading_change = end_of_run(first, pieces, settings, straight)
         before = found
-        if is_bent_like_arc(first, last, heading_change, settings, scratch):
+        if is_bent_like_arc(first, last, heading_change, settings, xs, ys, straight):
             found = explain_run(
                 directions, groups, pieces, first, last, settings, scratch, arcs, found
             )

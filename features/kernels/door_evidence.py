@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.lines import offset
@@ -75,13 +77,9 @@ def measure_gap(
     depth = 0.0
     for beam in range(first, last + 1):
         measured = ranges[beam]
-        if not is_return(measured, range_min, limit):
-            clear += 1
-            deep += 1
-            depth += MAX_DEPTH
-            continue
         slant = directions[beam, 0] * gap.along_y - directions[beam, 1] * gap.along_x
-        across = measured * slant - gap.distance
+        seen = is_return(measured, range_min, limit)
+        across = measured * slant - gap.distance if seen else math.inf
         clear += across >= settings.door_depth * slant
         deep += across >= settings.door_recess
         front += across < -FRONT_DISTANCE * slant
@@ -126,14 +124,13 @@ def measure_walls(
     limit: float,
     beams_per_turn: int,
     gap: Any,
-    pieces: int,
+    pieces: np.ndarray,
     settings: Any,
-    scratch: Any,
     evidence: Any,
 ) -> None:
     """Measure the walls beside the jambs: how well in line, how long, and how much is missing."""
-    before = wall_misfit(gap, -1, pieces, settings, scratch)
-    after = wall_misfit(gap, 1, pieces, settings, scratch)
+    before = wall_misfit(gap, -1, pieces, settings)
+    after = wall_misfit(gap, 1, pieces, settings)
     evidence.misfit_more = max(before[0], after[0])
     evidence.misfit_less = min(before[0], after[0])
     evidence.wall_length_more = max(before[1], after[1])
@@ -221,9 +218,7 @@ def missing_wall(
 
 
 @kernel
-def wall_misfit(
-    gap: Any, step: int, pieces: int, settings: Any, scratch: Any
-) -> tuple[float, float]:
+def wall_misfit(gap: Any, step: int, pieces: np.ndarray, settings: Any) -> tuple[float, float]:
     """How far the jambs lie off the line of the wall that best supports one of them.
 
     The distance is divided by what is allowed: `confidence` standard deviations of the fitted line
@@ -232,9 +227,8 @@ def wall_misfit(
     Args:
         gap: the candidate.
         step: -1 for a wall before its start, 1 for one after its end.
-        pieces: how many pieces there are.
+        pieces: dtype `PIECE`.
         settings: limits.
-        scratch: with the pieces.
 
     Returns:
         The larger quotient of both jambs, at most `MISSING_WALL_MISFIT`, and the wall's length,
@@ -245,9 +239,9 @@ def wall_misfit(
     far_x, far_y = (gap.end_x, gap.end_y) if step < 0 else (gap.start_x, gap.start_y)
     best, length = MISSING_WALL_MISFIT, 0.0
     for _ in range(SUPPORT_TRIALS):
-        if k < 0 or k >= pieces:
+        if k < 0 or k >= len(pieces):
             break
-        wall = scratch.pieces[k]
+        wall = pieces[k]
         k += step
         if wall.wall < 0 or gap.along_x * wall.along_x + gap.along_y * wall.along_y <= 0.0:
             continue

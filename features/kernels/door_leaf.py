@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.layout import AT_END, AT_START, NO_LEAF
 
@@ -19,7 +21,7 @@ MIN_LEAF_ANGLE = math.radians(20.0)
 
 
 @kernel
-def find_leaf(gap: Any, pieces: int, scratch: Any) -> tuple[int, float]:
+def find_leaf(gap: Any, pieces: np.ndarray) -> tuple[int, float]:
     """Which jamb the leaf hangs on, and its angle to the closed door; see `elements.SceneLeaf`.
 
     Both ends of every piece are compared with both jambs; the nearest pair wins.
@@ -29,8 +31,8 @@ def find_leaf(gap: Any, pieces: int, scratch: Any) -> tuple[int, float]:
         no leaf is seen.
     """
     hinge, angle, nearest = NO_LEAF, 0.0, MAX_HINGE_GAP
-    for k in range(pieces):
-        piece = scratch.pieces[k]
+    for k in range(len(pieces)):
+        piece = pieces[k]
         if not MIN_LENGTH_RATIO * gap.width <= piece.length <= MAX_LENGTH_RATIO * gap.width:
             continue
         for end in range(4):
@@ -38,7 +40,10 @@ def find_leaf(gap: Any, pieces: int, scratch: Any) -> tuple[int, float]:
             x, y = (piece.start_x, piece.start_y) if first else (piece.end_x, piece.end_y)
             jamb_x = gap.start_x if at_start else gap.end_x
             jamb_y = gap.start_y if at_start else gap.end_y
-            distance = math.hypot(x - jamb_x, y - jamb_y)
+            dx, dy = x - jamb_x, y - jamb_y
+            if dx * dx + dy * dy > 1.01 * MAX_HINGE_GAP**2:
+                continue
+            distance = math.hypot(dx, dy)
             leaf_to_door = leaf_angle(gap, piece, first, at_start)
             if (
                 distance < nearest

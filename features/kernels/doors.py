@@ -36,7 +36,11 @@ def find_doors(
     scratch: Any,
     doors: np.ndarray,
 ) -> int:
-    """Score every pair of jambs and write the best of those that overlap; returns how many."""
+    """Score every pair of jambs and write the best of those that overlap, in beam order.
+
+    Returns:
+        How many doors were written.
+    """
     found = find_candidates(
         ranges,
         directions,
@@ -49,7 +53,14 @@ def find_doors(
         settings,
         scratch,
     )
-    return keep_best(found, pieces, settings, scratch, doors)
+    candidates = scratch.candidates[:found]
+    keep_best(candidates, settings.door_width_min)
+    count = 0
+    for i in range(found):
+        if candidates[i].state == KEPT and count < len(doors):
+            write_door(candidates[i], scratch.pieces[:pieces], doors[count])
+            count += 1
+    return count
 
 
 @kernel
@@ -71,7 +82,8 @@ def find_candidates(
     the start, only grows, and the inner loop stops at the last end that is near enough.
     """
     starts, ends = find_jambs(groups, pieces, scratch)
-    along_x, along_y, length = longest_wall(pieces, scratch)
+    found_pieces = scratch.pieces[:pieces]
+    along_x, along_y, length = longest_wall(found_pieces)
     widest = settings.door_width_max + settings.door_width_tolerance + 2.0 * MAX_BEAM_SPACING
     found = low = 0
     for i in range(starts):
@@ -95,14 +107,13 @@ def find_candidates(
                 limit,
                 beams_per_turn,
                 gap,
-                pieces,
+                found_pieces,
                 settings,
-                scratch,
                 evidence,
             )
             measure_place(gap, along_x, along_y, length, evidence)
             numbers = scratch.evidence[found : found + 1].view(np.float64)
-            gap.confidence = score(numbers, scratch.scorer, scratch.levels)
+            gap.confidence = score(numbers, scratch.scorer)
             found += is_accepted(gap, settings, evidence)
     return found
 
@@ -118,35 +129,27 @@ def is_accepted(gap: Any, settings: Any, evidence: Any) -> bool:
 
 
 @kernel
-def score(evidence: FloatArray, scorer: FloatArray, levels: FloatArray) -> float:
-    """How likely a gap with that evidence is a door, 0 to 1; see `features.door_scorer`.
-
-    The inner loop runs over the hidden units, so that their sums are independent of each other and
-    run in parallel. `levels` is working memory, shape (hidden units,).
-    """
-    units = len(levels)
-    for unit in range(units):
-        levels[unit] = scorer[BIAS_ROW, unit]
-    for k in range(len(evidence)):
-        for unit in range(units):
-            levels[unit] += scorer[k, unit] * evidence[k]
+def score(evidence: FloatArray, scorer: FloatArray) -> float:
+    """How likely a gap with that evidence is a door, 0 to 1; see `features.door_scorer`."""
     total = scorer[OFFSET_ROW, 0]
-    for unit in range(units):
-        total += scorer[OUTPUT_ROW, unit] * levels[unit] / (1.0 + abs(levels[unit]))
+    for unit in range(scorer.shape[1]):
+        level = scorer[BIAS_ROW, unit]
+        for k in range(BIAS_ROW):
+            level += scorer[k, unit] * evidence[k]
+        total += scorer[OUTPUT_ROW, unit] * level / (1.0 + abs(level))
     return float(1.0 / (1.0 + math.exp(-total)))
 
 
 @kernel
-def longest_wall(pieces: int, scratch: Any) -> tuple[float, float, float]:
+def longest_wall(pieces: np.ndarray) -> tuple[float, float, float]:
     """Direction and length of the longest straight piece; length 0 if there is none."""
-    best = -1
-    for k in range(pieces):
-        if best < 0 or scratch.pieces[k].length > scratch.pieces[best].length:
-            best = k
-    if best < 0:
+    if len(pieces) == 0:
         return 1.0, 0.0, 0.0
-    wall = scratch.pieces[best]
-    return wall.along_x, wall.along_y, wall.length
+    best = 0
+    for k in range(len(pieces)):
+        if pieces[k].length > pieces[best].length:
+            best = k
+    return pieces[best].along_x, pieces[best].along_y, pieces[best].length
 
 
 @kernel
@@ -198,13 +201,12 @@ def beam_spacing(jamb: Any, distance: float, increment: float) -> float:
 
 
 @kernel
-def keep_best(found: int, pieces: int, settings: Any, scratch: Any, doors: np.ndarray) -> int:
+def keep_best(candidates: np.ndarray, nearest: float) -> None:
     """Keep the best of every set of candidates whose midpoints are close together.
 
     Candidates are compared by place and not by angle, so that a door seen through a door stays.
-    Doors are written in beam order.
     """
-    candidates = scratch.candidates
+    found = len(candidates)
     for i in range(found):
         candidates[i].state = UNDECIDED
     while True:
@@ -216,21 +218,15 @@ def keep_best(found: int, pieces: int, settings: Any, scratch: Any, doors: np.nd
                 best = i
         if best < 0:
             break
-        suppress_near(candidates, found, best, settings.door_width_min)
+        suppress_near(candidates, best, nearest)
         candidates[best].state = KEPT
-    count = 0
-    for i in range(found):
-        if candidates[i].state == KEPT and count < len(doors):
-            write_door(candidates[i], pieces, scratch, doors[count])
-            count += 1
-    return count
 
 
 @kernel
-def suppress_near(candidates: np.ndarray, found: int, best: int, nearest: float) -> None:
+def suppress_near(candidates: np.ndarray, best: int, nearest: float) -> None:
     """Suppress the open candidates near the best one."""
     chosen = candidates[best]
-    for i in range(found):
+    for i in range(len(candidates)):
         other = candidates[i]
         dx = chosen.start_x + chosen.end_x - other.start_x - other.end_x
         dy = chosen.start_y + chosen.end_y - other.start_y - other.end_y
@@ -239,7 +235,7 @@ def suppress_near(candidates: np.ndarray, found: int, best: int, nearest: float)
 
 
 @kernel
-def write_door(gap: Any, pieces: int, scratch: Any, door: Any) -> None:
+def write_door(gap: Any, pieces: np.ndarray, door: Any) -> None:
     """Write a door, its jambs where they are expected: half a beam spacing past the last points."""
     start, end = 0.5 * gap.start_spacing, 0.5 * gap.end_spacing
     door.start_x, door.start_y = (
@@ -248,4 +244,4 @@ def write_door(gap: Any, pieces: int, scratch: Any, door: Any) -> None:
     )
     door.end_x, door.end_y = gap.end_x - end * gap.along_x, gap.end_y - end * gap.along_y
     door.confidence = gap.confidence
-    door.hinge, door.leaf_angle = find_leaf(gap, pieces, scratch)
+    door.hinge, door.leaf_angle = find_leaf(gap, pieces)

@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
 
+BLOCK = 64
+"""Points of which it is asked together whether one of them is far from a chord."""
+
 
 @kernel
 def split(
@@ -70,17 +73,21 @@ def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float
     """The inner point farthest from the chord (Barbret (1.4)), or -1 if all are within limit."""
     dx, dy = xs[last] - xs[first], ys[last] - ys[first]
     level = dx * ys[first] - dy * xs[first]
+    # Distances are compared before they are divided by the length of the chord, the same for all.
     best = limit * math.sqrt(dx * dx + dy * dy)
-    found, i = -1, first + 1
-    # Two points at a time: each comparison of `best` waits for the one before it. Distances are
-    # compared before they are divided by the length of the chord, which is the same for all.
-    while i < last:
-        a = abs(dx * ys[i] - dy * xs[i] - level)
-        second = min(i + 1, last)
-        b = abs(dx * ys[second] - dy * xs[second] - level)
-        if max(a, b) > best:
-            best, found = max(a, b), i if a >= b else second
-        i += 2
+    found = -1
+    for start in range(first + 1, last, BLOCK):
+        # Unsigned indices and a sum without a branch, or it is not done for many points at once.
+        low, high = np.uint64(start), np.uint64(min(start + BLOCK, last))
+        beyond = 0
+        for i in range(low, high):
+            beyond += abs(dx * ys[i] - dy * xs[i] - level) > best
+        i = low if beyond > 0 else high
+        while i < high:
+            distance = abs(dx * ys[i] - dy * xs[i] - level)
+            if distance > best:
+                best, found = distance, np.int64(i)
+            i += np.uint64(1)
     return found
 
 

@@ -89,7 +89,6 @@ class Scratch(NamedTuple):
         candidates: possible doors, dtype `CANDIDATE`.
         evidence: what was measured of each candidate, dtype `EVIDENCE`.
         scorer: table that weighs the evidence, from `door_scorer.load_scorer`.
-        levels: activations of the scorer's hidden units.
         wall_piece: the piece of each wall, shape of the wall array.
         near_pieces: the pieces of the walls near a corner, shape of the wall array.
         joints: the corner at the end of each wall, dtype `JOINT`, shape of the wall array.
@@ -114,7 +113,6 @@ class Scratch(NamedTuple):
     candidates: np.ndarray
     evidence: np.ndarray
     scorer: FloatArray
-    levels: FloatArray
     wall_piece: NDArray[np.int64]
     near_pieces: NDArray[np.int64]
     joints: np.ndarray
@@ -163,7 +161,6 @@ def allocate_scratch(beams: int, door_candidates: int = MAX_DOOR_CANDIDATES) -> 
         candidates=np.empty(door_candidates, CANDIDATE),
         evidence=np.empty(door_candidates, EVIDENCE),
         scorer=default_scorer(),
-        levels=np.empty(default_scorer().shape[1]),
         wall_piece=np.empty(CAPACITY["walls"], np.int64),
         near_pieces=np.empty(CAPACITY["walls"], np.int64),
         joints=np.empty(CAPACITY["walls"], JOINT),

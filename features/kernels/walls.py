@@ -17,8 +17,11 @@ from semnav_env.features.kernels.layout import (
     START_BREAK,
     START_RUPTURE,
 )
-from semnav_env.features.kernels.lines import fit, gather, offset, refit
+from semnav_env.features.kernels.lines import fit, gather, offset, refit, split
 from semnav_env.features.kernels.segmentation import is_return
+from semnav_env.features.strategies import Segmentation
+
+END_POINT_FIT = int(Segmentation.END_POINT_FIT)
 
 TOO_FEW_BEAMS, TOO_SHORT, PART_OF_ARC = 1, 2, 3
 """Why a piece is no wall; 0 stands for no fault."""
@@ -41,7 +44,10 @@ def fit_pieces(groups: int, settings: Any, scratch: Any) -> int:
         first, last = scratch.group_first[group], scratch.group_first[group + 1] - 1
         if last == first:
             continue
-        cuts = cut(xs, ys, first, last, settings, scratch)
+        if settings.segmentation == END_POINT_FIT:  # the usual one; handing over scratch takes time
+            cuts = split(xs, ys, first, last, settings.split_distance, scratch.stack, vertices)
+        else:
+            cuts = cut(xs, ys, first, last, settings, scratch)
         group_start = count
         for k in range(cuts - 1):
             # A vertex between two pieces is left out of both at first: it may lie on neither line.
