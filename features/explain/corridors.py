@@ -34,19 +34,16 @@ def _probe(
     trace: Trace, corner: Any, ending: int, starting: int, probe: int, found: int
 ) -> tuple[Any, int]:
     """Where one probe of a corner leads, as the kernel has it, and what is wrong with it."""
-    record, pieces, near_pieces = trace.record, trace.scratch.pieces, trace.scratch.near_pieces
-    walls = trace.scratch.wall_piece[: trace.features.counts[WALLS]]
+    record, scratch, walls = trace.record, trace.scratch, trace.features.counts[WALLS]
     entry = np.zeros(1, CORRIDOR)[0]
     entry["start_x"] = entry["end_x"] = corner["x"]
     entry["start_y"] = entry["end_y"] = corner["y"]
     if kernel.is_remote(corner, record):
         return entry, kernel.TOO_FAR
-    near = kernel.find_near_walls(corner, ending, starting, record, pieces, walls, near_pieces)
-    along = kernel.probe_direction(corner["kind"], ending, starting, probe, pieces, walls)
+    near = kernel.find_near_walls(corner, ending, starting, walls, record, scratch)
+    along = kernel.probe_direction(corner["kind"], ending, starting, probe, scratch)
     square = math.cos(record["corridor_angle_tolerance"])
-    reach = kernel.nearest_wall(
-        corner["x"], corner["y"], *along, square, record, pieces, near_pieces[:near]
-    )
+    reach = kernel.nearest_wall(corner["x"], corner["y"], *along, near, square, record, scratch)
     length = reach if reach > 0.0 else float(record["corridor_probe"])
     entry["end_x"] += length * along[0]
     entry["end_y"] += length * along[1]

@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
@@ -48,20 +47,16 @@ def find_corridors(
     """
     found = 0
     square = math.cos(settings.corridor_angle_tolerance)
-    pieces, wall_piece, near_pieces = scratch.pieces, scratch.wall_piece, scratch.near_pieces
-    wall_piece = wall_piece[:walls]
     for c in range(corner_count):
         corner = corners[c]
         if corner.kind == OUTER or is_remote(corner, settings):
             continue
         ending, starting = scratch.corner_ends[c, 0], scratch.corner_ends[c, 1]
-        near = find_near_walls(corner, ending, starting, settings, pieces, wall_piece, near_pieces)
+        near = find_near_walls(corner, ending, starting, walls, settings, scratch)
         for probe in range(2):
-            along_x, along_y = probe_direction(
-                corner.kind, ending, starting, probe, pieces, wall_piece
-            )
+            along_x, along_y = probe_direction(corner.kind, ending, starting, probe, scratch)
             reach = nearest_wall(
-                corner.x, corner.y, along_x, along_y, square, settings, pieces, near_pieces[:near]
+                corner.x, corner.y, along_x, along_y, near, square, settings, scratch
             )
             if reach < 0.0 or found == len(corridors):
                 continue
@@ -84,19 +79,14 @@ def is_remote(corner: Any, settings: Any) -> bool:
 
 @kernel
 def probe_direction(
-    kind: int,
-    ending: int,
-    starting: int,
-    probe: int,
-    pieces: np.ndarray,
-    wall_piece: NDArray[np.int64],
+    kind: int, ending: int, starting: int, probe: int, scratch: Any
 ) -> tuple[float, float]:
     """Unit direction of a corner's first or second probe."""
     if kind == INNER:
-        wall = pieces[wall_piece[ending if probe == 0 else starting]]
+        wall = scratch.pieces[scratch.wall_piece[ending if probe == 0 else starting]]
         sense = 1.0 if probe == 0 else -1.0
         return sense * wall.along_x, sense * wall.along_y
-    wall = pieces[wall_piece[max(ending, starting)]]
+    wall = scratch.pieces[scratch.wall_piece[max(ending, starting)]]
     if probe == 1:
         return -wall.along_y, wall.along_x
     sense = 1.0 if ending >= 0 else -1.0
@@ -105,27 +95,21 @@ def probe_direction(
 
 @kernel
 def find_near_walls(
-    corner: Any,
-    ending: int,
-    starting: int,
-    settings: Any,
-    pieces: np.ndarray,
-    wall_piece: NDArray[np.int64],
-    near_pieces: NDArray[np.int64],
+    corner: Any, ending: int, starting: int, walls: int, settings: Any, scratch: Any
 ) -> int:
-    """Note in `near_pieces` the walls that a probe could reach; returns how many.
+    """Note in `scratch.near_pieces` the walls that a probe could reach; returns how many.
 
     The two walls at the corner are not among them.
     """
     reach = settings.corridor_probe + settings.corridor_wall_slack + ROUNDING_MARGIN
     near = 0
-    for k in range(len(wall_piece)):
-        wall = pieces[wall_piece[k]]
+    for k in range(walls):
+        wall = scratch.pieces[scratch.wall_piece[k]]
         dx = 0.5 * (wall.start_x + wall.end_x) - corner.x
         dy = 0.5 * (wall.start_y + wall.end_y) - corner.y
         farthest = reach + 0.5 * wall.length
         is_near = (dx * dx + dy * dy <= farthest * farthest) & (k != ending) & (k != starting)
-        near_pieces[near] = wall_piece[k]
+        scratch.near_pieces[near] = scratch.wall_piece[k]
         near += is_near
     return near
 
@@ -136,36 +120,34 @@ def nearest_wall(
     y: float,
     along_x: float,
     along_y: float,
+    near: int,
     square: float,
     settings: Any,
-    pieces: np.ndarray,
-    near_pieces: NDArray[np.int64],
+    scratch: Any,
 ) -> float:
-    """Distance along a probe to the first of the near walls that it meets, metres.
+    """Distance along a probe to the first of the `near` walls that it meets, metres.
 
     The negative of `NO_WALL_MET` if it meets none, and that of `NOT_SQUARE` if it meets that wall
     from behind or too far from square.
     """
     nearest = settings.corridor_probe
     is_any = met = False
-    for k in range(len(near_pieces)):
-        wall = pieces[near_pieces[k]]
+    for k in range(near):
+        wall = scratch.pieces[scratch.near_pieces[k]]
         dx, dy = wall.start_x - x, wall.start_y - y
         facing = along_y * wall.along_x - along_x * wall.along_y
         place = along_x * dy - along_y * dx
         tilt = abs(facing)
         place = place if facing > 0.0 else -place
-        ahead = dy * wall.along_x - dx * wall.along_y  # its quotient by `facing` is the reach
         slack = settings.corridor_wall_slack if tilt >= square else 0.0
-        may_hit = (  # one branch: they are hard to predict
+        reach = (dy * wall.along_x - dx * wall.along_y) / facing
+        hit = (
             (tilt >= MIN_FACING_SINE)
             & (place >= -slack * tilt)
             & (place <= (wall.length + slack) * tilt)
-            & (ahead * facing > 0.0)
-            & (abs(ahead) <= (nearest + ROUNDING_MARGIN) * tilt)
         )
-        if may_hit and 0.0 < ahead / facing <= nearest:
-            nearest = ahead / facing
+        if hit & (reach > 0.0) & (reach <= nearest):  # one branch: they are hard to predict
+            nearest = reach
             is_any, met = True, facing <= -square
     if met:
         return float(nearest)

@@ -111,6 +111,8 @@ def remember_door(door: Ends, confidence: float, memory: Any, used: int) -> int:
     turned = (door[2], door[3], door[0], door[1])
     best, nearest, swapped = -1, SAME_JAMB_DISTANCE, False
     for k in range(used):
+        if not _may_be_same(memory[k], door):
+            continue
         same, other = _apart(memory[k], door), _apart(memory[k], turned)
         if min(same, other) < nearest:
             best, nearest, swapped = k, min(same, other), other < same
@@ -121,6 +123,14 @@ def remember_door(door: Ends, confidence: float, memory: Any, used: int) -> int:
         _fuse(memory[best], turned if swapped else door, log_odds)
     memory[best].seen = True
     return used
+
+
+@kernel
+def _may_be_same(old: Any, door: Ends) -> bool:
+    """Whether the middles of two doors are so near that their jambs may agree."""
+    x = 0.5 * (door[0] + door[2] - old.start_x - old.end_x)
+    y = 0.5 * (door[1] + door[3] - old.start_y - old.end_y)
+    return bool(x * x + y * y <= 1.01 * SAME_JAMB_DISTANCE**2)
 
 
 @kernel

@@ -99,14 +99,18 @@ def _nearest_like(wall: Ends, known: Any) -> tuple[int, float, float]:
     """
     x1, y1, x2, y2 = wall
     ux, uy = x2 - x1, y2 - y1
+    size, reach = ux * ux + uy * uy, (1.01 * MAX_LANDMARK_OFFSET) ** 2
     nearest, like, begin, end = MAX_LANDMARK_OFFSET, -1, 0.0, 0.0
     for k in range(len(known)):
         old = known[k]
         dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
         dot, square = ux * dx + uy * dy, dx * dx + dy * dy
-        if dot < 0.0 or dot * dot < MIN_PARALLEL_COSINE**2 * (ux * ux + uy * uy) * square:
-            continue
-        if old.hits < MIN_LANDMARK_SIGHTINGS:
+        parallel = (dot >= 0.0) & (dot * dot >= MIN_PARALLEL_COSINE**2 * size * square)
+        a = (x1 - old.start_x) * dy - (y1 - old.start_y) * dx
+        b = (x2 - old.start_x) * dy - (y2 - old.start_y) * dx
+        # The middle of the shared stretch is no nearer than the nearer end: one branch for all.
+        near = (a * b <= 0.0) | (min(a * a, b * b) <= reach * square)
+        if not (parallel & near & (old.hits >= MIN_LANDMARK_SIGHTINGS)):
             continue
         length = math.sqrt(square)
         first = ((x1 - old.start_x) * dx + (y1 - old.start_y) * dy) / length

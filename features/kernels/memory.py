@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numba import njit
@@ -47,6 +47,13 @@ SAME_LINE_OFFSET = 0.15
 SAME_LINE_GAP = 0.3
 """Largest gap along the line between two sightings of one wall, metres: nothing passes through."""
 
+MAX_END_OFFSET = SAME_LINE_OFFSET + 0.1 * SAME_LINE_GAP
+"""A wall is not on a line if both of its ends lie farther than this to one side of it, metres. The
+middle of the gap, where the offset counts, may lie half the gap beyond an end, at 8 degrees."""
+
+Frame: TypeAlias = tuple[float, float, float, float]
+"""Where a frame is in its parent: x, y in metres, cosine and sine of its heading."""
+
 
 @kernel
 def remember(
@@ -72,15 +79,12 @@ def remember(
         memory: arrays of `REMEMBERED_WALL`, `REMEMBERED_DOOR` and `COUNTERS`, changed in place.
     """
     known_walls, known_doors, counters = memory
-    used = counters[0]
+    used, frame = counters[0], frame_of(pose)
     for i in range(counts[WALLS]):
-        wall = walls[i]
-        ends = (wall.start_x, wall.start_y, wall.end_x, wall.end_y)
-        used.walls = remember_wall(placed(ends, pose), known_walls, used.walls)
+        used.walls = remember_wall(placed(walls[i], frame), known_walls, used.walls)
     for i in range(counts[DOORS]):
         door = doors[i]
-        ends = (door.start_x, door.start_y, door.end_x, door.end_y)
-        used.doors = remember_door(placed(ends, pose), door.confidence, known_doors, used.doors)
+        used.doors = remember_door(placed(door, frame), door.confidence, known_doors, used.doors)
     doubt_unseen_doors(ranges, angle_min, angle_increment, pose, known_doors[: used.doors])
     first = used.scans % WALL_CHECK_PERIOD  # each scan looks at another eighth of the walls
     doubt_passed_walls(
@@ -104,11 +108,9 @@ def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) 
         memory: as in `remember`.
     """
     known, _, counters = memory
-    known, sums = known[: counters[0].walls], PRIOR
+    known, sums, frame = known[: counters[0].walls], PRIOR, frame_of(pose)
     for i in range(counts[WALLS]):
-        wall = walls[i]
-        ends = placed((wall.start_x, wall.start_y, wall.end_x, wall.end_y), pose)
-        sums = with_sighting(ends, known, pose, sums)
+        sums = with_sighting(placed(walls[i], frame), known, pose, sums)
     return corrected(pose, sums)
 
 
@@ -176,11 +178,16 @@ def what_counts(walls: Any, doors: Any, counters: Any) -> tuple[FloatArray, Any]
 
 
 @kernel
-def placed(ends: Ends, frame: tuple[float, float, float]) -> Ends:
+def frame_of(pose: Pose) -> Frame:
+    """A pose with cosine and sine in place of its heading."""
+    return pose[0], pose[1], math.cos(pose[2]), math.sin(pose[2])
+
+
+@kernel
+def placed(item: Any, frame: Frame) -> Ends:
     """The ends of a wall or door, moved from a frame to the frame's parent."""
-    x1, y1, x2, y2 = ends
-    x, y, heading = frame
-    c, s = math.cos(heading), math.sin(heading)
+    x, y, c, s = frame
+    x1, y1, x2, y2 = item.start_x, item.start_y, item.end_x, item.end_y
     return x + c * x1 - s * y1, y + s * x1 + c * y1, x + c * x2 - s * y2, y + s * x2 + c * y2
 
 
@@ -206,9 +213,14 @@ def remember_wall(wall: Ends, memory: Any, used: int) -> int:
     for k in range(used):
         old = memory[k]
         dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
-        dot = dx * ux + dy * uy
-        aligned = dot > 0.0 and dot * dot > SAME_DIRECTION_COSINE**2 * (dx * dx + dy * dy)
-        if aligned and _on_one_line(old, wall):
+        dot, square = dx * ux + dy * uy, dx * dx + dy * dy
+        aligned = (dot > 0.0) & (dot * dot > SAME_DIRECTION_COSINE**2 * square)
+        first = (x1 - old.start_x) * dy - (y1 - old.start_y) * dx
+        last = (x2 - old.start_x) * dy - (y2 - old.start_y) * dx
+        nearest = MAX_END_OFFSET**2 * square
+        beside = (first * last > 0.0) & (first * first > nearest) & (last * last > nearest)
+        # One branch, which is seldom taken: each of these tests alone would be hard to predict.
+        if (aligned & (not beside)) and _on_one_line(old, wall):
             _fuse_wall(old, wall)
             return used
     place, used = place_for_new(memory, used)
