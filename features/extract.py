@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+import threading
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 
@@ -23,7 +26,13 @@ from semnav_env.features.kernels.layout import (
     START_RUPTURE,
     WALLS,
 )
-from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
+from semnav_env.features.kernels.scratch import (
+    Features,
+    Scratch,
+    allocate_features,
+    allocate_scratch,
+)
+from semnav_env.features.lazy_items import LazyItems
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import (
     Arc,
@@ -39,6 +48,10 @@ from semnav_env.features.settings import ExtractorSettings
 
 DEFAULT_SETTINGS = ExtractorSettings()
 KINDS = tuple(CornerKind)
+
+_Item = TypeVar("_Item")
+
+_LAST = threading.local()
 
 
 def extract(
@@ -75,7 +88,7 @@ def extract(
         )
     directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
     beams = len(directions)
-    features, scratch = allocate_features(), allocate_scratch(beams)
+    features, scratch = _arrays(beams)
     extract_arrays(
         scan.ranges[:beams].copy(),
         directions,
@@ -109,18 +122,33 @@ def beam_directions(beams: int, angle_min: float, angle_increment: float) -> Flo
 def to_scene(features: Features) -> Scene:
     """The used entries of the kernels' arrays as a scene."""
     counts = features.counts.tolist()
-    walls = features.walls[: counts[WALLS]].tolist()
-    doors = features.doors[: counts[DOORS]].tolist()
-    corners = features.corners[: counts[CORNERS]].tolist()
-    corridors = features.corridors[: counts[CORRIDORS]].tolist()
-    arcs = features.arcs[: counts[ARCS]].tolist()
     return Scene(
-        tuple([_wall(*row) for row in walls]),
-        tuple([_door(*row) for row in doors]),
-        tuple([Corner((x, y), KINDS[kind]) for x, y, kind in corners]),
-        tuple([CorridorProbe((ax, ay), (bx, by)) for ax, ay, bx, by in corridors]),
-        tuple([_arc(*row) for row in arcs]),
+        _items(features.walls, counts[WALLS], _wall),
+        _items(features.doors, counts[DOORS], _door),
+        _items(features.corners, counts[CORNERS], _corner),
+        _items(features.corridors, counts[CORRIDORS], _corridor),
+        _items(features.arcs, counts[ARCS], _arc),
     )
+
+
+def _items(rows: np.ndarray, count: int, make: Callable[..., _Item]) -> Sequence[_Item]:
+    return LazyItems(rows[:count], make) if count else ()
+
+
+def _arrays(beams: int) -> tuple[Features, Scratch]:
+    """Arrays for scans of that many beams; the ones of the thread's last scan if they fit."""
+    arrays: tuple[int, Features, Scratch] | None = getattr(_LAST, "arrays", None)
+    if arrays is None or arrays[0] != beams:
+        arrays = _LAST.arrays = beams, allocate_features(), allocate_scratch(beams)
+    return arrays[1:]
+
+
+def _corner(x: float, y: float, kind: int) -> Corner:
+    return Corner((x, y), KINDS[kind])
+
+
+def _corridor(start_x: float, start_y: float, end_x: float, end_y: float) -> CorridorProbe:
+    return CorridorProbe((start_x, start_y), (end_x, end_y))
 
 
 def _door(

@@ -87,10 +87,10 @@ class Scene:
     """
 
     walls: Sequence[Wall] = ()
-    doors: tuple[Door, ...] = ()
-    corners: tuple[Corner, ...] = ()
-    corridors: tuple[CorridorProbe, ...] = ()
-    arcs: tuple[Arc, ...] = ()
+    doors: Sequence[Door] = ()
+    corners: Sequence[Corner] = ()
+    corridors: Sequence[CorridorProbe] = ()
+    arcs: Sequence[Arc] = ()
     rejections: tuple[Rejection, ...] = ()
 
     def placed(self, frame: Pose) -> Scene:

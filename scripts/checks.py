@@ -11,6 +11,7 @@ import time
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
@@ -113,7 +114,8 @@ def kernels() -> list[InstallationCheck]:
         f"a simulated scan shows {walls} walls; ready after {seconds:.1f} s",
         "reinstall numba and semnav-env",
     )
-    return [works, _writable_cache(Path(extract_arrays.stats.cache_path or ""))]
+    compiled: Any = extract_arrays
+    return [works, _writable_cache(Path(compiled.stats.cache_path or ""))]
 
 
 def _writable_cache(folder: Path) -> InstallationCheck:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.lines import offset
@@ -124,7 +122,7 @@ def measure_walls(
     limit: float,
     beams_per_turn: int,
     gap: Any,
-    pieces: np.ndarray,
+    pieces: Any,
     settings: Any,
     evidence: Any,
 ) -> None:
@@ -218,7 +216,7 @@ def missing_wall(
 
 
 @kernel
-def wall_misfit(gap: Any, step: int, pieces: np.ndarray, settings: Any) -> tuple[float, float]:
+def wall_misfit(gap: Any, step: int, pieces: Any, settings: Any) -> tuple[float, float]:
     """How far the jambs lie off the line of the wall that best supports one of them.
 
     The distance is divided by what is allowed: `confidence` standard deviations of the fitted line

@@ -82,12 +82,11 @@ def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float
         beyond = 0
         for i in range(low, high):
             beyond += abs(dx * ys[i] - dy * xs[i] - level) > best
-        i = low if beyond > 0 else high
-        while i < high:
-            distance = abs(dx * ys[i] - dy * xs[i] - level)
-            if distance > best:
-                best, found = distance, np.int64(i)
-            i += np.uint64(1)
+        if beyond > 0:
+            for i in range(low, high):
+                distance = abs(dx * ys[i] - dy * xs[i] - level)
+                if distance > best:
+                    best, found = distance, int(i)
     return found
 
 

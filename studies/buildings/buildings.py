@@ -193,8 +193,8 @@ def look_around(
         scene = extract(scan, settings)
         found = zip(scene.doors, Scene(doors=scene.doors).placed(pose).doors, strict=True)
         passages = tuple([door for door, placed in found if building.leads_elsewhere(placed)])
-        doors = everything.seen_from(pose).doors
-        yield FloorLook(pose, scan, doors, scene.doors, passages)
+        doors = tuple(everything.seen_from(pose).doors)
+        yield FloorLook(pose, scan, doors, tuple(scene.doors), passages)
 
 
 def building_row(

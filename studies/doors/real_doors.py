@@ -86,7 +86,7 @@ def look_through(path: Path, settings: ExtractorSettings, every: int = 8) -> Ite
             window.append((scene, record.scan, record.pose))
             if number % every == 0:
                 remembered = seen_from(record.pose, remember(window))
-                yield Glimpse(record.scan, record.pose, scene.doors, remembered)
+                yield Glimpse(record.scan, record.pose, tuple(scene.doors), remembered)
 
 
 def remember(window: Iterable[tuple[Scene, Scan, Pose]]) -> tuple[Door, ...]:
@@ -94,12 +94,12 @@ def remember(window: Iterable[tuple[Scene, Scan, Pose]]) -> tuple[Door, ...]:
     memory = SceneMemory()
     for scene, scan, pose in window:
         memory.see(scene, scan, pose)
-    return memory.scene().doors
+    return tuple(memory.scene().doors)
 
 
 def seen_from(pose: Pose, doors: Iterable[Door]) -> tuple[Door, ...]:
     """The doors in the frame of a pose in their own frame."""
-    return Scene(doors=tuple(doors)).seen_from(pose).doors
+    return tuple(Scene(doors=tuple(doors)).seen_from(pose).doors)
 
 
 def targets(openings: Sequence[LabelledOpening]) -> list[LabelledTarget]:
