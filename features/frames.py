@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
-from numba.extending import register_jitable
+from numba.extending import overload, register_jitable
 from numpy.typing import NDArray
 
 Point: TypeAlias = tuple[float, float]
@@ -22,6 +23,9 @@ Contact: TypeAlias = tuple[float, float, float]
 """Where a body touches something: (x, y) in metres, and the direction from there into the thing
 that is touched, radians; robot frame."""
 
+MOST_CONTACTS = 9
+"""Of a control period's contacts only the first so many are looked at: substeps repeat them."""
+
 FloatArray: TypeAlias = NDArray[np.float64]
 
 
@@ -30,15 +34,41 @@ def wrap_angle(angle: float) -> float:
     return math.remainder(angle, 2.0 * math.pi)
 
 
+@overload(wrap_angle)
+def _compiled_wrap_angle(angle: float) -> Callable[[float], float]:
+    """What compiled code calls as `wrap_angle`: the same to the last bit.
+
+    A remainder is exact, and so is each difference below: `rest` is the angle's distance from the
+    whole turn before it, and `missing` that from the one behind it. Of two equally near ones the
+    even turn counts, as in IEEE 754.
+    """
+
+    def wrap(angle: float) -> float:
+        size = abs(angle)
+        if size <= math.pi:
+            return angle
+        rest = size % math.tau
+        missing = math.tau - rest
+        if rest > missing:
+            rest = -missing
+        elif rest == missing:
+            rest -= 2.0 * (0.5 * (size - rest) % math.tau)
+        return math.copysign(1.0, angle) * rest
+
+    return wrap
+
+
+@register_jitable
 def compose(frame: Pose, local: Pose) -> Pose:
     """Express in the parent frame a pose that is given in `frame`."""
-    x, y = to_parent(frame, local[:2])
+    x, y = to_parent(frame, (local[0], local[1]))
     return x, y, wrap_angle(frame[2] + local[2])
 
 
+@register_jitable
 def relative(frame: Pose, pose: Pose) -> Pose:
     """Express in `frame` a pose that is given in its parent frame; the inverse of `compose`."""
-    x, y = to_local(frame, pose[:2])
+    x, y = to_local(frame, (pose[0], pose[1]))
     return x, y, wrap_angle(pose[2] - frame[2])
 
 

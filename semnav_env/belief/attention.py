@@ -6,8 +6,8 @@ from typing import Any
 
 from numba import njit
 
+from semnav_env.features.frames import wrap_angle
 from semnav_env.features.kernels.memory import how_many_count
-from semnav_env.grounding.goal_check import wrapped
 
 MAX_TRAVEL, MAX_HEADING_CHANGE = 1.5, 0.5
 """A look is due when the robot has moved or turned by more since the last one, metres and
@@ -36,7 +36,7 @@ def is_look_due(estimate: Any, remembered: Any) -> bool:
     """
     pose, look = estimate.pose, estimate.look_pose
     moved = (pose[0] - look[0]) ** 2 + (pose[1] - look[1]) ** 2
-    if moved > MAX_TRAVEL**2 or abs(wrapped(pose[2] - look[2])) > MAX_HEADING_CHANGE:
+    if moved > MAX_TRAVEL**2 or abs(wrap_angle(pose[2] - look[2])) > MAX_HEADING_CHANGE:
         return True
     since = estimate.scan - estimate.look_scan
     first = estimate.scan == FIRST_COUNTING_SCAN

@@ -7,7 +7,7 @@ import math
 from numba import njit
 from numba.extending import register_jitable
 
-from semnav_env.features.frames import Point, Pose, to_local
+from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
 from semnav_env.grounding.crossing import crossing_share
 
 DoorEnds = tuple[float, float, float, float]
@@ -37,7 +37,7 @@ def is_reached(
         along, offset = to_local(goal, (pose[0], pose[1]))
         return abs(along) <= share * near and abs(offset) <= beside
     distance = math.hypot(pose[0] - goal[0], pose[1] - goal[1])
-    error = abs(wrapped(pose[2] - goal[2]))
+    error = abs(wrap_angle(pose[2] - goal[2]))
     return distance <= share * near and (turned >= math.pi or error <= share * turned)
 
 
@@ -75,23 +75,3 @@ def is_crossed(
     )
     slack = margin / width
     return forward and -slack <= share <= 1 + slack
-
-
-@njit(cache=True, error_model="numpy")
-def wrapped(angle: float) -> float:
-    """The same angle in [-pi, pi], to the last bit that of `frames.wrap_angle`.
-
-    A remainder is exact, and so is each difference below: `rest` is the angle's distance from the
-    whole turn before it, and `missing` that from the one behind it. Of two equally near ones the
-    even turn counts, as in IEEE 754.
-    """
-    size = abs(angle)
-    if size <= math.pi:
-        return angle
-    rest = size % math.tau
-    missing = math.tau - rest
-    if rest > missing:
-        rest = -missing
-    elif rest == missing:
-        rest -= 2.0 * (0.5 * (size - rest) % math.tau)
-    return math.copysign(1.0, angle) * rest

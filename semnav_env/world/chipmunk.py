@@ -1,68 +1,36 @@
-"""Chipmunk's functions, called from compiled code without Python in between.
-
-Pymunk calls Chipmunk through cffi, which knows the addresses of its functions. Their names are
-given to LLVM, so that compiled code finds them, also when it comes out of a cache.
-"""
+"""A control period of Chipmunk's substeps, in compiled code or by way of Pymunk."""
 
 from __future__ import annotations
 
 import platform
 import sys
 from functools import cache
-from typing import Any
 
-import llvmlite.binding
 import numpy as np
 import pymunk
-from llvmlite import ir
 from numba import njit, types
-from numba.core import cgutils
-from numba.extending import intrinsic
-from pymunk._chipmunk import ffi, lib
 
 from semnav_env.robots import SPOT
 from semnav_env.world.bodies import driving_joints, robot_body, solid_space
+from semnav_env.world.chipmunk_functions import (
+    ADDRESS,
+    NUMBER,
+    address,
+    simple_function,
+    vector_of,
+)
+from semnav_env.world.contacts import note_contacts
 from semnav_env.world.drive_record import drive_record
 
 KNOWN_MACHINES = ("x86_64", "amd64", "aarch64", "arm64")
 """Where C functions take and return a structure of two doubles like two doubles; not on Windows."""
 
-_NUMBER, _ADDRESS = types.float64, types.uint64
-
-
-def address(pointer: Any) -> int:
-    """Of what a cffi pointer points to."""
-    return int(ffi.cast("uintptr_t", pointer))
-
-
-def _function(name: str, result: Any, *arguments: Any) -> Any:
-    """A function of Chipmunk for compiled code."""
-    llvmlite.binding.add_symbol(name, address(ffi.addressof(lib, name)))
-    return types.ExternalFunction(name, result(*arguments))
-
-
-def _getter(name: str) -> Any:
-    """A function of Chipmunk from a body to a vector, for compiled code."""
-    llvmlite.binding.add_symbol(name, address(ffi.addressof(lib, name)))
-
-    @intrinsic
-    def call(typing_context: Any, body: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-            vector = context.get_value_type(signature.return_type)
-            kind = ir.FunctionType(vector, [values[0].type])
-            return builder.call(cgutils.get_or_insert_function(builder.module, kind, name), values)
-
-        return types.UniTuple(_NUMBER, 2)(_ADDRESS), generate
-
-    return call
-
-
-_step_space = _function("cpSpaceStep", types.void, _ADDRESS, _NUMBER)
-_set_velocity = _function("cpBodySetVelocity", types.void, _ADDRESS, _NUMBER, _NUMBER)
-_set_turn = _function("cpBodySetAngularVelocity", types.void, _ADDRESS, _NUMBER)
-_angle = _function("cpBodyGetAngle", _NUMBER, _ADDRESS)
-_turn = _function("cpBodyGetAngularVelocity", _NUMBER, _ADDRESS)
-_position, _velocity = _getter("cpBodyGetPosition"), _getter("cpBodyGetVelocity")
+_step_space = simple_function("cpSpaceStep", types.void, ADDRESS, NUMBER)
+_set_velocity = simple_function("cpBodySetVelocity", types.void, ADDRESS, NUMBER, NUMBER)
+_set_turn = simple_function("cpBodySetAngularVelocity", types.void, ADDRESS, NUMBER)
+_angle = simple_function("cpBodyGetAngle", NUMBER, ADDRESS)
+_turn = simple_function("cpBodyGetAngularVelocity", NUMBER, ADDRESS)
+_position, _velocity = vector_of("cpBodyGetPosition"), vector_of("cpBodyGetVelocity")
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -107,7 +75,7 @@ def chipmunk_can_be_called() -> bool:
 
 
 def _meet_a_wall(compiled: bool) -> bytes:
-    """Drive a robot into a wall; returns how it moves then."""
+    """Drive a robot into a wall; returns how it moves then, and what it touched."""
     space = solid_space(np.array([[0.6, -1.0, 0.7, 1.0]]))
     control = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
     body, shape = robot_body(SPOT, (0.0, 0.0, 0.0))
@@ -116,8 +84,10 @@ def _meet_a_wall(compiled: bool) -> bytes:
     record["space"], record["control"] = address(space._space), address(control._body)
     record["body"] = address(body._body)
     record["demand"] = (1.0, 0.25, 0.5)
+    note_contacts(space, record, compiled)
     if compiled:
         run_substeps(record)
     else:
         run_substeps_by_pymunk(record, space, control, body)
-    return record["motion"].tobytes()
+    told = ("motion", "touches", "impulse", "contact_count", "contacts")
+    return b"".join(record[name].tobytes() for name in told)

@@ -1,18 +1,36 @@
-"""What a robot touches while a period is driven."""
+"""What a robot touches while a period is driven, noted by callbacks of the physics."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
 import pymunk
+from numba import carray, cfunc, types
+from pymunk._chipmunk import ffi, lib
 
-from semnav_env.features.frames import Contact, Point, Pose, to_local, wrap_angle
+from semnav_env.features.frames import MOST_CONTACTS
+from semnav_env.world.chipmunk_functions import (
+    ADDRESS,
+    INDEX,
+    address,
+    pair_of,
+    simple_function,
+    vector_at,
+    vector_of,
+)
+from semnav_env.world.drive_record import DRIVE
 
-MOST_TOUCHES = 8
-"""Of a step's touches only the first so many are looked at: substeps repeat them."""
+_STATIC, _MOST_POINTS = pymunk.Body.STATIC, 2  # of contact between two shapes
+
+_bodies = pair_of("cpArbiterGetBodies")
+_kind = simple_function("cpBodyGetType", INDEX, ADDRESS)
+_points = simple_function("cpArbiterGetCount", INDEX, ADDRESS)
+_impulse, _normal = vector_of("cpArbiterTotalImpulse"), vector_of("cpArbiterGetNormal")
+_point = vector_at("cpArbiterGetPointB")
 
 
 @dataclass(frozen=True)
@@ -28,52 +46,64 @@ class Contacts:
     impulse: float = 0.0
 
 
-class ContactLog:
-    """Notes the contacts of a body, as a callback of the space.
-
-    What is said is of the last control period; it is forgotten at the first contact of a later one.
+def note_contacts(space: pymunk.Space, record: np.ndarray, compiled: bool) -> None:
+    """Have a space write what the robot touches into its record, dtype `DRIVE`.
 
     Args:
-        body: of the robot.
-        record: of its drive; `touches` is 0 at the start of a control period and is counted here.
+        space: with the robot's body.
+        record: must live as long as the space is stepped.
+        compiled: whether compiled code does it, for each pair of shapes in each substep; else
+            Python, for machines on which compiled code cannot call Chipmunk.
     """
+    if not compiled:
+        space.on_collision(post_solve=_note_by_pymunk, data=record)
+        return
+    any_kind = int(ffi.cast("uintptr_t", ~0))
+    handler = lib.cpSpaceAddCollisionHandler(space._space, any_kind, any_kind)
+    handler.postSolveFunc = ffi.cast("cpCollisionPostSolveFunc", _compiled_callback())
+    handler.userData = ffi.cast("void *", record.ctypes.data)
 
-    def __init__(self, body: pymunk.Body, record: np.ndarray) -> None:
-        self._body, self._count = body, record["touches"]
-        self._impulses: list[float] = []
-        self._places: list[tuple[Point, float]] = []
 
-    def note(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-        """Called by the space for each pair of shapes that touch."""
-        if not self._count[0]:
-            self._impulses, self._places = [], []
-        self._count[0] += 1
-        self._impulses.append(arbiter.total_impulse.length)
-        if len(self._places) >= MOST_TOUCHES:
-            return
-        first, second = arbiter.bodies
-        other = second if first is self._body else first
-        if other.body_type != pymunk.Body.STATIC:
-            return
-        met = arbiter.contact_point_set
-        inward = met.normal if first is self._body else -met.normal
-        self._places += [((p.point_b.x, p.point_b.y), inward.angle) for p in met.points]
+@cache
+def _compiled_callback() -> int:
+    """Address of `_note`, which is compiled only where it can call Chipmunk."""
+    signature = types.void(ADDRESS, ADDRESS, types.voidptr)
+    return int(cfunc(signature, cache=True, error_model="numpy")(_note).address)
 
-    @property
-    def in_contact(self) -> bool:
-        """Whether anything was touched."""
-        return bool(self._count[0])
 
-    @property
-    def contacts(self) -> Contacts:
-        """How often and how hard."""
-        if not self.in_contact:
-            return Contacts()
-        return Contacts(len(self._impulses), math.fsum(self._impulses))
+def _note(arbiter: int, space: int, record: Any) -> None:
+    """Called by Chipmunk for each pair of shapes that touch."""
+    r = carray(record, 1, DRIVE)[0]
+    r.touches += 1
+    x, y = _impulse(arbiter)
+    r.impulse += math.sqrt(x * x + y * y)
+    first, second = _bodies(arbiter)
+    is_first = first == r.body
+    solid = _kind(second if is_first else first) == _STATIC
+    if not solid or r.contact_count > MOST_CONTACTS - _MOST_POINTS:
+        return
+    x, y = _normal(arbiter)
+    inward = math.atan2(y, x) if is_first else math.atan2(-y, -x)
+    for k in range(_points(arbiter)):
+        contact = r.contacts[r.contact_count]
+        contact[0], contact[1] = _point(arbiter, k)
+        contact[2] = inward
+        r.contact_count += 1
 
-    def touches(self, pose: Pose) -> list[Contact]:
-        """Where a robot at a pose touches what cannot move, robot frame."""
-        return [
-            (*to_local(pose, place), wrap_angle(inward - pose[2]))
-            for place, inward in (self._places if self.in_contact else ())
-        ]
+
+def _note_by_pymunk(arbiter: pymunk.Arbiter, space: pymunk.Space, record: np.ndarray) -> None:
+    """The same as `_note`, called by Pymunk."""
+    r = record[0]
+    r["touches"] += 1
+    x, y = arbiter.total_impulse
+    r["impulse"] += math.sqrt(x * x + y * y)
+    first, second = arbiter.bodies
+    is_first = address(first._body) == r["body"]
+    solid = (second if is_first else first).body_type == _STATIC
+    if not solid or r["contact_count"] > MOST_CONTACTS - _MOST_POINTS:
+        return
+    met = arbiter.contact_point_set
+    inward = met.normal.angle if is_first else (-met.normal).angle
+    for point in met.points:
+        r["contacts"][r["contact_count"]] = (*point.point_b, inward)
+        r["contact_count"] += 1

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from semnav_env.features.frames import relative, wrap_angle
 from semnav_env.world.chipmunk import run_substeps
-
-_FULL_TURN = 2.0 * math.pi
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -36,7 +35,7 @@ def demand_velocity(record: np.ndarray) -> None:
     arcs exact to second order.
     """
     r = record[0]
-    r.touches = 0
+    r.touches, r.impulse, r.contact_count = 0, 0.0, 0
     forward, left, turn = _approach(r)
     middle = r.motion.angle + r.axle_velocity.turn * r.dt + 0.5 * turn * r.period
     c, s = math.cos(middle), math.sin(middle)
@@ -63,7 +62,7 @@ def _cut(value: float, limit: float) -> float:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def settle(record: np.ndarray) -> None:
-    """Find pose and velocity of the footprint's centre.
+    """Find pose and velocity of the footprint's centre, and what it touches in the robot frame.
 
     The velocity is in the heading for which it was demanded, see `demand_velocity`.
     """
@@ -71,22 +70,19 @@ def settle(record: np.ndarray) -> None:
     heading, turn = r.motion.angle, r.motion.turn
     c, s = math.cos(heading), math.sin(heading)
     r.pose.x, r.pose.y = r.motion.x - r.axle * c, r.motion.y - r.axle * s
-    r.pose.heading = _wrapped(heading)
+    r.pose.heading = wrap_angle(heading)
     middle = heading + turn * (r.dt - 0.5 * r.period)
     c, s = math.cos(middle), math.sin(middle)
     forward, left = c * r.motion.vx + s * r.motion.vy, c * r.motion.vy - s * r.motion.vx
     r.axle_velocity.forward, r.axle_velocity.left, r.axle_velocity.turn = forward, left, turn
     r.velocity.forward, r.velocity.left, r.velocity.turn = forward, left - r.axle * turn, turn
+    _take_contacts_into_robot_frame(r)
 
 
 @njit(cache=True, error_model="numpy")
-def _wrapped(angle: float) -> float:
-    """The same angle in [-pi, pi], rounded nowhere: `frames.wrap_angle` for compiled code."""
-    size = abs(angle)
-    if size <= math.pi:
-        return angle
-    past = np.fmod(size, _FULL_TURN)
-    short = _FULL_TURN - past
-    if past == short:
-        past = past - 2.0 * np.fmod(0.5 * (size - past), _FULL_TURN)
-    return float(math.copysign(1.0, angle) * (past if past <= short else -short))
+def _take_contacts_into_robot_frame(r: Any) -> None:
+    pose = r.pose.x, r.pose.y, r.pose.heading
+    for k in range(r.contact_count):
+        contact = r.contacts[k]
+        x, y, heading = relative(pose, (contact[0], contact[1], contact[2]))
+        contact[0], contact[1], contact[2] = x, y, heading

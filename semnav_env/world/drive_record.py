@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from semnav_env.features.frames import MOST_CONTACTS
 from semnav_env.robots import RobotSpec
 
 POSE = np.dtype([("x", "f8"), ("y", "f8"), ("heading", "f8")])
@@ -39,6 +40,9 @@ DRIVE = np.dtype(
         ("pose", POSE),
         ("velocity", TWIST),
         ("touches", "i8"),
+        ("impulse", "f8"),
+        ("contact_count", "i8"),
+        ("contacts", "f8", (MOST_CONTACTS, 3)),
     ]
 )
 """A robot, its drive and its motion; shape (1,).
@@ -62,7 +66,11 @@ Written in each control period:
     axle_velocity: of the axle's middle, robot frame.
     pose: of the footprint's centre, world frame; the heading is in [-pi, pi].
     velocity: of the footprint's centre, robot frame.
-    touches: pairs of shapes that touched, summed over the substeps; `ContactLog` counts them.
+    touches: pairs of shapes that touched, summed over the substeps.
+    impulse: sum of the magnitudes of their impulses, N s.
+    contact_count: how many `contacts` are known, the first ones.
+    contacts: where the robot touches what cannot move, each a `Contact`; world frame during the
+        substeps, then robot frame.
 """
 
 

@@ -16,12 +16,12 @@ from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 from semnav_env.world.bodies import driving_joints, robot_body, vacant_space
 from semnav_env.world.chipmunk import (
-    address,
     chipmunk_can_be_called,
     read_motion,
     run_substeps_by_pymunk,
 )
-from semnav_env.world.contacts import ContactLog, Contacts
+from semnav_env.world.chipmunk_functions import address
+from semnav_env.world.contacts import Contacts, note_contacts
 from semnav_env.world.drive import demand_velocity, drive, settle
 from semnav_env.world.drive_record import drive_record
 from semnav_env.world.movers import Movers
@@ -85,7 +85,7 @@ class World:
 
     def _at_rest(self) -> None:
         self.record = drive_record(self.robot, self._period, self.substeps)
-        self._command = self.record["command"]
+        self._command, self._contacts = self.record["command"], self.record["contacts"][0]
 
     def _moving(self, dynamics: Dynamics) -> Moving:
         from semnav_env.dynamics.moving import Moving  # most worlds stand still
@@ -180,18 +180,19 @@ class World:
     def contacts(self) -> Contacts:
         """What the robot touched during the last step."""
         self._require_reset()
-        return self._log.contacts
+        return Contacts(int(self.record["touches"][0]), float(self.record["impulse"][0]))
 
     @property
     def in_contact(self) -> bool:
         """Whether the robot touched anything during the last step."""
         self._require_reset()
-        return self._log.in_contact
+        return bool(self.record["touches"][0])
 
     @property
     def touches(self) -> list[Contact]:
         """Where the robot touched what cannot move during the last step, robot frame."""
-        return self._log.touches(self.pose)
+        count = int(self.record["contact_count"][0])
+        return [(x, y, inward) for x, y, inward in self._contacts[:count].tolist()]
 
     @property
     def moving_shapes(self) -> tuple[FloatArray, FloatArray]:
@@ -235,9 +236,8 @@ class World:
         self.record["space"] = address(self._space._space) if self._compiled else 0
         self.record["control"] = address(self._control._body)
         self.record["body"] = address(self._body._body)
-        self.record["touches"] = 0
-        self._log = ContactLog(self._body, self.record)
-        self._space.on_collision(post_solve=self._log.note)
+        self.record["touches"] = self.record["impulse"] = self.record["contact_count"] = 0
+        note_contacts(self._space, self.record, self._compiled)
         if self.moving is not None:
             self.moving.begin(start, self._seed)
             self._movers = Movers(self._space, self.moving, self._period)

@@ -2,28 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from copy import copy
 
-from hypothesis import given
-from hypothesis import strategies as st
-
 from semnav_env.commands import parse
-from semnav_env.features.frames import wrap_angle
 from semnav_env.grounding.clause_progress import ON_WAY, TRAIL_DUE, note_pose
 from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal_check import wrapped
 from semnav_env.grounding.ways import WAY_SPACING, KnownWays, Way
 from tests.support.hand_made import corridor
 
 SCENE = corridor(left=(3.0, 6.0), right=(4.0,))
-
-half_turns = st.integers(-9, 9).map(lambda n: n * math.pi)
-
-
-@given(st.floats(-1e6, 1e6) | st.floats(-7.0, 7.0) | half_turns)
-def test_compiled_angles_are_wrapped_to_the_last_bit_alike(angle: float) -> None:
-    assert repr(wrapped(angle)) == repr(wrap_angle(angle))
 
 
 def test_a_place_of_the_trail_is_due_every_way_spacing() -> None:

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import math
 import platform
 import sys
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from semnav_env.features.frames import Contact, Pose, wrap_angle
+from semnav_env.features.frames import Contact, Pose
 from semnav_env.robots import ROBOTS, RobotSpec
 from semnav_env.world import World, chipmunk, world
 from semnav_env.world.contacts import Contacts
-from semnav_env.world.drive import _wrapped
 from tests.support.driving import at_the_wall, random_commands
 from tests.support.small_plans import furnished_hall
 
@@ -68,9 +64,3 @@ def test_a_contact_is_forgotten_in_the_next_period_and_at_a_reset() -> None:
     reset.reset((3.0, 2.0, 0.5))
     for driven in (free, reset):
         assert (driven.in_contact, driven.contacts, driven.touches) == (False, Contacts(), [])
-
-
-@given(st.floats(-1000.0, 1000.0) | st.integers(-40, 40).map(lambda half: half * math.pi))
-def test_compiled_code_wraps_an_angle_without_rounding(angle: float) -> None:
-    wrapped, expected = _wrapped(angle), wrap_angle(angle)
-    assert (wrapped, math.copysign(1.0, wrapped)) == (expected, math.copysign(1.0, expected))
