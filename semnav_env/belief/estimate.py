@@ -7,13 +7,14 @@ from struct import Struct
 import numpy as np
 
 from semnav_env.belief.belief import Belief
+from semnav_env.features.frames import MOST_CONTACTS
 from semnav_env.grounding.clause_progress import GOAL_RECORD, goal_entry
 
 ESTIMATE = np.dtype(
-    [("odometry", "f8", 3), ("seconds", "f8"), ("velocity", "f8", 3), ("pose", "f8", 3)]
-    + [(name, "f8", 3) for name in ("last_odometry", "last_pose", "look_pose")]
+    [("contact_count", "i8"), ("odometry", "f8", 3), ("seconds", "f8")]
+    + [(name, "f8", 3) for name in ("velocity", "pose", "last_odometry", "look_pose")]
     + [(name, "i8") for name in ("scan", "clause", "look_scan", "look_walls", "look_doors")]
-    + [("corrects_drift", "?"), ("target", GOAL_RECORD)]
+    + [("contacts", "f8", (MOST_CONTACTS, 3)), ("corrects_drift", "?"), ("target", GOAL_RECORD)]
 )
 """A robot's estimate of its state; shape (1,). Poses are (x, y, heading) in metres and radians,
 odometry frame.
@@ -22,12 +23,14 @@ Set when a command is begun:
     corrects_drift: whether walls that are seen again correct the odometry.
 
 Set before each scan:
+    contact_count: how many `contacts` are given, the first ones.
+    contacts: where the body touches what cannot move, each a `Contact`, robot frame.
     odometry: pose by dead reckoning.
     seconds: since the scan before.
     velocity: of the robot, a `Twist`.
 
 Written by `understand`:
-    pose, last_pose: believed pose, and that of the scan before.
+    pose: believed pose.
     last_odometry: the odometry that `pose` belongs to.
     scan: number of the scan, from 0.
 
@@ -37,8 +40,8 @@ Written where an event calls for it:
     look_walls, look_doors: how many walls and doors counted then.
 """
 
-SENSED = Struct("7d")
-"""The first fields of an estimate: odometry, seconds and velocity."""
+SENSED = Struct("q7d")
+"""The first fields of an estimate: count of contacts, odometry, seconds and velocity."""
 
 BELIEVED = Struct("6d")
 """The fields from `velocity` on: velocity and believed pose."""

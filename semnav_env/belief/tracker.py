@@ -16,7 +16,6 @@ from semnav_env.belief.bump_map import BumpMap
 from semnav_env.belief.estimate import BELIEVED, BELIEVED_OFFSET, ESTIMATE, SENSED
 from semnav_env.belief.scene_source import KnownScene, RememberedScene, nothing
 from semnav_env.belief.understand import (
-    BUMP_PASSED,
     FIRST_SCAN,
     LOOK_DUE,
     Senses,
@@ -26,7 +25,7 @@ from semnav_env.belief.understand import (
 )
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import Contact, FloatArray, Pose, Twist
+from semnav_env.features.frames import MOST_CONTACTS, Contact, FloatArray, Pose, Twist
 from semnav_env.features.kernels.scratch import Scratch, allocate_features, allocate_scratch
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.memory import SceneMemory
@@ -108,7 +107,7 @@ class BeliefTracker:
         self.senses = self._join()
 
     def _join(self) -> Senses:
-        self._buffer = self._estimate.data
+        self._buffer, self._contacts = self._estimate.data, self._estimate["contacts"][0]
         return join_senses(
             self.lidar.sensor,
             self._beams,
@@ -125,7 +124,7 @@ class BeliefTracker:
 
     def __getstate__(self) -> dict[str, Any]:
         self._keep_last_scene()
-        left_out = ("senses", "_buffer", "_last_source", "_scratch")
+        left_out = ("senses", "_buffer", "_contacts", "_last_source", "_scratch")
         return {name: value for name, value in self.__dict__.items() if name not in left_out}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -177,17 +176,17 @@ class BeliefTracker:
                 [range_min, range_max) of the lidar, NaN included.
             odometry: pose of the robot's centre by dead reckoning, odometry frame.
             velocity: of the robot; from the change of odometry if not given.
-            bumps: where the body touches something, robot frame.
+            bumps: where the body touches something, robot frame; the first `MOST_CONTACTS` count.
             seconds: since the last update; the lidar's period if not given.
 
         Raises:
             RuntimeError: before the first `begin`.
             ValueError: another number of ranges, or odometry that is not finite.
         """
-        self.take(ranges, odometry, velocity, seconds)
+        self.take(ranges, odometry, velocity, bumps, seconds)
         events = understand(self.senses)
-        if events or bumps:
-            self.think(events, bumps)
+        if events:
+            self.think(events)
         return self.believe()
 
     def take(
@@ -195,6 +194,7 @@ class BeliefTracker:
         ranges: ArrayLike,
         odometry: Pose,
         velocity: Twist | None = None,
+        bumps: Sequence[Contact] = (),
         seconds: float | None = None,
     ) -> None:
         """Check what was sensed and write it into the senses; as `update`."""
@@ -213,16 +213,15 @@ class BeliefTracker:
             velocity = self._mean_velocity(odometry, seconds)
         self.let_go()
         own[:] = array
-        SENSED.pack_into(self._buffer, 0, x, y, heading, seconds, *velocity)
+        felt = min(len(bumps), MOST_CONTACTS)
+        SENSED.pack_into(self._buffer, 0, felt, x, y, heading, seconds, *velocity)
+        if felt:
+            self._contacts[:felt] = bumps[:felt]
 
-    def think(self, events: int, bumps: Sequence[Contact] = ()) -> None:
-        """Do what the events of `understand` and bumps call for; nothing without either."""
+    def think(self, events: int) -> None:
+        """Do what the events of `understand` call for; nothing without one."""
         estimate, follower = self._estimate[0], self.follower
-        before, pose = _pose(estimate["last_pose"]), _pose(estimate["pose"])
-        if bumps and self.bumps.note(bumps, self.ranges, pose):
-            events |= LOOK_DUE | BUMP_PASSED
-        if events & BUMP_PASSED:
-            self.bumps.pass_on(before, pose)
+        pose = _pose(estimate["pose"])
         looked = True
         if events & FIRST_SCAN:
             follower.start(self.scene(), pose)

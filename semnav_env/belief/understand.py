@@ -14,15 +14,15 @@ from numba import njit, types
 from numba.experimental import structref
 
 from semnav_env.belief.attention import is_look_due
+from semnav_env.belief.bump_kernels import forget_passed, note_contacts
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.memory import how_many_count, relocate, remember
 from semnav_env.grounding.clause_progress import note_pose
-from semnav_env.grounding.crossing import first_crossed
 
-FIRST_SCAN, LOOK_DUE, BUMP_PASSED = 8, 16, 32
+FIRST_SCAN, LOOK_DUE = 8, 16
 """Events beside those of `clause_progress`, as bits: the command is to be begun; the clause is to
-be grounded anew; the robot's centre went through a wall that it had bumped into."""
+be grounded anew, as after a bump into what was not known."""
 
 
 @structref.register
@@ -111,20 +111,28 @@ def understand(senses: Senses) -> int:
     before = _pose(estimate.pose)
     pose = perceive(senses, _pose(estimate.odometry), (_pose(estimate.last_odometry), before))
     for i in range(3):
-        estimate.last_pose[i], estimate.pose[i] = before[i], pose[i]
-        estimate.last_odometry[i] = estimate.odometry[i]
+        estimate.pose[i], estimate.last_odometry[i] = pose[i], estimate.odometry[i]
     estimate.scan += 1
+    bumped = _feel(senses, pose)
     if estimate.scan == 0:
         return FIRST_SCAN
     velocity = estimate.velocity
     speed = math.hypot(velocity[0], velocity[1])
     events = note_pose(senses.progress, pose, speed, estimate.seconds)
-    ends, used = senses.bumps
-    if used[0] and first_crossed(ends[: used[0]], before[0], before[1], pose[0], pose[1]) >= 0:
-        events |= BUMP_PASSED
-    if is_look_due(estimate, senses.remembered):
+    forget_passed(senses.bumps, before, pose)
+    if bumped or is_look_due(estimate, senses.remembered):
         events |= LOOK_DUE
     return events
+
+
+@njit(cache=True, error_model="numpy")
+def _feel(senses: Senses, pose: Pose) -> bool:
+    """Note what the body touches unseen; returns whether something new is known."""
+    estimate = senses.estimate[0]
+    if estimate.contact_count == 0:
+        return False
+    felt = estimate.contacts[: estimate.contact_count]
+    return bool(note_contacts(senses.bumps, felt, senses.ranges, senses.limits, senses.mount, pose))
 
 
 @njit(cache=True, error_model="numpy")

@@ -13,7 +13,7 @@ from itertools import accumulate
 import numpy as np
 from gymnasium.spaces import Box
 
-from semnav_env.belief.bump_map import MOST_PIECES
+from semnav_env.belief.bump_limits import MOST_PIECES
 from semnav_env.commands import MAX_CLAUSES, token_space
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.grounding.goal import GoalKind

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
-from semnav_env.simulator.sensing import TOUCHED
 from semnav_env.tasks.judge import Judgement
 
 Mask = NDArray[np.bool_]
@@ -59,7 +58,7 @@ def judge(envs: Sequence[SemNavEnv], periods: np.ndarray, driven: Mask) -> Judge
     """
     progress = np.where(driven, periods["progress"], 0.0)
     clause, success, failure, terminated = np.zeros((4, len(envs)), dtype=bool)
-    events = periods["sensed"] | periods["understood"] | periods["judged"]
+    events = periods["understood"] | periods["judged"]
     thought = driven & (events != 0)
     for k in np.flatnonzero(thought).tolist():
         progress[k], clause[k], success[k], failure[k] = _think(envs[k], periods[k])
@@ -74,7 +73,6 @@ def judge(envs: Sequence[SemNavEnv], periods: np.ndarray, driven: Mask) -> Judge
 def _think(env: SemNavEnv, period: Any) -> Judgement:
     """Do what the events of one robot call for."""
     understood = int(period["understood"])
-    bumps = env.world.touches if period["sensed"] & TOUCHED else []
-    if understood or bumps:
-        env.tracker.think(understood, bumps)
+    if understood:
+        env.tracker.think(understood)
     return env.judge.think(int(period["judged"]))

@@ -20,12 +20,12 @@ from semnav_env.vector.robot_arrays import RobotArrays
 from semnav_env.verifier.judge_record import judge_motion
 
 PERIOD = np.dtype(
-    [(name, "i8") for name in ("sensed", "understood", "judged", "steps", "collisions")]
+    [(name, "i8") for name in ("understood", "judged", "steps", "collisions")]
     + [("pose", "f8", 3), ("path_length", "f8"), ("progress", "f8"), ("in_contact", "?")]
 )
 """What became of one robot in one control period.
 
-The events of `sense`, `understand` and `judge_motion`; control periods since the reset; contacts
+The events of `understand` and `judge_motion`; control periods since the reset; contacts
 begun since then; the true pose, world frame; metres driven since the reset; metres by which the
 way to the goal got shorter; whether the body touches anything.
 """
@@ -68,8 +68,8 @@ def write_rows(robots: Any, first: int, last: int, rows: NDArray[np.float32]) ->
 def _tick_robot(robot: RobotArrays, twist: FloatArray, seconds: float, period: Any) -> None:
     command = robot.simulator.drive[0].command
     command.forward, command.left, command.turn = twist[0], twist[1], twist[2]
-    period.sensed = sense(robot.simulator)
-    _hand_over(robot, period.sensed & TOUCHED, seconds)
+    touched = sense(robot.simulator) & TOUCHED
+    _hand_over(robot, touched, seconds)
     period.understood = understand(robot.senses)
     period.judged = judge_motion(robot.judge)
     motion, judged = robot.simulator.sensing[0], robot.judge.state[0]
@@ -88,6 +88,11 @@ def _hand_over(robot: RobotArrays, in_contact: int, seconds: float) -> None:
         robot.judge.state[0],
     )
     robot.senses.ranges[:] = robot.simulator.ranges
+    driven = robot.simulator.drive[0]
+    estimate.contact_count = driven.contact_count
+    for k in range(driven.contact_count):
+        for i in range(3):
+            estimate.contacts[k, i] = driven.contacts[k, i]
     pose, velocity, odometry = sensing.pose, sensing.velocity, sensing.odometry
     estimate.odometry[0], estimate.odometry[1] = odometry.x, odometry.y
     estimate.odometry[2], estimate.seconds = odometry.heading, seconds

@@ -29,13 +29,13 @@ def record() -> Recorded:
 
 
 def in_parts(record: Recorded) -> tuple[list[str], list[int]]:
-    """Beliefs and events, with thinking only where there is an event or a bump."""
+    """Beliefs and events, with thinking only where there is an event."""
     robot, believed, seen = robots_side.begun(record), [], []
     for ranges, odometry, velocity, bumps in record.sensed:
-        robot.take(ranges, odometry, velocity)
+        robot.take(ranges, odometry, velocity, bumps)
         events = understand(robot.senses)
-        if events or bumps:
-            robot.think(events, bumps)
+        if events:
+            robot.think(events)
         believed.append(described(robot.believe()))
         seen.append(events)
     return believed, seen

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from semnav_env.agents.registry import make_agent
 from semnav_env.belief import BeliefTracker
-from semnav_env.belief.bump_map import LIMITS, MOST_PIECES, BumpMap
+from semnav_env.belief.bump_limits import LIMITS, MOST_PIECES
+from semnav_env.belief.bump_map import BumpMap
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Contact, Pose, points_to_parent, to_parent
