@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 import pymunk
-from numba import carray, cfunc, types
+from numba import cfunc, types
+from numba.np.numpy_support import carray
 from pymunk._chipmunk import ffi, lib
 
 from semnav_env.features.frames import MOST_CONTACTS
@@ -61,14 +62,14 @@ def note_contacts(space: pymunk.Space, record: np.ndarray, compiled: bool) -> No
     any_kind = int(ffi.cast("uintptr_t", ~0))
     handler = lib.cpSpaceAddCollisionHandler(space._space, any_kind, any_kind)
     handler.postSolveFunc = ffi.cast("cpCollisionPostSolveFunc", _compiled_callback())
-    handler.userData = ffi.cast("void *", record.ctypes.data)
+    handler.userData = ffi.from_buffer(record)
 
 
 @cache
 def _compiled_callback() -> int:
     """Address of `_note`, which is compiled only where it can call Chipmunk."""
     signature = types.void(ADDRESS, ADDRESS, types.voidptr)
-    return int(cfunc(signature, cache=True, error_model="numpy")(_note).address)
+    return int(cfunc(signature, cache=True, error_model="numpy")(_note).address or 0)
 
 
 def _note(arbiter: int, space: int, record: Any) -> None:

@@ -15,9 +15,10 @@ from semnav_env.agents.registry import make_agent
 from semnav_env.belief import BeliefTracker
 from semnav_env.belief.bump_limits import LIMITS, MOST_PIECES
 from semnav_env.belief.bump_map import BumpMap
+from semnav_env.belief.understand import LOOK_DUE, understand
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Contact, Pose, points_to_parent, to_parent
+from semnav_env.features.frames import MOST_CONTACTS, Contact, Pose, points_to_parent, to_parent
 from semnav_env.features.lidar_spec import lidar_spec
 from semnav_env.features.scene import Door, Scene
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
@@ -97,6 +98,26 @@ def test_touches_at_both_ends_of_the_front_are_one_wall() -> None:
     known = bump_map()
     known.note([(0.6, -0.45, 0.0), (0.6, 0.45, 0.0)], NOTHING_NEAR, HERE)
     assert len(known) == 1
+
+
+def test_of_many_touches_the_first_count() -> None:
+    known = BeliefTracker()
+    known.begin(parse("turn around"))
+    rows = [(0.6 + 0.3 * k, 0.0, 0.0) for k in range(MOST_CONTACTS + 3)]
+    known.update(NOTHING_NEAR, HERE, bumps=rows)
+    assert len(known.bumps) == MOST_CONTACTS
+
+
+def test_a_known_touch_calls_for_no_thinking() -> None:
+    robot = BeliefTracker()
+    robot.begin(parse("turn around"))
+    robot.update(NOTHING_NEAR, HERE)
+    events = []
+    for _ in range(2):
+        robot.take(NOTHING_NEAR, HERE, bumps=[FRONT])
+        events.append(understand(robot.senses))
+        robot.think(events[-1])
+    assert [bool(seen & LOOK_DUE) for seen in events] == [True, False]
 
 
 def test_a_tracker_forgets_a_piece_that_the_robot_gets_through() -> None:

@@ -67,7 +67,7 @@ def test_what_is_sensed_is_what_the_world_and_odometry_say() -> None:
 
 
 def test_threads_sense_what_one_after_the_other_does() -> None:
-    """Also where robots touch something, which Pymunk tells in Python."""
+    """Also where robots touch something."""
     commands = random_commands(6, 400)
     with ThreadPoolExecutor(4) as pool:
         together = list(pool.map(lambda _: driven(started(), commands), range(4)))

@@ -4,37 +4,69 @@ from __future__ import annotations
 
 import platform
 import sys
+from collections.abc import Callable
 
+import numpy as np
 import pytest
 
-from semnav_env.features.frames import Contact, Pose
-from semnav_env.robots import ROBOTS, RobotSpec
+from semnav_env.dynamics import Dynamics
+from semnav_env.features.frames import MOST_CONTACTS, Contact, Pose
+from semnav_env.robots import ROBOTS, SPOT
 from semnav_env.world import World, chipmunk, world
 from semnav_env.world.contacts import Contacts
 from tests.support.driving import at_the_wall, random_commands
-from tests.support.small_plans import furnished_hall
+from tests.support.moving_worlds import world_of
+from tests.support.small_plans import empty_hall, furnished_hall
 
 Moment = tuple[Pose, Pose, Contacts, list[Contact]]
 
 
-def moments(robot: RobotSpec) -> list[Moment]:
+SCRAPING = [(1.0, 0.2, 0.05)] * 60 + [(1.0, -0.2, -0.05)] * 60
+CROWD = Dynamics(6, changing_doors=1.0)
+
+
+def moments(driven: World, start: Pose, commands: list[Pose]) -> list[Moment]:
     """What a world says while a robot is driven about and into things."""
-    driven, found = World(furnished_hall(), robot), []
-    driven.reset((3.0, 2.0, 0.5))
-    for command in random_commands(5, 600):
+    found = []
+    driven.reset(start, np.random.default_rng(3))
+    for command in commands:
         driven.step(command)
         found.append((driven.pose, driven.velocity, driven.contacts, driven.touches))
     return found
 
 
-@pytest.mark.parametrize("robot", ROBOTS.values(), ids=lambda robot: robot.name)
-def test_pymunk_drives_as_compiled_code_does(
-    robot: RobotSpec, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("robot", ROBOTS)
+@pytest.mark.parametrize(
+    ("build", "start", "commands"),
+    [
+        (lambda r: World(furnished_hall(), ROBOTS[r]), (3.0, 2.0, 0.5), random_commands(5, 600)),
+        (lambda r: World(empty_hall(12.0, 6.0), ROBOTS[r]), (6.0, 4.5, 0.6), SCRAPING),
+        (lambda r: world_of("office_cross", r, CROWD), (3.0, 9.1, 0.0), random_commands(7, 400)),
+    ],
+    ids=["furniture", "along a wall", "people and leaves"],
+)
+def test_pymunk_drives_and_touches_as_compiled_code_does(
+    build: Callable[[str], World],
+    start: Pose,
+    commands: list[Pose],
+    robot: str,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    compiled = moments(robot)
+    compiled = moments(build(robot), start, commands)
     monkeypatch.setattr(world, "chipmunk_can_be_called", lambda: False)
-    assert moments(robot) == compiled
+    assert moments(build(robot), start, commands) == compiled
     assert sum(contacts.count > 0 for _, _, contacts, _ in compiled) > 30
+    assert sum(len(touches) for *_, touches in compiled) > 30
+
+
+def test_of_many_contacts_the_first_are_kept() -> None:
+    """A robot in a corner touches two walls, each at up to two points in each of 40 substeps."""
+    cornered = World(empty_hall(), SPOT, substeps=40)
+    cornered.reset((9.0, 5.0, 0.785))
+    for _ in range(40):
+        cornered.step((1.0, 0.0, 0.0))
+    assert cornered.contacts.count > MOST_CONTACTS
+    assert MOST_CONTACTS - 1 <= len(cornered.touches) <= MOST_CONTACTS
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other machines may need Pymunk's own path")
