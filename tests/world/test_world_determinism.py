@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import copy
+import gc
 import pickle
 import subprocess
 import sys
@@ -97,3 +98,14 @@ def test_worlds_do_not_influence_each_other() -> None:
         found += trace(first, [command])
         second.step(command)
     assert found == expected
+
+
+def test_a_copy_in_contact_outlives_its_original() -> None:
+    """The physics writes contacts into memory of the world itself."""
+    world, commands = at_the_wall(), [(1.0, 0.2, 0.5)] * 30
+    expected = trace(copy.deepcopy(world), commands)
+    twin = copy.deepcopy(world)
+    del world
+    gc.collect()
+    assert trace(twin, commands) == expected
+    assert twin.contacts.count > 0
