@@ -79,6 +79,25 @@ def test_every_observation_and_body_can_be_in_a_vector(observation, robot):
     assert_goes_on_like(together, alone, steps=40)
 
 
+@pytest.mark.parametrize("robot", ["wheelchair", "spot"])
+def test_robots_in_a_vector_feel_what_they_touch(robot):
+    """Each drives ahead and turns slowly, along walls and into what it does not see."""
+    options = {"robot": robot, "floor_plan": "office_cross", "max_seconds": 100.0}
+    together = SemNavVectorEnv(4, **options)
+    alone = SyncVectorEnv([lambda: SemNavEnv(**options)] * 4)
+    together.reset(seed=2), alone.reset(seed=2)
+    ahead = np.zeros(together.action_space.shape, np.float32)
+    ahead[:, 0], ahead[:, -1] = 1.0, 0.2
+    touched, felt = 0, 0
+    for _ in range(300):
+        found, expected = together.step(ahead), alone.step(ahead)
+        for one, other in zip(found, expected, strict=True):
+            assert_same(one, other)
+        touched += expected[4]["in_contact"].sum()
+        felt += expected[0]["bumps_mask"].any(axis=1).sum()
+    assert min(touched, felt) > 100
+
+
 def test_a_copy_goes_on_like_the_original():
     original = SemNavVectorEnv(3, floor_plan="office_cross", max_seconds=2.0, threads=2)
     original.reset(seed=1)
