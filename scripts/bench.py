@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import asdict, dataclass
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -25,7 +26,7 @@ class Arguments:
         observation: semantic, raw, truth or all.
         robots: number of robots in the vector environment.
         threads: most threads to drive them in.
-        growth: time instead how a step grows with the segments of the building.
+        growth: time instead how a step grows with the building, the beams and the robots.
         runs: number of timings of each part, of which the median is shown.
         steps: number of calls in a timing.
         json: print as JSON.
@@ -44,11 +45,12 @@ class Arguments:
     def run(self) -> int:
         """Measure and print."""
         plan = load_floor_plan(self.map)
-        kind, counts = (self.robot, self.observation), tuple(range(1, self.threads + 1))
+        kind: dict[str, Any] = {"robot": self.robot, "observation": self.observation}
         if self.growth:
-            found = growth(plan, *kind, self.runs, self.steps)
+            found = growth(plan, self.threads, self.runs, self.steps, **kind)
         else:
-            found = benchmark(plan, *kind, self.robots, counts, self.runs, self.steps)
+            counts = (self.robots, self.threads, self.runs, self.steps)
+            found = benchmark(*counts, floor_plan=plan, **kind)
         if self.json:
             rows = [{**asdict(timing), "per_second": timing.per_second} for timing in found]
             print(json.dumps(rows))

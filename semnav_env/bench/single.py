@@ -12,53 +12,47 @@ from semnav_env.belief import BeliefTracker
 from semnav_env.belief.understand import extract_features, understand
 from semnav_env.bench.timing import Part, seconds_per_call
 from semnav_env.env import SemNavEnv
-from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import compose
 from semnav_env.lidar.raster import cast
-from semnav_env.maps import FloorPlan
 from semnav_env.simulator.sensing import sense
 
 RESETS = 20
 """Resets timed in a run; one takes as long as many steps."""
 
 
-def step_parts(floor_plan: str | FloorPlan, robot: str, observation: str, steps: int) -> list[Part]:
+def step_parts(steps: int, **options: Any) -> list[Part]:
     """A step and a reset.
 
     Args:
-        floor_plan: where to drive.
-        robot: name of a body.
-        observation: as in `SemNavEnv`.
         steps: calls in a timing.
+        options: of `SemNavEnv`.
     """
-    env = gym.make(
-        "semnav_env:SemNav-v0", robot=robot, floor_plan=floor_plan, observation=observation
-    )
+    env = gym.make("semnav_env:SemNav-v0", **options)
     env.reset(seed=0)
-    assert env.action_space.shape
-    actions = cruising_actions(steps, env.action_space.shape)
+    actions = cruising_actions(steps, env.action_space.shape or ())
     return [
-        Part(f'step, observation="{observation}"', lambda: _drive(env, actions)),
-        Part(f'reset, observation="{observation}"', lambda: seconds_per_call(env.reset, RESETS)),
+        Part("step", lambda: _drive(env, actions)),
+        Part("reset", lambda: seconds_per_call(env.reset, RESETS)),
     ]
 
 
-def kernel_parts(floor_plan: str | FloorPlan, robot: str, steps: int) -> list[Part]:
+def kernel_parts(steps: int, **options: Any) -> list[Part]:
     """What a step is made of, each part by itself where the robot happens to stand."""
-    env = SemNavEnv(robot, floor_plan)
+    env = SemNavEnv(**options)
     env.reset(seed=0)
-    lidar, pose, scene = env.simulator.lidar, env.world.pose, env.floor_plan.scene
+    lidar, pose = env.simulator.lidar, env.world.pose
     tracker = BeliefTracker(env.lidar_spec, lidar.mount, env.extractor)
     tracker.begin(env.tracker.command)
     out = lidar.ranges(pose, (0, 0, 0))
     tracker.update(out, pose)
+    follower, scene, believed = tracker.follower, tracker.scene, tracker.believe().pose
     exact: list[Any] = [*compose(pose, env.robot.lidar_mount), *lidar.arrays[:5], out]
     calls = {
         "sense: physics, odometry, scan": lambda: sense(env.simulator.arrays),
         "of it the exact scan": lambda: cast(*exact),
         "understand: features, memory, progress": lambda: understand(tracker.senses),
         "of it the features": lambda: extract_features(tracker.senses),
-        "corridor around the robot (when a clause is grounded)": lambda: corridor_at(scene, pose),
+        "grounding a clause, when it is time to look": lambda: follower.look(scene(), believed),
     }
     return [
         Part(name, lambda call=call: seconds_per_call(call, steps))  # type: ignore[misc]

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 
 from semnav_env.bench.brute_force import brute_force_ranges
@@ -9,59 +13,64 @@ from semnav_env.bench.plans import repeated
 from semnav_env.bench.single import kernel_parts, step_parts
 from semnav_env.bench.timing import Part, Timing, seconds_per_call, timings
 from semnav_env.bench.vector import vector_part
-from semnav_env.features.lidar_spec import lidar_spec
+from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.maps import FloorPlan
 
 YARDSTICK_SEGMENTS = 208
 """Wall segments of the brute-force scan, whatever the floor plan."""
 
-COPIES = (1, 2, 10, 29)
-"""Sizes at which growth is timed, in copies of the plan around the robot."""
+COPIES, BEAMS, ROBOTS = (1, 2, 10, 29), (201, 405, 811, 1621), (1, 8, 64, 256)
+"""Sizes at which growth is timed: copies of the plan, beams of the lidar, robots."""
 
 
-def benchmark(
-    floor_plan: str | FloorPlan,
-    robot: str,
-    observation: str,
-    robots: int,
-    threads: tuple[int, ...],
-    runs: int,
-    steps: int,
-) -> list[Timing]:
+def benchmark(robots: int, threads: int, runs: int, steps: int, **options: Any) -> list[Timing]:
     """Time steps, their parts and a reset; the yardstick first.
 
     Args:
-        floor_plan: bundled name, path or plan.
-        robot: name of a body.
-        observation: as in `SemNavEnv`.
         robots: in the vector environment.
-        threads: numbers of threads to drive them in.
+        threads: most threads to drive them in.
         runs: how often each part is timed; the median counts.
         steps: calls in a timing.
+        options: of `SemNavEnv`.
     """
-    step = step_parts(floor_plan, robot, observation, steps)
-    vector = [
-        vector_part(floor_plan, robot, observation, steps, robots, count) for count in threads
-    ]
-    parts = [yardstick(), step[0], *vector, *kernel_parts(floor_plan, robot, steps), step[1]]
-    return timings(parts, runs)
+    step, reset = step_parts(steps, **options)
+    counts = range(1, threads + 1)
+    vector = [vector_part(steps, robots, count, **options) for count in counts]
+    return timings([yardstick(), step, *vector, *kernel_parts(steps, **options), reset], runs)
 
 
-def growth(plan: FloorPlan, robot: str, observation: str, runs: int, steps: int) -> list[Timing]:
-    """Time the step in ever larger buildings that are the same around the robot."""
+def growth(plan: FloorPlan, threads: int, runs: int, steps: int, **options: Any) -> list[Timing]:
+    """Time how a step grows with the building, the beams and the robots; the yardstick first.
+
+    The building grows by copies beside it, so that what is around the robot stays the same.
+    """
     parts = [yardstick()]
     for copies in COPIES:
         larger = repeated(plan, copies)
-        part = step_parts(larger, robot, observation, steps)[0]
-        parts.append(Part(f"step, {len(larger.segments)} segments", part.seconds))
+        step = step_parts(steps, floor_plan=larger, **options)[0]
+        parts.append(step._replace(name=f"step, {len(larger.segments)} segments"))
+    for beams in BEAMS:
+        step = step_parts(steps, floor_plan=plan, lidar=with_beams(beams), **options)[0]
+        parts.append(step._replace(name=f"step, {beams} beams"))
+    for count in range(1, threads + 1):
+        parts += [vector_part(steps, n, count, floor_plan=plan, **options) for n in ROBOTS]
     return timings(parts, runs)
+
+
+def with_beams(beams: int) -> LidarSpec:
+    """A TiM561 with more or fewer beams over the same angle."""
+    increment = math.radians(270.0) / (beams - 1)
+    return replace(TIM561, name=f"{beams} beams", beams=beams, angle_increment=increment)
 
 
 def yardstick() -> Part:
     """A brute-force scan of a TiM561 in NumPy among random walls."""
-    rng, angles = np.random.default_rng(0), lidar_spec("tim561").angles
+    rng, angles = np.random.default_rng(0), TIM561.angles
     starts = rng.uniform(-15.0, 15.0, (YARDSTICK_SEGMENTS, 2))
     segments = np.hstack((starts, starts + rng.uniform(-4.0, 4.0, starts.shape)))
+
+    def scan() -> None:
+        brute_force_ranges((0.0, 0.0, 0.0), segments, angles)
+
     name = f"brute-force scan, {len(angles)} beams, {len(segments)} segments"
-    scan = lambda: brute_force_ranges((0.0, 0.0, 0.0), segments, angles)  # noqa: E731
     return Part(name, lambda: seconds_per_call(scan, 20))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -50,7 +51,10 @@ def timings(parts: Sequence[Part], runs: int) -> list[Timing]:
     """
     for part in parts:
         part.seconds()
+    gc.collect()
+    gc.freeze()  # what stands is not searched for garbage again and again
     rounds = [[part.seconds() for part in parts] for _ in range(runs)]
+    gc.unfreeze()
     seconds = [median(column) for column in zip(*rounds, strict=True)]
     return [
         Timing(part.name, 1e6 * each, seconds[0] / each)

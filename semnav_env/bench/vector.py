@@ -3,34 +3,25 @@
 from __future__ import annotations
 
 import time
+from typing import Any
 
 from semnav_env.bench.single import cruising_actions
 from semnav_env.bench.timing import Part
-from semnav_env.maps import FloorPlan
 from semnav_env.vector import SemNavVectorEnv
 
 
-def vector_part(
-    floor_plan: str | FloorPlan,
-    robot: str,
-    observation: str,
-    steps: int,
-    robots: int,
-    threads: int,
-) -> Part:
-    """The step of a vector environment, seconds for each robot; robots that hit something go on.
+def vector_part(steps: int, robots: int, threads: int, **options: Any) -> Part:
+    """The step of a vector environment, seconds for each robot.
+
+    Robots that hit something begin anew while the clock stands still.
 
     Args:
-        floor_plan: where all of them drive.
-        robot: name of a body.
-        observation: as in `SemNavEnv`.
         steps: of one robot in a timing, about.
         robots: how many there are.
         threads: in which they are driven.
+        options: of `SemNavEnv`.
     """
-    envs = SemNavVectorEnv(
-        robots, robot=robot, floor_plan=floor_plan, observation=observation, threads=threads
-    )
+    envs = SemNavVectorEnv(robots, threads=threads, **options)
     envs.reset(seed=0)
     shape = envs.single_action_space.shape or ()
     actions = cruising_actions(max(1, steps // robots), (robots, *shape))
@@ -46,5 +37,5 @@ def vector_part(
                 begin += time.perf_counter() - paused
         return (time.perf_counter() - begin) / actions[..., 0].size
 
-    name = f'step of one of {robots}, observation="{observation}", threads: {threads}'
-    return Part(name, drive)
+    among = "threads" if threads > 1 else "thread"
+    return Part(f"step of one of {robots} robots, {threads} {among}", drive)

@@ -40,7 +40,7 @@ def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
             a rule of docs/floor_plans.md, which says where and what would be right.
     """
     if isinstance(plan, FloorPlan):
-        check_plan(plan)
+        plan.derived(check_plan)
         return plan
     if isinstance(plan, str) and plan in bundled_names():
         return _bundled(plan)
