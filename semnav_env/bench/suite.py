@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 
 from semnav_env.bench.brute_force import brute_force_ranges
+from semnav_env.bench.peers import peer_parts
 from semnav_env.bench.plans import repeated
 from semnav_env.bench.single import kernel_parts, step_parts
 from semnav_env.bench.timing import Part, Timing, seconds_per_call, timings
 from semnav_env.bench.vector import vector_part
+from semnav_env.env import SemNavEnv
 from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.maps import FloorPlan
 
@@ -24,7 +26,7 @@ COPIES, BEAMS, ROBOTS = (1, 2, 10, 29), (201, 405, 811, 1621), (1, 8, 64, 256)
 
 
 def benchmark(robots: int, threads: int, runs: int, steps: int, **options: Any) -> list[Timing]:
-    """Time steps, their parts and a reset; the yardstick first.
+    """Time steps, their parts, a reset, and peers that are installed; the yardstick first.
 
     Args:
         robots: in the vector environment.
@@ -36,7 +38,11 @@ def benchmark(robots: int, threads: int, runs: int, steps: int, **options: Any) 
     step, reset = step_parts(steps, **options)
     counts = range(1, threads + 1)
     vector = [vector_part(steps, robots, count, **options) for count in counts]
-    return timings([yardstick(), step, *vector, *kernel_parts(steps, **options), reset], runs)
+    parts = [yardstick(), step, *vector, *kernel_parts(steps, **options), reset]
+    env = SemNavEnv(**options)
+    env.reset(seed=0)
+    parts += peer_parts(env.floor_plan, env.robot, env.lidar_spec, env.world.pose)
+    return timings(parts, runs)
 
 
 def growth(plan: FloorPlan, threads: int, runs: int, steps: int, **options: Any) -> list[Timing]:

@@ -19,11 +19,12 @@ from studies.figures import (
     rules,
     rules_table,
     situations,
+    speed,
 )
 
 FIGURES = (
     *(architecture, arcs, buildings, drift, features_tables, language, lines, logs, mapping),
-    *(observation_table, offices, real_floor, routes, rules, rules_table, situations),
+    *(observation_table, offices, real_floor, routes, rules, rules_table, situations, speed),
 )
 
 if __name__ == "__main__":
