@@ -31,35 +31,37 @@ def compact(observation: Observation) -> Array:
     already what it refers to.
 
     Args:
-        observation: of an environment with `observation="all"`.
+        observation: of an environment with `observation="all"`, or of many such in one: all entries
+            may have the same leading dimensions.
 
     Returns:
-        Shape (COMPACT_SIZE,): the kind of goal (4), its place (2), cosine and sine of its heading,
-        the start (2) and end (2) of its door, whether it has one; the velocity forward, left and
-        turning; and the nearest hit in each sector, from the clockwise end of the scan.
+        Shape (..., COMPACT_SIZE): the kind of goal (4), its place (2), cosine and sine of its
+        heading, the start (2) and end (2) of its door, whether it has one; the velocity forward,
+        left and turning; and the nearest hit in each sector, from the clockwise end of the scan.
     """
     goal, scan = observation["goal"], observation["scan"]
-    kind, place, heading, jambs, has_door = np.split(goal, _GOAL_PARTS)
-    starts = np.arange(SECTORS) * len(scan) // SECTORS
+    kind, place, heading, jambs, has_door = np.split(goal, _GOAL_PARTS, axis=-1)
+    starts = np.arange(SECTORS) * scan.shape[-1] // SECTORS
     values: Array = np.concatenate(
         (
             kind,
             _squash_place(place),
             heading,
-            _squash_place(jambs[:2]),
-            _squash_place(jambs[2:]),
+            _squash_place(jambs[..., :2]),
+            _squash_place(jambs[..., 2:]),
             has_door,
-            _squash(observation["odometry"][_VELOCITY:]),
-            _squash(np.minimum.reduceat(scan, starts)),
+            _squash(observation["odometry"][..., _VELOCITY:]),
+            _squash(np.minimum.reduceat(scan, starts, axis=-1)),
         ),
+        axis=-1,
         dtype=np.float32,
     )
     return values
 
 
 def _squash_place(place: Array) -> Array:
-    """A place (x, y) with its distance squashed and its direction kept."""
-    return np.asarray(place / (1.0 + np.hypot(place[0], place[1])), np.float32)
+    """Places (x, y), each with its distance squashed and its direction kept."""
+    return np.asarray(place / (1.0 + np.hypot(place[..., :1], place[..., 1:])), np.float32)
 
 
 def _squash(values: Array) -> Array:

@@ -1,11 +1,10 @@
-"""Training by proximal policy optimisation; the one file that imports stable-baselines3."""
+"""Training by proximal policy optimisation."""
 
 from __future__ import annotations
 
 import json
 import time
 from dataclasses import asdict, dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +12,8 @@ import numpy as np
 import torch
 from stable_baselines3 import PPO
 from stable_baselines3.common.logger import configure
-from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor
+from stable_baselines3.common.vec_env import VecMonitor
 
-from semnav_env.agents.learning.action_repeat import ActionRepeat
 from semnav_env.agents.learning.files import (
     POLICY_FILE,
     TRAINING_FILE,
@@ -24,6 +22,7 @@ from semnav_env.agents.learning.files import (
     save_tensors,
 )
 from semnav_env.agents.learning.policy import Policy
+from semnav_env.agents.learning.preset_envs import preset_envs
 from semnav_env.agents.learning.presets import Preset
 from semnav_env.agents.learning.state import read_state, write_state
 from semnav_env.metrics import spl
@@ -67,9 +66,7 @@ class Trainer:
         folder.mkdir(parents=True, exist_ok=True)
         torch.set_num_threads(1)  # a small network is slower with more
         self.preset, self.folder, self.seed = preset, folder, seed
-        self._envs = VecMonitor(
-            DummyVecEnv([partial(ActionRepeat, preset)] * preset.envs), info_keywords=LOGGED_KEYS
-        )
+        self._envs = VecMonitor(preset_envs(preset), info_keywords=LOGGED_KEYS)
         self.model = _model(preset, self._envs, _seed_from(seed, steps))
         self.model.set_logger(configure(str(folder / "tensorboard"), ["tensorboard"]))
 

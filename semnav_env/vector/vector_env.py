@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
 from semnav_env.vector.actions import TeamActions
+from semnav_env.vector.held_action import HeldAction
 from semnav_env.vector.infos import Infos, info_of, step_infos, without
 from semnav_env.vector.judgements import Mask, judge
 from semnav_env.vector.observations import TeamObservations, team_observations
@@ -38,6 +39,8 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         num_envs: how many robots.
         each: arguments of `SemNavEnv` that differ, one mapping for each robot.
         threads: as many as there are cores if not given; 1 for none beside the caller's.
+        repeat: control periods for which an action holds. Rewards and their terms are summed. A
+            robot whose episode is over waits until the others are done with the action.
         autoreset_mode: when a robot whose episode is over begins the next one: in the next step, in
             the same one, or not by itself.
         options: arguments of `SemNavEnv` for all robots.
@@ -55,6 +58,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         *,
         each: Sequence[Mapping[str, Any]] | None = None,
         threads: int | None = None,
+        repeat: int = 1,
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
         **options: Any,
     ) -> None:
@@ -66,7 +70,9 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             )
         if threads is not None and threads < 1:
             raise ValueError(f"threads is {threads}; it must be at least 1")
-        self.num_envs, self._threads = num_envs, threads
+        if repeat < 1:
+            raise ValueError(f"repeat is {repeat}; it must be at least 1")
+        self.num_envs, self._threads, self._repeat = num_envs, threads, repeat
         self.envs = [SemNavEnv(**{**options, **own}) for own in each]
         first = self.envs[0]
         _check_alike(self.envs)
@@ -116,7 +122,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         return self._observations.observe(self._gathered), infos
 
     def step(self, actions: Arrays) -> tuple[Any, Arrays, Arrays, Arrays, dict[str, Any]]:
-        """Drive all robots for one control period; those that begin anew stand still.
+        """Drive all robots while the action holds; those that begin anew stand still.
 
         Raises:
             ValueError: the actions are not finite or have another shape.
@@ -124,30 +130,21 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         """
         if self._team is None:
             raise RuntimeError("call reset() before step()")
-        twists, driven = self._actions.twists(actions), ~self._over
+        driven = ~self._over
         if self._mode is AutoresetMode.DISABLED and not driven.all():
             raise RuntimeError(f"robots {np.flatnonzero(self._over)} must be reset first")
-        self._team.drive(twists, driven)
-        judged = judge(self.envs, self._team.periods, driven)
-        terms = self._rewards.terms(judged, actions)
-        rewards = sum(terms.values(), start=np.zeros(self.num_envs))
-        begin, over = self._over, judged.terminated | judged.truncated
-        ends = {k: self.envs[k].conclude(bool(judged.truncated[k])) for k in _indices(over)}
-        for k in _indices(judged.thought | over):
-            self._verdicts[k] = self.envs[k].judge.verifier.verdicts
-        infos = step_infos(self._verdicts, self._team.periods, terms, driven)
-        for k, end in ends.items():
+        held = self._hold(actions, driven)
+        infos = step_infos(self._verdicts, self._team.periods, held.terms, driven)
+        for k, end in held.ends.items():
             infos = self._add_info(infos, end, k)
-        self._over = over
+        begin, self._over = self._over, held.over
         if self._mode is AutoresetMode.SAME_STEP:
-            begin, self._over = over, np.zeros_like(over)
-            infos = self._final(infos, over)
+            begin, self._over = held.over, np.zeros_like(held.over)
+            infos = self._final(infos, held.over)
         for k in _indices(begin):
             infos = self._begin(infos, k)
-        if self.render_mode is not None:
-            self._show(driven)
         observations = self._observations.observe(self._team)
-        return observations, rewards, judged.terminated, judged.truncated, infos
+        return observations, held.rewards, held.terminated, held.truncated, infos
 
     def render(self) -> tuple[Any, ...]:
         """The picture of each robot."""
@@ -196,6 +193,25 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         """Take in all robots, which have been reset."""
         self._team = Team(self.envs, self._threads)
         self._observations = team_observations(self.envs)
+
+    def _hold(self, actions: Arrays, driven: Mask) -> HeldAction:
+        """Drive robots for the control periods of one action."""
+        team, twists, held = self._gathered, self._actions.twists(actions), HeldAction(driven)
+        for _ in range(self._repeat):
+            going = held.going
+            if not going.any():
+                break
+            team.drive(twists, going)
+            judged = judge(self.envs, team.periods, going)
+            held.add(judged, self._rewards.terms(judged, actions))
+            over = going & held.over
+            for k in _indices(over):
+                held.ends[k] = self.envs[k].conclude(bool(judged.truncated[k]))
+            for k in _indices(judged.thought | over):
+                self._verdicts[k] = self.envs[k].judge.verifier.verdicts
+            if self.render_mode is not None:
+                self._show(going)
+        return held
 
     def _begin(
         self,

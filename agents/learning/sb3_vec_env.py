@@ -1,0 +1,131 @@
+"""The vector environment as stable-baselines3 takes it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from numpy.typing import NDArray
+from stable_baselines3.common.vec_env import VecEnv
+from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvStepReturn
+
+from semnav_env.env import SemNavEnv
+from semnav_env.vector import SemNavVectorEnv
+from semnav_env.vector.infos import Infos, info_of
+
+Array = NDArray[Any]
+
+
+def as_sb3_vec_env(
+    envs: SemNavVectorEnv | int, *, all_infos: bool = False, **options: Any
+) -> SB3VecEnv:
+    """Many robots for stable-baselines3.
+
+        model = PPO("MultiInputPolicy", VecMonitor(as_sb3_vec_env(16, floor_plan="office_cross")))
+
+    It gives what a `DummyVecEnv` of as many `SemNavEnv` gives, bit for bit, in less time.
+
+    Args:
+        envs: a vector environment that resets in the same step, or how many robots to make.
+        all_infos: whether every info is filled in. Otherwise infos are filled in where an episode
+            is over, which is what stable-baselines3 reads, and hold "TimeLimit.truncated" alone
+            elsewhere.
+        options: of `SemNavVectorEnv`, where it is to be made.
+
+    Raises:
+        ValueError: the vector environment resets otherwise, or there are options beside it.
+    """
+    if isinstance(envs, int):
+        options = {"autoreset_mode": AutoresetMode.SAME_STEP} | options
+        envs = SemNavVectorEnv(envs, **options)
+    elif options:
+        raise ValueError(f"the vector environment has been made; leave {', '.join(options)} out")
+    return SB3VecEnv(envs, all_infos)
+
+
+class SB3VecEnv(VecEnv):
+    """See `as_sb3_vec_env`.
+
+    Attributes:
+        vector: the vector environment.
+    """
+
+    def __init__(self, envs: SemNavVectorEnv, all_infos: bool = False) -> None:
+        self.vector: SemNavVectorEnv = envs.unwrapped  # type: ignore[assignment]
+        self._envs, self._all_infos = self.vector.envs, all_infos
+        mode = self.vector.metadata["autoreset_mode"]
+        if mode is not AutoresetMode.SAME_STEP:
+            raise ValueError(
+                f"autoreset_mode is {mode.value}; stable-baselines3 needs "
+                f'autoreset_mode="{AutoresetMode.SAME_STEP.value}"'
+            )
+        first = self._envs[0]
+        super().__init__(len(self._envs), first.observation_space, first.action_space)
+
+    def reset(self) -> Any:
+        """Begin episodes, with the seeds and options that were set."""
+        options = {"each": self._options}
+        observations, infos = self.vector.reset(seed=self._seeds, options=options)
+        self.reset_infos = [info_of(infos, k) for k in range(self.num_envs)]
+        self._reset_seeds()
+        self._reset_options()
+        return observations
+
+    def step_async(self, actions: Array) -> None:
+        """Take in the actions."""
+        self._actions = actions
+
+    def step_wait(self) -> VecEnvStepReturn:
+        """Drive all robots while the action holds."""
+        observations, rewards, terminated, truncated, infos = self.vector.step(self._actions)
+        over = terminated | truncated
+        told = [{"TimeLimit.truncated": each} for each in (truncated & ~terminated).tolist()]
+        if self._all_infos:
+            told = [info_of(infos, k) | info for k, info in enumerate(told)]
+        for k in np.flatnonzero(over).tolist():
+            told[k] = self._final(infos, k) | told[k]
+        return observations, rewards.astype(np.float32), over, told
+
+    def _final(self, infos: Infos, index: int) -> dict[str, Any]:
+        """What is said of a robot whose episode is over; keeps what is said of its next one."""
+        begun = info_of(infos, index)
+        info, observation = begun.pop("final_info"), begun.pop("final_obs")
+        self.reset_infos[index] = begun
+        return info | {"terminal_observation": observation}
+
+    def close(self) -> None:
+        """Stop the threads and close the windows."""
+        self.vector.close()
+
+    def get_images(self) -> Sequence[Array | None]:
+        """The picture of each robot, if pictures are drawn."""
+        drawn = self.render_mode == "rgb_array"
+        return [env.render() if drawn else None for env in self._envs]
+
+    def get_attr(self, attr_name: str, indices: VecEnvIndices = None) -> list[Any]:
+        """The value of an attribute of single environments."""
+        return [env.get_wrapper_attr(attr_name) for env in self._chosen(indices)]
+
+    def set_attr(self, attr_name: str, value: Any, indices: VecEnvIndices = None) -> None:
+        """Set an attribute of single environments to a value."""
+        for env in self._chosen(indices):
+            env.set_wrapper_attr(attr_name, value)
+
+    def env_method(
+        self, method_name: str, *arguments: Any, indices: VecEnvIndices = None, **options: Any
+    ) -> list[Any]:
+        """What a method of single environments returns; `reset` and `step` are not for this."""
+        methods = self.get_attr(method_name, indices)
+        return [method(*arguments, **options) for method in methods]
+
+    def env_is_wrapped(
+        self, wrapper_class: type[gym.Wrapper[Any, Any, Any, Any]], indices: VecEnvIndices = None
+    ) -> list[bool]:
+        """Single environments are never wrapped."""
+        return [False for _ in self._chosen(indices)]
+
+    def _chosen(self, indices: VecEnvIndices) -> list[SemNavEnv]:
+        return [self._envs[k] for k in self._get_indices(indices)]

@@ -1,0 +1,50 @@
+"""What became of many robots while one action was held."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from semnav_env.vector.judgements import Judgements, Mask
+from semnav_env.vector.rewards import Terms
+
+
+class HeldAction:
+    """Sums up the control periods for which an action holds.
+
+    Args:
+        driven: which robots are driven.
+
+    Attributes:
+        going: which robots are to be driven in the next control period: not those whose episode is
+            over by then.
+        rewards: sums over the control periods, shape (n,).
+        terms: the same for each reward term.
+        terminated: whose episode is over.
+        truncated: whose time is over.
+        ends: what infos say of the episodes that are over, by robot.
+    """
+
+    def __init__(self, driven: Mask) -> None:
+        self.going = driven
+        self.rewards = np.zeros(len(driven))
+        self.terms: Terms = {}
+        self.terminated, self.truncated = np.zeros((2, len(driven)), dtype=bool)
+        self.ends: dict[int, dict[str, Any]] = {}
+
+    def add(self, judged: Judgements, terms: Terms) -> None:
+        """Count a control period."""
+        self.rewards += sum(terms.values(), start=np.zeros(len(self.rewards)))
+        self.terms = self.terms | {
+            name: self.terms[name] + amounts if name in self.terms else amounts
+            for name, amounts in terms.items()
+        }
+        self.terminated |= judged.terminated
+        self.truncated |= judged.truncated
+        self.going = self.going & ~self.over
+
+    @property
+    def over(self) -> Mask:
+        """Whose episode is over, for one reason or the other."""
+        return self.terminated | self.truncated
