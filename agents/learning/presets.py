@@ -27,7 +27,7 @@ class PPOSettings:
     """
 
     hidden: tuple[int, ...] = (64, 64)
-    rollout: int = 256
+    rollout: int = 64
     batch_size: int = 512
     epochs: int = 10
     learning_rate: float = 3e-4
@@ -80,7 +80,7 @@ PRESETS = {
             trials=suite("heidelberg"),
             max_seconds=45.0,
             repeat=3,
-            envs=16,
+            envs=64,
             steps=2_000_000,
         ),
         Preset(
@@ -90,7 +90,7 @@ PRESETS = {
             trials=(),
             max_seconds=60.0,
             repeat=3,
-            envs=16,
+            envs=64,
             steps=5_000_000,
         ),
     )

@@ -7,7 +7,7 @@ from typing import Any
 
 import gymnasium as gym
 import numpy as np
-from gymnasium.vector import AutoresetMode
+from gymnasium.vector import AutoresetMode, VectorEnv
 from numpy.typing import NDArray
 from stable_baselines3.common.vec_env import VecEnv
 from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvStepReturn
@@ -20,7 +20,7 @@ Array = NDArray[Any]
 
 
 def as_sb3_vec_env(
-    envs: SemNavVectorEnv | int, *, all_infos: bool = False, **options: Any
+    envs: VectorEnv[Any, Any, Any] | int, *, all_infos: bool = False, **options: Any
 ) -> SB3VecEnv:
     """Many robots for stable-baselines3.
 
@@ -29,19 +29,23 @@ def as_sb3_vec_env(
     It gives what a `DummyVecEnv` of as many `SemNavEnv` gives, bit for bit, in less time.
 
     Args:
-        envs: a vector environment that resets in the same step, or how many robots to make.
+        envs: how many robots to make, or a `SemNavVectorEnv` that resets in the same step.
         all_infos: whether every info is filled in. Otherwise infos are filled in where an episode
             is over, which is what stable-baselines3 reads, and hold "TimeLimit.truncated" alone
             elsewhere.
         options: of `SemNavVectorEnv`, where it is to be made.
 
     Raises:
-        ValueError: the vector environment resets otherwise, or there are options beside it.
+        ValueError: another vector environment, or options beside one that has been made.
     """
     if isinstance(envs, int):
         options = {"autoreset_mode": AutoresetMode.SAME_STEP} | options
-        envs = SemNavVectorEnv(envs, **options)
-    elif options:
+        return SB3VecEnv(SemNavVectorEnv(envs, **options), all_infos)
+    if not isinstance(envs, SemNavVectorEnv):
+        raise ValueError(
+            f"{envs} is not a SemNavVectorEnv; put wrappers of stable-baselines3 on it"
+        )
+    if options:
         raise ValueError(f"the vector environment has been made; leave {', '.join(options)} out")
     return SB3VecEnv(envs, all_infos)
 
@@ -54,9 +58,8 @@ class SB3VecEnv(VecEnv):
     """
 
     def __init__(self, envs: SemNavVectorEnv, all_infos: bool = False) -> None:
-        self.vector: SemNavVectorEnv = envs.unwrapped  # type: ignore[assignment]
-        self._envs, self._all_infos = self.vector.envs, all_infos
-        mode = self.vector.metadata["autoreset_mode"]
+        self.vector, self._envs, self._all_infos = envs, envs.envs, all_infos
+        mode = envs.metadata["autoreset_mode"]
         if mode is not AutoresetMode.SAME_STEP:
             raise ValueError(
                 f"autoreset_mode is {mode.value}; stable-baselines3 needs "

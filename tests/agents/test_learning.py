@@ -12,7 +12,6 @@ from hypothesis.extra.numpy import arrays
 
 from semnav_env.agents.evaluation.runner import run_trial
 from semnav_env.agents.learned import LearnedAgent, pretrained_names
-from semnav_env.agents.learning.action_repeat import ActionRepeat
 from semnav_env.agents.learning.compact import COMPACT_SIZE, SECTORS, compact
 from semnav_env.agents.learning.files import (
     AGENT_FILE,
@@ -26,6 +25,7 @@ from semnav_env.agents.learning.presets import PRESETS, preset
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import GOAL, UNBOUNDED
 from semnav_env.robots import ROBOTS
+from semnav_env.vector import SemNavVectorEnv
 
 pytest.importorskip("safetensors", reason='needs the extra "rl"')
 
@@ -98,24 +98,19 @@ def test_the_observation_of_every_robot_becomes_compact(robot):
     assert np.abs(compact(first)).max() <= 1
 
 
-def test_practice_draws_the_trials_of_its_preset():
-    practice = ActionRepeat(preset("quick"))
-    drawn = {practice.reset(seed=seed)[1]["command"] for seed in range(20)}
-    assert len(drawn) == len(preset("quick").trials)
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_many_observations_become_compact_to_the_bits_of_single_ones(robot):
+    envs = SemNavVectorEnv(5, robot=robot, observation="all")
+    envs.reset(seed=0)
+    together, *_ = envs.step(envs.action_space.sample())
+    rows = compact(together)
+    for k, row in enumerate(rows):
+        alone = compact({name: entry[k] for name, entry in together.items()})
+        assert row.tobytes() == alone.tobytes()
+
+
+def test_every_preset_has_its_name():
     assert all(name == p.name for name, p in PRESETS.items())
-
-
-def test_action_repeat_sums_the_rewards_of_its_steps():
-    practice = ActionRepeat(preset("quick"))
-    practice.reset(seed=1)
-    twin = SemNavEnv(observation="all", rewards=practice.preset.rewards)
-    practice.env.reset(seed=1, options={"pose": (-2.5, -0.3, 0.24)})
-    twin.reset(seed=1, options={"pose": (-2.5, -0.3, 0.24)})
-    action = np.array([0.8, -0.1], np.float32)
-    seen, reward, *_ = practice.step(action)
-    steps = [twin.step(action) for _ in range(practice.preset.repeat)]
-    assert reward == sum(step[1] for step in steps)
-    assert np.array_equal(seen, compact(steps[-1][0]))
 
 
 def test_the_agents_that_come_along_can_be_loaded_by_name():

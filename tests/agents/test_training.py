@@ -101,7 +101,7 @@ def test_a_loaded_agent_acts_as_the_trained_model_does(tmp_path):
             "odometry": rng.normal(size=7).astype(np.float32),
             "goal": rng.normal(size=13).astype(np.float32),
         }
-        agent.reset({"robot": vars(trainer.model.get_env().get_attr("env")[0].robot)})
+        agent.reset({"robot": vars(trainer.model.get_env().get_attr("robot")[0])})
         expected, _ = trainer.model.predict(compact(seen), deterministic=True)
         assert np.allclose(agent.act(seen), expected, atol=1e-5)
 

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from semnav_env.agents.learning.action_repeat import ActionRepeat
-from semnav_env.agents.learning.presets import PRESETS
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import MODES
 from semnav_env.robots import ROBOTS
@@ -18,11 +16,6 @@ from stable_baselines3.common.env_checker import check_env  # noqa: E402
 @pytest.mark.parametrize("mode", MODES)
 def test_the_environment_passes_the_checker(robot, mode):
     check_env(SemNavEnv(robot, observation=mode), skip_render_check=False)
-
-
-@pytest.mark.parametrize("preset", PRESETS.values(), ids=PRESETS)
-def test_practice_passes_the_checker_without_any_warning(preset):
-    check_env(ActionRepeat(preset))
 
 
 def test_ppo_takes_the_environment_as_it_is():

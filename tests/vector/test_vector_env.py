@@ -53,10 +53,25 @@ def assert_goes_on_like(found, expected, steps=STEPS):
             assert_same(one, other)
 
 
-def singles(mode, **options):
+def singles(mode, wrapper=lambda env: env, **options):
     return SyncVectorEnv(
-        [lambda each=each: SemNavEnv(**options | each) for each in EACH], autoreset_mode=mode
+        [lambda each=each: wrapper(SemNavEnv(**options | each)) for each in EACH],
+        autoreset_mode=mode,
     )
+
+
+class Repeated(gym.Wrapper):
+    """Holds an action for three steps, or until the episode ends."""
+
+    def step(self, action):
+        total, terms = 0.0, {}
+        for _ in range(3):
+            seen, reward, terminated, truncated, info = self.env.step(action)
+            total += reward
+            terms = {name: terms.get(name, 0.0) + x for name, x in info["reward_terms"].items()}
+            if terminated or truncated:
+                break
+        return seen, total, terminated, truncated, info | {"reward_terms": terms}
 
 
 @pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
@@ -64,6 +79,16 @@ def singles(mode, **options):
 def test_a_vector_gives_the_bits_of_single_environments(mode, threads):
     together = SemNavVectorEnv(len(EACH), each=EACH, threads=threads, autoreset_mode=mode)
     alone = singles(mode)
+    for one, other in zip(together.reset(seed=3), alone.reset(seed=3), strict=True):
+        assert_same(one, other)
+    assert_goes_on_like(together, alone)
+
+
+@pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
+def test_a_repeated_action_gives_the_bits_of_repeated_steps(mode):
+    """The limits of the episodes are such that they end in the middle of an action."""
+    together = SemNavVectorEnv(len(EACH), each=EACH, threads=2, repeat=3, autoreset_mode=mode)
+    alone = singles(mode, Repeated)
     for one, other in zip(together.reset(seed=3), alone.reset(seed=3), strict=True):
         assert_same(one, other)
     assert_goes_on_like(together, alone)
@@ -153,6 +178,12 @@ def test_bad_actions_are_refused(bad, message):
 def test_a_step_before_the_first_reset_is_refused():
     with pytest.raises(RuntimeError, match="reset"):
         SemNavVectorEnv(2).step(np.zeros((2, 2)))
+
+
+@pytest.mark.parametrize("name", ["num_envs", "threads", "repeat"])
+def test_numbers_below_one_are_refused(name):
+    with pytest.raises(ValueError, match=f"{name} is 0"):
+        SemNavVectorEnv(**{name: 0})
 
 
 def test_robots_of_different_shapes_are_refused():
