@@ -14,9 +14,10 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 
-from semnav_env.env import SemNavEnv
 from semnav_env.lidar import TIM561
 from semnav_env.observations import Moment
+from semnav_env.tasks import EpisodeRequest
+from semnav_env.vector import SemNavVectorEnv
 
 try:
     import torch
@@ -27,7 +28,7 @@ except ModuleNotFoundError:
 ENVS, HORIZON, EPOCHS, BATCH = 8, 128, 10, 256
 DISCOUNT, TRACE, CLIP, ENTROPY = 0.99, 0.95, 0.2, 0.003
 SECTORS = 54
-START = {"command": "go through the first door on the right", "pose": (-2.5, -0.3, 0.24)}
+START = EpisodeRequest("go through the first door on the right", pose=(-2.5, -0.3, 0.24))
 
 
 class GoalAndScan:
@@ -48,18 +49,17 @@ class GoalAndScan:
         return np.float32(values / (1.0 + np.abs(values)))
 
 
-class Start(gym.Wrapper):
-    """Begins every episode with the same command at the same place."""
-
-    def reset(self, *, seed: int | None = None, options: dict | None = None) -> Any:
-        """As the environment, with `START` for options."""
-        return self.env.reset(seed=seed, options=START)
-
-
-def make() -> gym.Env:
-    """An environment of five decisions a second, for the control rate is that of the lidar."""
-    lidar = replace(TIM561, rate_hz=5.0)
-    return Start(SemNavEnv("spot", observation=GoalAndScan(), lidar=lidar, max_seconds=30.0))
+def make() -> SemNavVectorEnv:
+    """Robots that decide five times a second, for the control rate is that of the lidar."""
+    return SemNavVectorEnv(
+        ENVS,
+        robot="spot",
+        observation=GoalAndScan(),
+        lidar=replace(TIM561, rate_hz=5.0),
+        task=lambda rng: START,
+        max_seconds=30.0,
+        autoreset_mode="SameStep",
+    )
 
 
 def network(inputs: int, outputs: int) -> nn.Sequential:
@@ -81,8 +81,7 @@ def main(decisions: int) -> None:
     """Train for about so many decisions."""
     torch.manual_seed(0)
     torch.set_num_threads(1)
-    same_step = gym.vector.AutoresetMode.SAME_STEP
-    envs = gym.vector.SyncVectorEnv([make] * ENVS, autoreset_mode=same_step)
+    envs = make()
     inputs, outputs = envs.single_observation_space.shape[0], envs.single_action_space.shape[0]
     actor, critic = network(inputs, outputs), network(inputs, 1)
     spread = nn.Parameter(torch.full((outputs,), -0.5))

@@ -95,9 +95,9 @@ class SB3VecEnv(VecEnv):
     def _final(self, infos: Infos, index: int) -> dict[str, Any]:
         """What is said of a robot whose episode is over; keeps what is said of its next one."""
         begun = info_of(infos, index)
-        info, observation = begun.pop("final_info"), begun.pop("final_obs")
+        final: dict[str, Any] = begun.pop("final_info")
         self.reset_infos[index] = begun
-        return info | {"terminal_observation": observation}
+        return final | {"terminal_observation": begun.pop("final_obs")}
 
     def close(self) -> None:
         """Stop the threads and close the windows."""
