@@ -11,7 +11,6 @@ import time
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
-from typing import Any
 
 from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
@@ -99,7 +98,7 @@ def headless_drawing() -> InstallationCheck:
 def kernels() -> list[InstallationCheck]:
     """Check that the compiled kernels work, and that they are kept between runs."""
     from semnav_env.features import extract
-    from semnav_env.features.kernels.chain import extract_arrays
+    from semnav_env.features.kernels.cache_folder import cache_folder
     from semnav_env.lidar import Lidar
     from semnav_env.maps import load_floor_plan
 
@@ -114,13 +113,12 @@ def kernels() -> list[InstallationCheck]:
         f"a simulated scan shows {walls} walls; ready after {seconds:.1f} s",
         "reinstall numba and semnav-env",
     )
-    compiled: Any = extract_arrays
-    return [works, _writable_cache(Path(compiled.stats.cache_path or ""))]
+    return [works, _writable_cache(cache_folder())]
 
 
 def _writable_cache(folder: Path) -> InstallationCheck:
-    fix = "set NUMBA_CACHE_DIR to a folder that you may write to, or every start compiles anew"
-    ok = folder != Path() and os.access(folder, os.W_OK)
+    fix = "set SEMNAV_CACHE_DIR to a folder that you may write to, or every start compiles anew"
+    ok = os.access(folder, os.W_OK)
     return InstallationCheck(
         "kernel cache", ok, f"{folder} is {'' if ok else 'not '}writable", fix, False
     )

@@ -45,7 +45,7 @@ def _examine() -> Iterator[InstallationCheck]:
             yield InstallationCheck(name, False, f"{type(error).__name__}: {error}", _ADVICE)
 
 
-_ADVICE = "set NUMBA_CACHE_DIR to a folder that you may write to, or reinstall semnav-env"
+_ADVICE = "set SEMNAV_CACHE_DIR to a folder that you may write to, or reinstall semnav-env"
 
 _TRIALS: dict[str, Callable[[], list[InstallationCheck]]] = {
     "drawing without a display": lambda: [checks.headless_drawing()],

@@ -80,7 +80,7 @@ def importers(package):
     }
 
 
-MAX_IMPORTED_LINES = 20_500
+MAX_IMPORTED_LINES = 21_000
 """Lines of our own code that making an environment may import."""
 
 COUNT_IMPORTED_LINES = """

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from semnav_env.agents.planning.connect import wrapped
 from semnav_env.agents.planning.motion import move_at, moved
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 
 
 class Aim(NamedTuple):
@@ -34,7 +33,7 @@ class Aim(NamedTuple):
     axle: float
 
 
-@njit(cache=True)
+@kernel
 def arrived(aim: Aim, pose: Pose) -> bool:
     """Whether an axle pose meets the aim's tolerances."""
     x, y = pose[0] - aim.axle * math.cos(pose[2]), pose[1] - aim.axle * math.sin(pose[2])
@@ -43,7 +42,7 @@ def arrived(aim: Aim, pose: Pose) -> bool:
     return aim.any_heading or abs(wrapped(aim.heading - pose[2])) <= aim.heading_tolerance
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def trimmed(aim: Aim, start: Pose, moves: FloatArray) -> FloatArray:
     """The moves cut off well inside an aim with any heading; other aims keep all moves."""
     if not aim.any_heading:
@@ -64,7 +63,7 @@ def trimmed(aim: Aim, start: Pose, moves: FloatArray) -> FloatArray:
     return moves
 
 
-@njit(cache=True)
+@kernel
 def target_from(aim: Aim, pose: Pose, backwards: bool) -> Pose:
     """The axle pose to connect to; with any heading, the one that is approached straight on."""
     heading = aim.heading

@@ -11,11 +11,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.agents.planning.distance import distance_to_marked
 from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.robots import RobotSpec
 
 FIELD_CELL = 0.05
@@ -84,7 +84,7 @@ def obstacle_field(points: FloatArray, middle: Point, half_size: float) -> Obsta
     return ObstacleField(x, y, *_sort_into_field(np.ascontiguousarray(points), x, y, n))
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _sort_into_field(
     points: FloatArray, x: float, y: float, n: int
 ) -> tuple[NDArray[np.float32], NDArray[np.int64], FloatArray]:
@@ -113,7 +113,7 @@ def _sort_into_field(
     return distance_to_marked(marked, FIELD_CELL), first, kept
 
 
-@njit(cache=True)
+@kernel
 def distance_at(field: ObstacleField, x: float, y: float) -> float:
     """The field's distance at a point, metres; infinite outside the window."""
     i, j = math.floor((x - field.x) / FIELD_CELL), math.floor((y - field.y) / FIELD_CELL)
@@ -123,7 +123,7 @@ def distance_at(field: ObstacleField, x: float, y: float) -> float:
     return math.inf
 
 
-@njit(cache=True)
+@kernel
 def is_clear(
     field: ObstacleField, body: Footprint, x: float, y: float, heading: float, margin: float
 ) -> bool:
@@ -146,7 +146,7 @@ def is_clear(
     return True
 
 
-@njit(cache=True)
+@kernel
 def _holds_point(
     field: ObstacleField, x: float, y: float, c: float, s: float, length: float, width: float
 ) -> bool:
@@ -168,7 +168,7 @@ def _holds_point(
     return False
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def bins_around(field: ObstacleField, x: float, y: float, radius: float) -> list[tuple[int, int]]:
     """Ranges (first, last + 1) of `field.points`, one for each row of bins around a place."""
     size = FIELD_CELL * BIN_CELLS
@@ -182,7 +182,7 @@ def bins_around(field: ObstacleField, x: float, y: float, radius: float) -> list
     return [(field.first[j * bins + i0], field.first[j * bins + i1 + 1]) for j in range(j0, j1 + 1)]
 
 
-@njit(cache=True)
+@kernel
 def room_at(field: ObstacleField, body: Footprint, x: float, y: float, heading: float) -> float:
     """Approximate distance from the body to the nearest obstacle point, metres, at least 0.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from semnav_env.agents.planning.collision import Footprint, ObstacleField
 from semnav_env.agents.planning.motion import (
@@ -22,6 +21,7 @@ from semnav_env.agents.planning.motion import (
     sweep,
 )
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 
 MIN_TURN = 1e-3
 """Smallest turn of a connection, radians; a smaller one is left out."""
@@ -30,13 +30,13 @@ MIN_DISTANCE = 5e-3
 """Smallest distance that a connection drives, metres; between closer positions it only turns."""
 
 
-@njit(cache=True)
+@kernel
 def wrapped(angle: float) -> float:
     """The same angle in (-pi, pi]."""
     return math.pi - (math.pi - angle) % (2.0 * math.pi)
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def connection(start: Pose, end: Pose, backwards: bool) -> FloatArray:
     """Turn, drive and turn from one axle pose to another, shape (3, 3); a zero row is no move."""
     moves = np.zeros((3, 3))
@@ -53,7 +53,7 @@ def connection(start: Pose, end: Pose, backwards: bool) -> FloatArray:
     return moves
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def smooth_connection(
     start: Pose, end: Pose, radius: float, first: float, last: float
 ) -> FloatArray:
@@ -80,13 +80,13 @@ def smooth_connection(
     return moves
 
 
-@njit(cache=True)
+@kernel
 def _arc_angle(begin: float, end: float, side: float) -> float:
     angle = (side * (end - begin)) % (2.0 * math.pi)
     return 0.0 if angle > 2.0 * math.pi - MIN_TURN else side * angle
 
 
-@njit(cache=True)
+@kernel
 def cost_of_moves(
     field: ObstacleField,
     body: Footprint,
@@ -124,13 +124,13 @@ def cost_of_moves(
     return cost
 
 
-@njit(cache=True)
+@kernel
 def is_move(move: Move) -> bool:
     """Whether any part of the move is not zero."""
     return move.forward != 0.0 or move.left != 0.0 or move.turn != 0.0
 
 
-@njit(cache=True)
+@kernel
 def last_kind(moves: FloatArray, kind: int) -> int:
     """The kind of the last move that is not zero; `kind` if there is none."""
     for k in range(len(moves)):

@@ -7,16 +7,16 @@ P. Felzenszwalb, D. Huttenlocher, Distance Transforms of Sampled Functions, Theo
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 NO_MARKED_CELL = 1e12
 """Squared distance where there is no marked cell, in cells: finite, so that differences are too."""
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def distance_to_marked(marked: NDArray[np.bool_], cell: float) -> NDArray[np.float32]:
     """Distance from each cell's centre to the nearest marked cell's centre, metres, (n, n)."""
     n = marked.shape[0]
@@ -35,7 +35,7 @@ def distance_to_marked(marked: NDArray[np.bool_], cell: float) -> NDArray[np.flo
     return distance
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _along_columns(marked: NDArray[np.bool_], squared: FloatArray) -> None:
     """Squared distance to the nearest marked cell of the same column: two sweeps."""
     n = marked.shape[0]
@@ -51,7 +51,7 @@ def _along_columns(marked: NDArray[np.bool_], squared: FloatArray) -> None:
             squared[j, i] = min(squared[j, i], steps[i]) ** 2
 
 
-@njit(cache=True)
+@kernel
 def _lower_envelope(
     values: FloatArray, place: NDArray[np.int64], edge: FloatArray, out: FloatArray
 ) -> None:
@@ -76,7 +76,7 @@ def _lower_envelope(
         out[i] = (i - place[k]) ** 2 + values[place[k]]
 
 
-@njit(cache=True)
+@kernel
 def _crossing(values: FloatArray, q: int, p: int) -> float:
     """Where the parabolas rooted at p and at q > p cross."""
     return float(((values[q] + q * q) - (values[p] + p * p)) / (2.0 * (q - p)))

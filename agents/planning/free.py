@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from semnav_env.agents.planning.collision import Footprint, ObstacleField, bins_around
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def clearances(field: ObstacleField, body: Footprint, poses: FloatArray, most: float) -> FloatArray:
     """Distance from the footprint to the nearest point at axle poses, metres, shape (M,).
 
@@ -34,7 +34,7 @@ def clearances(field: ObstacleField, body: Footprint, poses: FloatArray, most: f
     return clearance
 
 
-@njit(cache=True)
+@kernel
 def all_clear(
     points: FloatArray, poses: FloatArray, length: float, width: float, margin: float
 ) -> bool:
@@ -56,7 +56,7 @@ def all_clear(
     return True
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def points_around(pose: Pose, points: FloatArray, reach: float) -> FloatArray:
     """The points within a square of that half side around a pose, in its frame, shape (M, 2)."""
     c, s = math.cos(pose[2]), math.sin(pose[2])

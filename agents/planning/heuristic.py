@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.agents.planning.collision import CELL_DIAGONAL, FIELD_CELL, Footprint, ObstacleField
 from semnav_env.agents.planning.motion import MotionCosts, crowding_at
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.grid_search import least_costs
 
 COARSE_CELLS = 2
@@ -23,7 +23,7 @@ COARSE_DIAGONAL = COARSE_CELL * math.sqrt(2.0)
 """Distance of two cells of the heuristic that touch at a corner, metres."""
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def room_grid(field: ObstacleField, body: Footprint, margin: float) -> FloatArray:
     """Room beside an inscribed disc in each coarse cell, metres; negative where it cannot be.
 
@@ -42,7 +42,7 @@ def room_grid(field: ObstacleField, body: Footprint, margin: float) -> FloatArra
     return room
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def seconds_to(
     sources: NDArray[np.int64], first: FloatArray, room: FloatArray, costs: MotionCosts
 ) -> FloatArray:
@@ -58,7 +58,7 @@ def seconds_to(
     return least_costs(sources, first, _slowness(room, costs), straight, diagonal, False)
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _slowness(room: FloatArray, costs: MotionCosts) -> FloatArray:
     """How many times as long a way takes in each cell; infinite where it cannot lead, (n, n)."""
     slowness = np.full(room.shape, np.inf)
@@ -69,13 +69,13 @@ def _slowness(room: FloatArray, costs: MotionCosts) -> FloatArray:
     return slowness
 
 
-@njit(cache=True)
+@kernel
 def coarse_cell(field: ObstacleField, x: float, y: float) -> tuple[int, int]:
     """The (j, i) of the heuristic's cell at a point; may lie outside the grid."""
     return math.floor((y - field.y) / COARSE_CELL), math.floor((x - field.x) / COARSE_CELL)
 
 
-@njit(cache=True)
+@kernel
 def seconds_at(field: ObstacleField, time: FloatArray, x: float, y: float) -> float:
     """Seconds to go from a point, from its cell or the best neighbour; infinite outside."""
     n = time.shape[0]

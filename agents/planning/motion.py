@@ -9,8 +9,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from semnav_env.agents.planning.collision import (
     MAX_SWEEP_STEP,
     Footprint,
@@ -19,6 +17,7 @@ from semnav_env.agents.planning.collision import (
     room_at,
 )
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 
 STILL, TURN, FORWARD, REVERSE, SIDEWAYS = range(5)
 """Kinds of motion; a robot stops where the kind changes."""
@@ -87,7 +86,7 @@ class SafetyMargin(NamedTuple):
     y: float
 
 
-@njit(cache=True)
+@kernel
 def margin_at(margin: SafetyMargin, x: float, y: float) -> float:
     """Distance to keep from obstacles at an axle position, metres."""
     if margin.start >= margin.full:
@@ -96,13 +95,13 @@ def margin_at(margin: SafetyMargin, x: float, y: float) -> float:
     return min(margin.full, margin.start + margin.growth * travelled)
 
 
-@njit(cache=True)
+@kernel
 def move_at(moves: FloatArray, k: int) -> Move:
     """Row k of an array of moves."""
     return Move(moves[k, 0], moves[k, 1], moves[k, 2])
 
 
-@njit(cache=True)
+@kernel
 def kind_of(move: Move) -> int:
     """TURN, FORWARD, REVERSE or SIDEWAYS."""
     if abs(move.left) > abs(move.forward):
@@ -112,7 +111,7 @@ def kind_of(move: Move) -> int:
     return FORWARD if move.forward > 0 else REVERSE
 
 
-@njit(cache=True)
+@kernel
 def moved(x: float, y: float, heading: float, move: Move, share: float = 1.0) -> Pose:
     """The axle pose after that share of the move: the exponential map of SE(2)."""
     forward, left, turn = move.forward * share, move.left * share, move.turn * share
@@ -123,7 +122,7 @@ def moved(x: float, y: float, heading: float, move: Move, share: float = 1.0) ->
     return x + c * forward - s * left, y + s * forward + c * left, heading + turn
 
 
-@njit(cache=True)
+@kernel
 def duration(move: Move, costs: MotionCosts) -> float:
     """Time of the move in free space, seconds."""
     turn = abs(move.turn)
@@ -138,14 +137,14 @@ def duration(move: Move, costs: MotionCosts) -> float:
     return travel + 0.2 * turn / costs.turn_rate
 
 
-@njit(cache=True)
+@kernel
 def crowding_at(room: float, costs: MotionCosts) -> float:
     """Share by which a second counts more at that clearance."""
     lack = max(0.0, 1.0 - room / costs.room)
     return costs.crowding * lack * lack
 
 
-@njit(cache=True)
+@kernel
 def sweep(
     field: ObstacleField,
     body: Footprint,
@@ -167,7 +166,7 @@ def sweep(
     return duration(move, costs) * (1.0 + crowd / n)
 
 
-@njit(cache=True)
+@kernel
 def change_cost(before: int, after: int, costs: MotionCosts) -> float:
     """Time lost between moves of two kinds, seconds."""
     if before in (after, STILL):
@@ -175,13 +174,13 @@ def change_cost(before: int, after: int, costs: MotionCosts) -> float:
     return costs.stop if before == TURN or after == TURN else 2.0 * costs.stop
 
 
-@njit(cache=True)
+@kernel
 def curvature(move: Move) -> float:
     """Turn per metre forward, 1/m; NaN for a turn on the spot and a sideways move."""
     return move.turn / move.forward if kind_of(move) in (FORWARD, REVERSE) else math.nan
 
 
-@njit(cache=True)
+@kernel
 def steering_cost(before: float, after: float, costs: MotionCosts) -> float:
     """Time lost where the curvature changes, seconds; none where either is NaN."""
     change = abs(after - before)

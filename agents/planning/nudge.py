@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 NUDGE_SHIFT, NUDGE_ANGLE, NUDGES_PER_SIDE = 0.005, 0.006, 4
 """The finest correction, metres and radians, and how many of them are tried to each side."""
@@ -19,7 +19,7 @@ RELEVANT_DISTANCE = 0.15
 """Distance from the footprints along the path beyond which points do not matter, metres."""
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def best_nudge(
     points: FloatArray, poses: FloatArray, length: float, width: float, wanted: float
 ) -> tuple[float, float, float]:
@@ -48,7 +48,7 @@ def best_nudge(
     return best
 
 
-@njit(cache=True)
+@kernel
 def path_clearance(
     points: FloatArray,
     poses: FloatArray,
@@ -77,7 +77,7 @@ def path_clearance(
     return least
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def path_clearances(
     points: FloatArray, poses: FloatArray, length: float, width: float, most: float
 ) -> FloatArray:
@@ -89,7 +89,7 @@ def path_clearances(
     return clearance
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _near_points(points: FloatArray, poses: FloatArray, length: float, width: float) -> FloatArray:
     kept = np.empty_like(points)
     n = 0

@@ -10,10 +10,10 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 
 CENTRE = np.dtype(
     [
@@ -55,13 +55,13 @@ class MemoryClock(NamedTuple):
     turned: float
 
 
-@njit(cache=True)
+@kernel
 def slot(x: float, y: float) -> tuple[int, int]:
     """Place of a point in the wrapped table."""
     return math.floor(y / VOXEL) % TABLE_SIDE, math.floor(x / VOXEL) % TABLE_SIDE
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def forget(
     centres: NDArray[Any],
     count: int,
@@ -108,7 +108,7 @@ def forget(
     return kept, table
 
 
-@njit(cache=True)
+@kernel
 def join(into: Any, other: Any) -> None:
     """Make one centre of two, weighted by their hits."""
     share = other.hits / (into.hits + other.hits)
@@ -120,7 +120,7 @@ def join(into: Any, other: Any) -> None:
     into.turned = max(into.turned, other.turned)
 
 
-@njit(cache=True)
+@kernel
 def seen_through(
     pose: Pose,
     x: float,
@@ -148,7 +148,7 @@ def seen_through(
     return bool(least > distance and most < range_max)
 
 
-@njit(cache=True)
+@kernel
 def add_hits(
     centres: NDArray[Any],
     count: int,
@@ -188,7 +188,7 @@ def add_hits(
     return count
 
 
-@njit(cache=True)
+@kernel
 def nearest(
     centres: NDArray[Any], table: NDArray[np.int32], x: float, y: float, within: float
 ) -> int:
@@ -205,7 +205,7 @@ def nearest(
     return best
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def select(centres: NDArray[Any], sure: int, share: float, blunt: float) -> FloatArray:
     """Positions of the centres that were hit often enough, by themselves and beside neighbours.
 
@@ -236,7 +236,7 @@ def select(centres: NDArray[Any], sure: int, share: float, blunt: float) -> Floa
     return points[:n]
 
 
-@njit(cache=True)
+@kernel
 def neighbourhood(
     centres: NDArray[Any], table: NDArray[np.int32], k: int, share: float
 ) -> tuple[float, float, float, float]:

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.agents.planning.motion import kind_of, move_at, moved
 from semnav_env.features.frames import FloatArray, Point, Pose, compose, points_to_local
+from semnav_env.features.kernels.compiling import kernel
 
 SAMPLE_DISTANCE = 0.04
 """Largest distance between samples of a path, metres."""
@@ -112,7 +112,7 @@ class PlannedPath:
         return x, y, heading
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def sampled(
     start: Pose, moves: FloatArray
 ) -> tuple[FloatArray, NDArray[np.int64], NDArray[np.int64]]:

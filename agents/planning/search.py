@@ -13,7 +13,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.agents.planning.aim import Aim, arrived, target_from
@@ -34,6 +33,7 @@ from semnav_env.agents.planning.motion import (
     sweep,
 )
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 
 POSITION_BIN = 0.1
 """Side of a bin of positions, metres; one node is kept for each bin of position and heading."""
@@ -105,7 +105,7 @@ TARGET_NODE = 1
 """The node of the exact target."""
 
 
-@njit(cache=True)
+@kernel
 def seconds_left(problem: SearchProblem, pose: Pose) -> float:
     """The heuristic at an axle pose, seconds."""
     axle = problem.aim.axle
@@ -113,7 +113,7 @@ def seconds_left(problem: SearchProblem, pose: Pose) -> float:
     return seconds_at(problem.field, problem.time, x, y)
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def new_tree(start: Pose, anchors: FloatArray, capacity: int, cells: int) -> SearchTree:
     """A tree of the start alone, with room for `capacity` nodes."""
     tree = SearchTree(
@@ -133,13 +133,13 @@ def new_tree(start: Pose, anchors: FloatArray, capacity: int, cells: int) -> Sea
     return tree
 
 
-@njit(cache=True)
+@kernel
 def pose_of(tree: SearchTree, node: int) -> Pose:
     """The node's axle pose."""
     return tree.pose[node, 0], tree.pose[node, 1], tree.pose[node, 2]
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def connect(
     problem: SearchProblem, tree: SearchTree, heap: list[tuple[float, int]], node: int, to: int
 ) -> None:
@@ -170,7 +170,7 @@ def connect(
             heapq.heappush(heap, (tree.cost[to] + left, to))
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def expand(
     problem: SearchProblem, tree: SearchTree, heap: list[tuple[float, int]], node: int
 ) -> None:
@@ -204,7 +204,7 @@ def expand(
         heapq.heappush(heap, (cost + problem.greed * left, there))
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def search(
     problem: SearchProblem, start: Pose, anchors: FloatArray, max_expansions: int
 ) -> tuple[FloatArray, bool, int]:
@@ -248,7 +248,7 @@ def search(
     return moves_to(problem, tree, TARGET_NODE if connected else best), connected, expanded
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def moves_to(problem: SearchProblem, tree: SearchTree, node: int) -> FloatArray:
     """The moves from the start to a node, shape (M, 3)."""
     chain = [node]

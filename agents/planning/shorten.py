@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from semnav_env.agents.planning.collision import Footprint, ObstacleField
 from semnav_env.agents.planning.connect import (
@@ -28,6 +27,7 @@ from semnav_env.agents.planning.motion import (
     moved,
 )
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 
 ARC_RADII = (2.0, 1.4, 1.0, 0.7, 0.5, 0.35)
 """Radii of the arcs that round a corner, metres; the widest is tried first."""
@@ -39,7 +39,7 @@ ARC_SIDES = (1.0, -1.0)
 """An arc to the left, and one to the right."""
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def merged(moves: FloatArray) -> FloatArray:
     """The moves without empty ones, equal motions that follow one another joined."""
     out = np.empty_like(moves)
@@ -55,7 +55,7 @@ def merged(moves: FloatArray) -> FloatArray:
     return out[:n]
 
 
-@njit(cache=True)
+@kernel
 def _same_twist(a: Move, b: Move) -> bool:
     """Whether one move goes on as the other, so that both are one move."""
     if kind_of(a) != kind_of(b):
@@ -69,7 +69,7 @@ def _same_twist(a: Move, b: Move) -> bool:
     return bool(straight or same_arc)
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def shortened(
     field: ObstacleField,
     body: Footprint,
@@ -96,7 +96,7 @@ def shortened(
     return merged(_stacked(out))
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _cheapest(
     field: ObstacleField,
     body: Footprint,
@@ -123,7 +123,7 @@ def _cheapest(
     return best
 
 
-@njit(cache=True)
+@kernel
 def end_of(pose: Pose, moves: FloatArray) -> Pose:
     """The axle pose after the moves."""
     for k in range(len(moves)):
@@ -131,7 +131,7 @@ def end_of(pose: Pose, moves: FloatArray) -> Pose:
     return pose
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _stacked(parts: list[FloatArray]) -> FloatArray:
     total = 0
     for part in parts:
@@ -143,7 +143,7 @@ def _stacked(parts: list[FloatArray]) -> FloatArray:
     return out
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def rounded(
     field: ObstacleField,
     body: Footprint,
@@ -168,7 +168,7 @@ def rounded(
     return merged(out)
 
 
-@njit(cache=True)
+@kernel
 def _is_corner(moves: FloatArray, k: int) -> bool:
     """Whether a move is a turn on the spot between two straight lines in the same direction."""
     before, at, after = move_at(moves, k - 1), move_at(moves, k), move_at(moves, k + 1)
@@ -177,7 +177,7 @@ def _is_corner(moves: FloatArray, k: int) -> bool:
     return bool(straight and turns and before.forward * after.forward > 0)
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _arc(
     field: ObstacleField,
     body: Footprint,

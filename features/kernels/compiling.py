@@ -1,28 +1,230 @@
-"""How the kernels of a scan are compiled."""
+"""How kernels are compiled: each body once, and a door for Python only where Python calls it.
+
+Numba makes each function callable from Python, optimises it and turns it into machine code, and
+then does the same again for every function that calls it, whose code contains it. Of the time
+that compiling takes that is half. Here the body of a kernel stays intermediate code; only a kernel
+that Python calls is linked with all that it calls, optimised and turned into machine code.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar, cast
+import gc
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from copy import copy
+from functools import partial
+from importlib import import_module
+from inspect import signature
+from operator import attrgetter
+from typing import Any, TypeVar, overload
 
-from numba import njit
+from numba import njit, types
+from numba.core import compiler, config, dispatcher
+from numba.core.codegen import JITCodeLibrary
+from numba.core.cpu import CPUContext
+from numba.core.environment import Environment
+from numba.core.registry import CPUDispatcher
 
-_Function = TypeVar("_Function", bound=Callable[..., Any])
+from semnav_env.features.kernels.compile_notice import NOTICE
+from semnav_env.features.kernels.kernel_cache import KernelCache
 
-_OPTIONS: dict[str, Any] = {
-    "cache": True,
-    "error_model": "numpy",
-    "nogil": True,
-    "_nrt": False,
-}
+NUMBA_FITS = (
+    all(
+        hasattr(JITCodeLibrary, name)
+        for name in (
+            "_optimize_final_module",
+            "_finalize_final_module",
+            "_finalize_dynamic_globals",
+        )
+    )
+    and "library" in signature(compiler.compile_extra).parameters
+    and hasattr(CPUContext, "create_cpython_wrapper")
+)
+"""Whether numba has the inner parts that `Kernel` uses, as versions 0.61 to 0.68 have. Otherwise
+kernels are numba's own, which take longer to compile."""
 
 
-def kernel(function: _Function) -> _Function:
-    """Compile a kernel that only works on its caller's arrays.
+Function = TypeVar("Function", bound=Callable[..., Any])
 
-    Compiled code counts the references to every array that it touches, by atomic additions, and a
-    scan's working memory is two dozen arrays: the counting took more time than the work, and much
-    of the time that compiling takes. Such a kernel does not count (`_nrt`), so it can make no
-    arrays (it would not compile), and returns none.
+
+@overload
+def kernel(function: Function) -> Function: ...
+@overload
+def kernel(
+    *, counts_references: bool = False, inline: bool = False
+) -> Callable[[Function], Function]: ...
+def kernel(
+    function: Callable[..., Any] | None = None,
+    *,
+    counts_references: bool = False,
+    inline: bool = False,
+) -> Any:
+    """Decorate a kernel: a function of plain numbers, tuples, arrays and structures.
+
+    Args:
+        function: the function; without it, as in `@kernel(inline=True)`, a decorator is returned.
+        counts_references: the kernel makes or returns arrays, or takes structures. Others work on
+            their caller's arrays alone and need not count the references to these, by atomic
+            additions, which takes twice as long as the work of a scan.
+        inline: put the kernel's statements in place of each call, before types are known.
     """
-    return cast(_Function, njit(**_OPTIONS)(function))
+    if function is None:
+        return partial(kernel, counts_references=counts_references, inline=inline)
+    if inline:
+        return njit(function, error_model="numpy", nogil=True, inline="always")
+    if getattr(config, "DISABLE_JIT", False) or not NUMBA_FITS:
+        return njit(function, error_model="numpy", nogil=True, cache=True)
+    return Kernel(function, counts_references)
+
+
+class Kernel(CPUDispatcher):
+    """A compiled function that Python and other kernels call."""
+
+    def __init__(self, function: Callable[..., Any], counts_references: bool) -> None:
+        options = {
+            "nopython": True,
+            "boundscheck": None,
+            "error_model": "numpy",
+            "nogil": True,
+            "_nrt": counts_references,
+            "no_cpython_wrapper": True,
+            "no_cfunc_wrapper": True,
+        }
+        super().__init__(function, targetoptions=options)
+        self.body = KernelBody(function, targetoptions=options)
+        self._compiler = _LinkingCompiler(self.body)
+        self._cache = KernelCache(function)
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """What another kernel needs to know to call this one; a literal counts as its type."""
+        args = [types.unliteral(arg) for arg in args]
+        return self.body.get_call_template(args, {k: types.unliteral(v) for k, v in kws.items()})
+
+    def get_overload(self, sig: Any) -> Any:
+        """What another kernel calls."""
+        return self.body.get_overload(sig)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A kernel is pickled, and copied, by its name."""
+        return _kernel_named, (self.py_func.__module__, self.py_func.__qualname__)
+
+    def compile(self, sig: Any) -> Any:
+        """Compile for a signature, or load what was compiled before."""
+        with _no_garbage_collection():
+            return super().compile(sig)
+
+
+def _kernel_named(module: str, name: str) -> Any:
+    return attrgetter(name)(import_module(module))
+
+
+class KernelBody(CPUDispatcher):
+    """A kernel as other kernels call it."""
+
+    def __init__(self, function: Callable[..., Any], targetoptions: dict[str, Any]) -> None:
+        super().__init__(function, targetoptions=targetoptions)
+        self._compiler = _BodyCompiler(
+            function, self.targetdescr, targetoptions, {}, compiler.Compiler
+        )
+
+
+_FunctionCompiler: Any = getattr(dispatcher, "_FunctionCompiler", object)
+
+
+class _BodyLibrary(JITCodeLibrary):
+    """Intermediate code to be linked into that of a caller."""
+
+    def _optimize_final_module(self) -> None:
+        """Leave it to the caller's library."""
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+    def get_pointer_to_function(self, name: str) -> int:
+        """Null: there is no machine code."""
+        return 0
+
+    @property
+    def codegen(self) -> Any:
+        """Asked for by numba in order to set the environment of machine code."""
+        return _NoEnvironments()
+
+
+class _NoEnvironments:
+    def set_env(self, env_name: str, env: Any) -> None:
+        """Do nothing, for there is no machine code."""
+
+
+class _BodyCompiler(_FunctionCompiler):
+    """Compiles to intermediate code."""
+
+    def _compile_core(self, args: Any, return_type: Any) -> Any:
+        NOTICE.work_goes_on()
+        flags = compiler.Flags()
+        self.targetdescr.options.parse_as_flags(flags, self.targetoptions)
+        context = self.targetdescr.target_context
+        return compiler.compile_extra(
+            self.targetdescr.typing_context,
+            context,
+            self.py_func,
+            args=args,
+            return_type=return_type,
+            flags=flags,
+            locals=self.locals,
+            library=_BodyLibrary(context.codegen(), self.py_func.__qualname__),
+            pipeline_class=self.pipeline_class,
+        )
+
+
+class _LinkingCompiler(_FunctionCompiler):
+    """Links the body of a kernel with all that it calls, and makes it callable from Python."""
+
+    def __init__(self, body: KernelBody) -> None:
+        super().__init__(body.py_func, body.targetdescr, body.targetoptions, {}, compiler.Compiler)
+        self._body = body
+
+    def _compile_core(self, args: Any, return_type: Any) -> Any:
+        with NOTICE.while_compiling():
+            self._body.compile(args if return_type is None else return_type(*args))
+            return _linked(self._body.overloads[tuple(args)])
+
+
+def _linked(body: Any) -> Any:
+    """A body's compile result with machine code.
+
+    What makes it callable from Python has an environment of its own, for that of the body is also
+    kept with each caller, which does not know what Python's types need.
+    """
+    context, door = body.target_context, copy(body.fndesc)
+    door.env_name += ".python"
+    environment = Environment.from_fndesc(door)
+    library = context.codegen().create_library(door.qualname)
+    library.enable_object_caching()
+    library.add_linking_library(body.library)
+    context.create_cpython_wrapper(library, door, environment, body.call_helper, release_gil=True)
+    function = context.get_executable(library, door, environment)
+    context.insert_user_function(function, door, [library])
+    linked = body._replace(
+        library=library,
+        entry_point=function,
+        fndesc=door,
+        environment=environment,
+        metadata={**body.metadata, "timers": {}},
+    )
+    for referenced in linked._find_referenced_environments():
+        library.codegen.set_env(referenced.env_name, referenced)
+    return linked
+
+
+@contextmanager
+def _no_garbage_collection() -> Iterator[None]:
+    """Compiling makes millions of objects that stay; looking through them takes a tenth of it."""
+    if not gc.isenabled():
+        yield
+        return
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 PROBE_SPACING = 0.1
 """Distance between the probes of the sides along the axis, metres."""
@@ -53,7 +53,7 @@ MIN_END_SINE = math.sin(math.radians(15.0))
 it."""
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def in_frame(segments: FloatArray, x: float, y: float, heading: float) -> FloatArray:
     """Segments, shape (n, 4), seen from an axis that begins at (x, y)."""
     c, s = math.cos(heading), math.sin(heading)
@@ -65,7 +65,7 @@ def in_frame(segments: FloatArray, x: float, y: float, heading: float) -> FloatA
     return local
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def probe(local: FloatArray, sign: float, back: float, count: int) -> FloatArray:
     """How far the first `count` rays go to one side, metres; inf beyond `MAX_SIDE_DISTANCE`.
 
@@ -94,14 +94,14 @@ def probe(local: FloatArray, sign: float, back: float, count: int) -> FloatArray
     return side
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def shift(local: FloatArray, offset: float) -> None:
     """Move the axis to its left."""
     local[:, 1] -= offset
     local[:, 3] -= offset
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def typical_distances(local: FloatArray, back: float, straight: float) -> tuple[float, float]:
     """Typical distances of the left and the right side from the axis, metres.
 
@@ -118,7 +118,7 @@ def typical_distances(local: FloatArray, back: float, straight: float) -> tuple[
     return left, right
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _usual(side: FloatArray, room: float) -> float:
     """The typical distance of a side; `MAX_SIDE_DISTANCE` where none is seen.
 
@@ -131,7 +131,7 @@ def _usual(side: FloatArray, room: float) -> float:
     return room if usual > room + MAX_FURNITURE_DEPTH else usual
 
 
-@njit(cache=True)
+@kernel
 def _room(lanes: FloatArray, straight: float) -> float:
     """Width of the lanes, from the first one on, that go on about as far as `straight`, metres."""
     count = 0
@@ -140,7 +140,7 @@ def _room(lanes: FloatArray, straight: float) -> float:
     return max(count - 0.5, 0.5 * BODY_WIDTH / LANE_SPACING) * LANE_SPACING
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def way_ahead(local: FloatArray) -> tuple[float, float]:
     """The nearest way for a body that goes on about as far as any way beside the robot.
 
@@ -163,13 +163,13 @@ def way_ahead(local: FloatArray) -> tuple[float, float]:
     return 0.0, farthest
 
 
-@njit(cache=True)
+@kernel
 def _goes_on(distance: float, farthest: float) -> bool:
     """Whether a distance is about as long as another; both may be infinite."""
     return distance == farthest or distance > farthest - 1.0
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def way_back(local: FloatArray) -> float:
     """How far any way for a body near the axis goes back, metres."""
     turned = local.copy()
@@ -178,7 +178,7 @@ def way_back(local: FloatArray) -> float:
     return farthest_way(turned, BODY_WIDTH, BODY_WIDTH)
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def farthest_way(local: FloatArray, left: float, right: float) -> float:
     """The farthest that any way for a body goes on between the sides, metres."""
     ways = _ways(
@@ -192,7 +192,7 @@ def farthest_way(local: FloatArray, left: float, right: float) -> float:
     return float(ways.max())
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _ways(lanes: FloatArray) -> FloatArray:
     """How far each way goes on that is as wide as a body: several lanes beside each other."""
     width = min(len(lanes), round(BODY_WIDTH / LANE_SPACING))
@@ -202,7 +202,7 @@ def _ways(lanes: FloatArray) -> FloatArray:
     return ways
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _lanes(local: FloatArray, start: float, count: int, nearest: float) -> FloatArray:
     """How far each lane goes on from x = `nearest`; they lie at y = start + k * `LANE_SPACING`."""
     lanes = np.full(count, np.inf)

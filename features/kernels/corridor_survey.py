@@ -9,10 +9,10 @@ import math
 from typing import TypeAlias
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.corridor_rays import (
     DOORWAY_DEPTH,
     MAX_SIDE_DISTANCE,
@@ -68,7 +68,7 @@ Frame: TypeAlias = tuple[float, float, float]
 """Pose of an axis or a robot: x, y in metres and heading in radians."""
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def survey(
     walls: FloatArray,
     doors: FloatArray,
@@ -104,7 +104,7 @@ def survey(
     return frame, 0.5 * (left + right), end, sides, openings[:count]
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def survey_axis(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> tuple[Frame, float, float, float, float, FloatArray]:
@@ -131,7 +131,7 @@ def survey_axis(
     return (x, y, heading), back, farthest_way(local, left, right), left, right, local
 
 
-@njit(cache=True)
+@kernel
 def first_gap(side: FloatArray, start: int, stop: int, longer_than: int) -> int:
     """Where more than `longer_than` infinite values in a row first begin; -1 if nowhere."""
     run = 0
@@ -142,7 +142,7 @@ def first_gap(side: FloatArray, start: int, stop: int, longer_than: int) -> int:
     return -1
 
 
-@njit(cache=True)
+@kernel
 def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
     """Whether a robot at (x, y, heading) stands in a doorway, shape (4,), to pass through it."""
     dx, dy = door[2] - door[0], door[3] - door[1]
@@ -153,7 +153,7 @@ def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
     return bool(across and 0.0 < along < length and abs(beside) < DOORWAY_DEPTH)
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _solid(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> FloatArray:
@@ -173,7 +173,7 @@ def _solid(
     return solid[:count]
 
 
-@njit(cache=True)
+@kernel
 def _is_across(door: FloatArray, heading: float) -> bool:
     """Whether a doorway faces a robot with this heading, within 45 degrees."""
     dx, dy = door[2] - door[0], door[3] - door[1]
@@ -181,7 +181,7 @@ def _is_across(door: FloatArray, heading: float) -> bool:
     return bool(along < math.sqrt(0.5) * math.hypot(dx, dy))
 
 
-@njit(cache=True)
+@kernel
 def _follow(
     raw: FloatArray,
     solid: FloatArray,
@@ -235,7 +235,7 @@ def _follow(
     return count
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _recent(side: FloatArray, k: int, usual: float) -> float:
     """Distance of a side just before probe k, metres; `usual` where it was not seen.
 
@@ -247,7 +247,7 @@ def _recent(side: FloatArray, k: int, usual: float) -> float:
     return seen[3 * (len(seen) - 1) // 4] if len(seen) > 0 else usual
 
 
-@njit(cache=True)
+@kernel
 def _note_opening(
     solid: FloatArray,
     sign: float,
@@ -272,7 +272,7 @@ def _note_opening(
     return count + 1
 
 
-@njit(cache=True)
+@kernel
 def _leads_out(solid: FloatArray, sign: float, edge: float, offset: float) -> bool:
     """Whether a wall or a door leads away from the axis at x = `edge`, from y = `offset` on.
 

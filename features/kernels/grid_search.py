@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 NEIGHBOURS = np.array([(j, i) for j in (-1, 0, 1) for i in (-1, 0, 1) if (j, i) != (0, 0)])
 """Steps to the cells around one, (row, column), shape (8, 2)."""
@@ -16,7 +16,7 @@ ROUND = 2.0
 make many rounds, more let cells be worked on again and again. It changes no result."""
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def least_costs(
     sources: NDArray[np.int64],
     first: FloatArray,
@@ -87,7 +87,7 @@ def least_costs(
     return cost.reshape(rows + 2, wide)[1:-1, 1:-1].copy()
 
 
-@njit(cache=True)
+@kernel
 def _next_round(
     waiting: NDArray[np.int64], soon: NDArray[np.int64], cost: FloatArray, limit: float
 ) -> tuple[int, int]:
@@ -103,7 +103,7 @@ def _next_round(
     return soons, laters
 
 
-@njit(cache=True)
+@kernel
 def lowest_around(field: FloatArray, row: int, column: int) -> tuple[int, int]:
     """The lowest cell among one and its eight neighbours: itself where none is lower."""
     best_row, best_column = row, column
@@ -114,7 +114,7 @@ def lowest_around(field: FloatArray, row: int, column: int) -> tuple[int, int]:
     return best_row, best_column
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def descent(field: FloatArray, row: int, column: int, max_cells: int) -> NDArray[np.int64]:
     """The cells of steepest descent from a cell to a minimum, (row, column), shape (k, 2)."""
     cells = [(row, column)]

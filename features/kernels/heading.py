@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 RAY_COUNT = 72
 """Number of rays around the place, one every 5 degrees."""
@@ -26,7 +26,7 @@ MAX_SPREAD = math.radians(5.0)
 """Walls within this angle of the most common direction share in the mean, radians."""
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def prevailing_heading(solid: FloatArray, walls: int, x: float, y: float, heading: float) -> float:
     """The direction, within 45 degrees of `heading`, that most of the wall in view runs along.
 
@@ -59,7 +59,7 @@ def prevailing_heading(solid: FloatArray, walls: int, x: float, y: float, headin
     return heading + mean / total if total > 0.0 else heading
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _first_hits(
     solid: FloatArray, x: float, y: float, heading: float
 ) -> tuple[NDArray[np.int64], FloatArray]:
@@ -96,7 +96,7 @@ def _first_hits(
     return hits, nearest
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _rays_between(a: float, b: float, heading: float) -> tuple[int, int]:
     """The first ray between two directions that are less than half a turn apart, and how many.
 
@@ -112,7 +112,7 @@ def _rays_between(a: float, b: float, heading: float) -> tuple[int, int]:
     return first, math.floor(begin + abs(spread) * (1.0 / RAY_STEP) + ROUGHNESS) - first + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _rough_angle(x: float, y: float) -> float:
     """The direction of a vector to 0.0003 rad, in a tenth of the time of `math.atan2`.
 
@@ -127,13 +127,13 @@ def _rough_angle(x: float, y: float) -> float:
     return -angle if y < 0.0 else angle
 
 
-@njit(cache=True)
+@kernel
 def _fold(angles: float) -> float:
     """The direction of a line (which has no sense of direction) in [-pi/2, pi/2), radians."""
     return angles - math.pi * math.floor(angles / math.pi + 0.5)
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _commonest(angles: FloatArray, length: FloatArray) -> float:
     """The middle of the three neighbouring bins that hold most length, radians; inf without any.
 

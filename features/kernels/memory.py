@@ -6,7 +6,6 @@ import math
 from typing import Any, TypeAlias
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.compiling import kernel
@@ -157,7 +156,7 @@ def how_many_count(walls: Any, doors: Any, counters: Any) -> tuple[int, int]:
     return wall_total, door_total
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def what_counts(walls: Any, doors: Any, counters: Any) -> tuple[FloatArray, Any]:
     """The remembered walls and doors that count.
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 SIDE_RANGE_MIN, SIDE_RANGE_MAX = 0.1, 3.0
 """Distances before and behind the opening between which its sides are looked for, metres."""
@@ -46,7 +46,7 @@ MAX_SIDE_SLOPE = math.tan(math.radians(20.0))
 """Largest slope of a side against the direction through the opening."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def is_narrowing(door: FloatArray, solid: FloatArray) -> bool:
     """Whether an opening across a corridor is no doorway, because the corridor goes on through it.
 
@@ -73,7 +73,7 @@ def is_narrowing(door: FloatArray, solid: FloatArray) -> bool:
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _sides(door: FloatArray, solid: FloatArray) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Record where sides run along the direction through the opening.
 
@@ -113,7 +113,7 @@ def _sides(door: FloatArray, solid: FloatArray) -> tuple[NDArray[np.bool_], NDAr
     return close, far
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _goes_on(far: NDArray[np.bool_]) -> bool:
     """Whether both sides of a corridor are there before and behind the opening."""
     for end in range(2):
@@ -123,13 +123,13 @@ def _goes_on(far: NDArray[np.bool_]) -> bool:
     return True
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _beside(across: float, half: float) -> tuple[int, float]:
     """On which side of the opening something lies, and how far outside the jamb, metres."""
     return (1 if across > 0.0 else 0), abs(across) - half
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _mark(along1: float, along2: float, there: NDArray[np.bool_]) -> None:
     """Mark the pieces that a segment covers, if it lies at positive distances from the opening."""
     first = math.ceil((min(along1, along2) - SIDE_RANGE_MIN) / CELL_LENGTH - 0.5)
@@ -138,7 +138,7 @@ def _mark(along1: float, along2: float, there: NDArray[np.bool_]) -> None:
         there[k] = True
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _runs_through(here: NDArray[np.bool_], beyond: NDArray[np.bool_]) -> bool:
     """Whether one side runs on from this side of the opening to beyond it."""
     for side in range(2):
@@ -147,13 +147,13 @@ def _runs_through(here: NDArray[np.bool_], beyond: NDArray[np.bool_]) -> bool:
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _length(pieces: NDArray[np.bool_]) -> float:
     """Length of the pieces that are there, metres; 1 nm more, against rounding in comparisons."""
     return float(pieces.sum()) * CELL_LENGTH + 1e-9
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _runs(there: NDArray[np.bool_], length: float) -> bool:
     """Whether both sides have a length, together less than `MAX_SETBACK` outside the jambs."""
     aside = 0.0

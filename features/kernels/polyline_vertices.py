@@ -11,13 +11,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def chord_cost(
     directions: FloatArray, ranges: FloatArray, first: int, last: int, limit: float
 ) -> float:
@@ -46,7 +46,7 @@ def chord_cost(
     return total
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def choose_vertices(
     directions: FloatArray,
     ranges: FloatArray,
@@ -89,7 +89,7 @@ def choose_vertices(
     return trace(done, linked, before)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def link(
     cost: float,
     first: int,
@@ -106,7 +106,7 @@ def link(
             before[v, last] = first
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def trace(
     done: FloatArray, linked: FloatArray, before: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.mapping.surface import RANGE, X, Y
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def pair(
     reference: FloatArray,
     scan: FloatArray,

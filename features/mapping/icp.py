@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.mapping.closest import pair
 from semnav_env.features.mapping.steps import (
     CONVERGED,
@@ -44,7 +44,7 @@ _COARSE_STRIDE = 4
 """While the solution is far, only every fourth beam is paired."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def align(
     reference: FloatArray,
     scan: FloatArray,

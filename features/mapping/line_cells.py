@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.mapping.lines import Line
 from semnav_env.features.scan import Scan
 
@@ -108,7 +108,7 @@ class LineCells:
         )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _observe(
     ranges: FloatArray,
     angles: tuple[float, float],

@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 X, Y, FOOT_X, FOOT_Y, NORMAL_X, NORMAL_Y, SPACING, VARIANCE, TILT, RANGE = range(10)
 """Rows of a surface: a point, its foot on the line through its neighbours, that line's unit
@@ -34,7 +34,7 @@ _STACK_SIZE = 64
 """Pieces of one run that can wait to be split; a run with more is not split further."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def range_noise(ranges: FloatArray, limits: tuple[float, float]) -> Any:
     """The standard deviation of the ranges' noise, metres, estimated from the scan itself.
 
@@ -52,7 +52,7 @@ def range_noise(ranges: FloatArray, limits: tuple[float, float]) -> Any:
     return min(max(median / (_NORMAL_MEDIAN * math.sqrt(6.0)), _MIN_NOISE), _MAX_NOISE)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def sense_surface(
     ranges: FloatArray,
     directions: FloatArray,
@@ -95,7 +95,7 @@ def sense_surface(
             first = k
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _parted(ranges: FloatArray, i: int, j: int, increment: float, sigma: float) -> Any:
     """Whether the surface jumps between two beams (Borges and Aldon 2004, eq. (5) of Weerakoon)."""
     angle_between = increment * (j - i)
@@ -106,7 +106,7 @@ def _parted(ranges: FloatArray, i: int, j: int, increment: float, sigma: float) 
     return j - i > 3 or apart > limit * limit
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _fit_pieces(
     out: FloatArray,
     index: np.ndarray,
@@ -133,7 +133,7 @@ def _fit_pieces(
             _fit_piece(out, index, a, b, ranges, directions, sigma, window)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _bend(out: FloatArray, index: np.ndarray, first: int, stop: int, tolerance: float) -> int:
     """Where a run is farthest from its chord, if farther than `tolerance`; else 0."""
     a, b = index[first], index[stop - 1]
@@ -147,7 +147,7 @@ def _bend(out: FloatArray, index: np.ndarray, first: int, stop: int, tolerance: 
     return place
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _fit_piece(
     out: FloatArray,
     index: np.ndarray,
@@ -194,7 +194,7 @@ def _fit_piece(
         out[RANGE, i] = ranges[i]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _spacing(out: FloatArray, index: np.ndarray, k: int, first: int, stop: int) -> float:
     """Distance to the farther of the two neighbours in the piece, metres."""
     i = index[k]

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba import njit
-
 from semnav_env.features.frames import wrap_angle
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.memory import how_many_count
 
 MAX_TRAVEL, MAX_HEADING_CHANGE = 1.5, 0.5
@@ -24,7 +23,7 @@ FIRST_COUNTING_SCAN = 3
 """Number of the scan from which the first features count, see `SceneMemory`."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_look_due(estimate: Any, remembered: Any) -> bool:
     """Whether to ground the clause anew.
 

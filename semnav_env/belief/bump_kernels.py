@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numba.extending import register_jitable
 from numpy.typing import NDArray
 
@@ -21,6 +20,7 @@ from semnav_env.features.frames import (
     to_local,
     to_parent,
 )
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.grounding.crossing import first_crossed
 
 Ends = tuple[float, float, float, float]
@@ -36,7 +36,7 @@ _LINE_OFFSET, _LINE_SLOPE = LIMITS.line_offset, LIMITS.line_slope
 _LOOK_DEPTH, _SEEN_DEPTH, _SEEN_BEAMS = LIMITS.look_depth, LIMITS.seen_depth, LIMITS.seen_beams
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@kernel(counts_references=True)
 def note_contacts(
     bumps: Bumps,
     contacts: FloatArray,
@@ -71,7 +71,7 @@ def note_contacts(
     return fresh > 0
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@kernel
 def forget_passed(bumps: Bumps, before: Pose, after: Pose) -> None:
     """Forget what the robot's centre goes through from one pose to the next, odometry frame."""
     known, used = bumps
@@ -82,7 +82,7 @@ def forget_passed(bumps: Bumps, before: Pose, after: Pose) -> None:
             _drop(bumps, k, 1)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _learn(bumps: Bumps, fresh: FloatArray) -> None:
     """Unite all pieces anew, and forget the oldest if there are too many."""
     known, used = bumps
@@ -95,7 +95,7 @@ def _learn(bumps: Bumps, fresh: FloatArray) -> None:
         _drop(bumps, 0, count - MOST_PIECES)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _drop(bumps: Bumps, first: int, count: int) -> None:
     """Forget some pieces that follow each other."""
     known, used = bumps
@@ -104,7 +104,7 @@ def _drop(bumps: Bumps, first: int, count: int) -> None:
         known[k] = known[k + count]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _is_seen(contact: Contact, ranges: FloatArray, limits: Any, mount: Pose) -> bool:
     """Whether the beams that look at a contact, robot frame, end there; NaN ends nowhere."""
     angle_min, increment = limits.angle_min, limits.angle_increment
@@ -123,7 +123,7 @@ def _is_seen(contact: Contact, ranges: FloatArray, limits: Any, mount: Pose) -> 
     return nearest < math.hypot(x, y) + _SEEN_DEPTH
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _is_covered(piece: Ends, known: FloatArray, count: int) -> bool:
     """Whether a piece adds hardly anything to one that is known."""
     for k in range(count):
@@ -134,7 +134,7 @@ def _is_covered(piece: Ends, known: FloatArray, count: int) -> bool:
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _unite(pieces: FloatArray, count: int, piece: Ends, gap: float) -> int:
     """Add a piece to the first `count`, made one with those that are on its line and near.
 
@@ -153,7 +153,7 @@ def _unite(pieces: FloatArray, count: int, piece: Ends, gap: float) -> int:
     return kept + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _joined(one: Ends, other: Ends, gap: float) -> tuple[bool, Ends]:
     """Whether two pieces are on one line and near, and both as one, along the first."""
     frame, length = along(one)
@@ -181,7 +181,7 @@ def seen_from(frame: Pose, ends: Ends) -> tuple[Point, Point]:
     return (one, other) if one <= other else (other, one)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _piece(contact: Pose) -> Ends:
     """The piece of wall across a contact."""
     x1, y1 = to_parent(contact, (0.0, -_HALF))
@@ -189,11 +189,11 @@ def _piece(contact: Pose) -> Ends:
     return x1, y1, x2, y2
 
 
-@njit(cache=True, inline="always")
+@kernel(inline=True)
 def _row(pieces: FloatArray, k: int) -> Ends:
     return pieces[k, 0], pieces[k, 1], pieces[k, 2], pieces[k, 3]
 
 
-@njit(cache=True, inline="always")
+@kernel(inline=True)
 def _write(pieces: FloatArray, k: int, piece: Ends) -> None:
     pieces[k, 0], pieces[k, 1], pieces[k, 2], pieces[k, 3] = piece

@@ -10,13 +10,14 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit, types
+from numba import types
 from numba.experimental import structref
 
 from semnav_env.belief.attention import is_look_due
 from semnav_env.belief.bump_kernels import forget_passed, note_contacts
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.chain import extract_arrays
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.memory import how_many_count, relocate, remember
 from semnav_env.grounding.clause_progress import note_pose
 
@@ -67,7 +68,7 @@ class Senses(structref.StructRefProxy):
 structref.define_proxy(Senses, SensesType, list(Senses.__annotations__))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def join_senses(
     limits: np.ndarray,
     beams: FloatArray,
@@ -97,7 +98,7 @@ def join_senses(
     )
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@kernel(counts_references=True)
 def understand(senses: Senses) -> int:
     """Take in the scan and the motion that stand in the senses; returns events.
 
@@ -125,7 +126,7 @@ def understand(senses: Senses) -> int:
     return events
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _feel(senses: Senses, pose: Pose) -> bool:
     """Note what the body touches unseen; returns whether something new is known."""
     estimate = senses.estimate[0]
@@ -135,7 +136,7 @@ def _feel(senses: Senses, pose: Pose) -> bool:
     return bool(note_contacts(senses.bumps, felt, senses.ranges, senses.limits, senses.mount, pose))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def note_look(senses: Senses) -> None:
     """Note that the clause has been grounded."""
     estimate = senses.estimate[0]
@@ -145,7 +146,7 @@ def note_look(senses: Senses) -> None:
     estimate.look_walls, estimate.look_doors = how_many_count(*senses.remembered)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def perceive(senses: Senses, odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
     """Extract the features of the last scan and remember them; returns the believed pose.
 
@@ -178,12 +179,12 @@ def perceive(senses: Senses, odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
     return robot
 
 
-@njit(cache=True, inline="always")
+@kernel(inline=True)
 def _pose(field: FloatArray) -> Pose:
     return field[0], field[1], field[2]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def extract_features(senses: Senses) -> None:
     """Extract the features of the last scan."""
     features, limits = senses.features, senses.limits[0]
@@ -204,7 +205,7 @@ def extract_features(senses: Senses) -> None:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _mounted(robot: Pose, mount: Pose) -> Pose:
     """Pose of a lidar on its mount; its heading is not wrapped."""
     c, s = math.cos(robot[2]), math.sin(robot[2])
@@ -212,7 +213,7 @@ def _mounted(robot: Pose, mount: Pose) -> Pose:
     return x, y, robot[2] + mount[2]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _carrying(lidar: Pose, mount: Pose) -> Pose:
     """Pose of the robot whose lidar has this pose; the inverse of `_mounted`."""
     heading = lidar[2] - mount[2]
@@ -221,7 +222,7 @@ def _carrying(lidar: Pose, mount: Pose) -> Pose:
     return lidar[0] - c * mount[0] + s * mount[1], lidar[1] - s * mount[0] - c * mount[1], heading
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _advanced(odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
     """Last believed pose advanced by the odometry increment; its heading is not wrapped."""
     last, pose = before

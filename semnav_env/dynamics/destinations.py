@@ -7,9 +7,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.grid_search import lowest_around
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import GRID_SPACING, Geodesic, WaysTo
@@ -62,7 +62,7 @@ def _places(floor_plan: FloorPlan) -> list[Point]:
     return [(x, south + share * (north - south)) for x in xs for share in ys]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def look_ahead(
     field: FloatArray, west: float, south: float, x: float, y: float
 ) -> tuple[float, float, float]:
@@ -90,7 +90,7 @@ def look_ahead(
     return (dx / length, dy / length, left) if length > 1e-6 else (0.0, 0.0, left)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _nearest_cell(field: FloatArray, row: float, column: float) -> tuple[int, int]:
     """The nearest cell from which there is a way; (-1, -1) if there is none near."""
     best, found = np.inf, (-1, -1)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from semnav_env.dynamics.leaves import PlanLeaf
 from semnav_env.dynamics.nearby import nearest_on_body, nearest_on_segment
 from semnav_env.dynamics.settings import Dynamics
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 
 class SwingingDoors:
@@ -86,7 +86,7 @@ class SwingingDoors:
         self.segments[i] = (*leaf.hinge, *leaf.tip(angle))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _has_way(
     hinge: tuple[float, float],
     tip: tuple[float, float],

@@ -11,12 +11,12 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.dynamics.body_row import BODY_VX, BODY_VY
 from semnav_env.dynamics.nearby import MAX_WALL_PIECES, nearest_on_body, walls_near
 from semnav_env.dynamics.settings import MAX_SPEED_FACTOR
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 PEOPLE_HORIZON = 2.5
 """Time for which no two people will meet, seconds; tau in the paper."""
@@ -30,7 +30,7 @@ BISECTIONS = 16
 it to a 65,000th of the interval."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def orca(
     places: FloatArray,
     velocities: FloatArray,
@@ -75,7 +75,7 @@ def orca(
         _least_violating(planes[:count], hard, wishes[i], limit, out[i])
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _static_half_plane(
     dx: float, dy: float, radius: float, horizon: float, plane: FloatArray
 ) -> None:
@@ -85,7 +85,7 @@ def _static_half_plane(
     plane[2] = -max(distance - radius, 0.0) / horizon
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _reciprocal_half_plane(
     between: FloatArray,
     relative: FloatArray,
@@ -122,7 +122,7 @@ def _reciprocal_half_plane(
     plane[2] = nx * velocity[0] + ny * velocity[1] + 0.5 * gap
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _least_violating(
     planes: FloatArray, hard: int, wish: FloatArray, limit: float, out: FloatArray
 ) -> None:
@@ -140,7 +140,7 @@ def _least_violating(
         out[0] = out[1] = 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def nearest_allowed(
     planes: FloatArray, hard: int, slack: float, wish: FloatArray, limit: float, out: FloatArray
 ) -> bool:

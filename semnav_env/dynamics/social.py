@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.dynamics.body_row import (
@@ -21,6 +20,7 @@ from semnav_env.dynamics.body_row import (
 )
 from semnav_env.dynamics.nearby import nearest_on_body
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 PERSONAL_SPACE = 0.45
 """Gap between two bodies below which one intrudes on the other, metres: the intimate distance of E.
@@ -88,7 +88,7 @@ def for_json(outcome: dict[str, Any]) -> dict[str, Any]:
     return {name: value if math.isfinite(value) else None for name, value in outcome.items()}
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def gaps(body: FloatArray, discs: FloatArray) -> FloatArray:
     """Distance between the robot's footprint and each person's body, metres, shape (n,).
 
@@ -106,7 +106,7 @@ def gaps(body: FloatArray, discs: FloatArray) -> FloatArray:
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArray) -> FloatArray:
     """Time until each person's body meets the footprint if both keep their velocity, seconds.
 
@@ -137,7 +137,7 @@ def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArr
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _into_box(x: float, y: float, u: float, v: float, half_x: float, half_y: float) -> float:
     """Time at which a point moving with (u, v) enters |x| <= half_x, |y| <= half_y, seconds."""
     first, last = 0.0, np.inf
@@ -151,7 +151,7 @@ def _into_box(x: float, y: float, u: float, v: float, half_x: float, half_y: flo
     return first if first <= last else np.inf
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _into_disc(x: float, y: float, u: float, v: float, radius: float) -> float:
     """Time at which a point moving with (u, v) enters a disc around the origin, seconds."""
     outside = x * x + y * y - radius * radius

@@ -11,12 +11,12 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.dynamics.body_row import BODY_VX, BODY_VY
 from semnav_env.dynamics.nearby import MAX_WALL_PIECES, nearest_on_body, walls_near
 from semnav_env.dynamics.settings import MAX_SPEED_FACTOR
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 RELAXATION_TIME = 0.5
 """Time tau in which a person takes up the desired velocity, seconds, equation (2)."""
@@ -44,7 +44,7 @@ UNSEEN_WEIGHT = 0.5
 """Weight c of what lies outside the angle of sight, equation (7)."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def social_force(
     places: FloatArray,
     velocities: FloatArray,
@@ -102,7 +102,7 @@ def social_force(
         out[i, 0], out[i, 1] = share * vx, share * vy
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _repulsion(rx: float, ry: float, vx: float, vy: float, wish: FloatArray) -> tuple[float, float]:
     """Force of somebody at -r, moving with v, on somebody with that wish: (3), (4), (7), (8).
 
@@ -126,7 +126,7 @@ def _repulsion(rx: float, ry: float, vx: float, vy: float, wish: FloatArray) -> 
     return weight * fx, weight * fy
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _wall_repulsion(x: float, y: float, points: FloatArray, count: int) -> tuple[float, float]:
     """Force of the nearest wall and of the nearest one on the other side, (5)."""
     fx = fy = first_x = first_y = 0.0

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
 from semnav_env.dynamics.nearby import nearest_on_body, nearest_wall
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 MAX_DEFLECTIONS = 4
 """Number of times that a step is bent along what is in its way before it is given up."""
@@ -17,7 +16,7 @@ OVERLAP_TOLERANCE = 1e-6
 """Depth by which bodies may overlap, metres: rounding errors."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def walk(
     places: FloatArray,
     velocities: FloatArray,
@@ -70,7 +69,7 @@ def walk(
         velocities[i, 0], velocities[i, 1] = step_x / seconds, step_y / seconds
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _off_the_robot(
     dx: float, dy: float, vx: float, vy: float, straight: bool
 ) -> tuple[float, float]:
@@ -82,7 +81,7 @@ def _off_the_robot(
     return vx - min(away, 0.0) * dx, vy - min(away, 0.0) * dy
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _nears_robot(
     x: float, y: float, step_x: float, step_y: float, before: float, body: FloatArray
 ) -> bool:
@@ -91,7 +90,7 @@ def _nears_robot(
     return math.hypot(x + step_x - near_x, y + step_y - near_y) < before - 1e-9
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _worst(
     x: float,
     y: float,

@@ -10,9 +10,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import Pose, to_local
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.grounding.goal import Goal, GoalKind, PassGoal, ReachGoal, door_of, wait_of
 from semnav_env.grounding.goal_check import is_crossed, is_reached, looks_along
 from semnav_env.grounding.ways import WAY_SPACING
@@ -86,7 +86,7 @@ def goal_entry(goal: Goal) -> tuple[Any, ...]:
     return goal.pose, ends, tolerances, width, wait_of(goal), *flags
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@kernel
 def note_pose(progress: np.ndarray, pose: Pose, speed: float, seconds: float) -> int:
     """Note where the robot is now; returns events.
 
@@ -114,7 +114,7 @@ def note_pose(progress: np.ndarray, pose: Pose, speed: float, seconds: float) ->
     return events
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _is_completed(entry: Any, pose: Pose) -> bool:
     """Whether coming to a pose completes the clause."""
     goal = entry.goal

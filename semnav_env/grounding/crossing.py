@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 
-@njit(cache=True)
+@kernel
 def first_crossed(doors: FloatArray, x1: float, y1: float, x2: float, y2: float) -> int:
     """The index of the first of `doors`, shape (n, 4), that the step from 1 to 2 crosses, or -1.
 
@@ -22,7 +21,7 @@ def first_crossed(doors: FloatArray, x1: float, y1: float, x2: float, y2: float)
     return -1
 
 
-@njit(cache=True)
+@kernel
 def crossing_share(
     ax: float, ay: float, bx: float, by: float, x1: float, y1: float, x2: float, y2: float
 ) -> float:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
 from numba.extending import register_jitable
 
 from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.grounding.crossing import crossing_share
 
 DoorEnds = tuple[float, float, float, float]
@@ -20,7 +20,7 @@ def looks_along(pose: Pose, heading: float, most: float) -> bool:
     return math.cos(pose[2] - heading) > math.cos(most)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_reached(
     goal: Pose, tolerances: tuple[float, float, float], pose: Pose, share: float
 ) -> bool:
@@ -41,7 +41,7 @@ def is_reached(
     return distance <= share * near and (turned >= math.pi or error <= share * turned)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def is_crossed(
     before: Point, after: Point, door: DoorEnds, width: float, heading: float, margin: float
 ) -> bool:

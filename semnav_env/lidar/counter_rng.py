@@ -11,9 +11,9 @@ from math import sqrt
 from statistics import NormalDist
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 _GAMMA = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1, _MIX_2 = np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
@@ -39,7 +39,7 @@ def _normal_quantiles() -> FloatArray:
 QUANTILES = _normal_quantiles()
 
 
-@njit(cache=True, inline="always")
+@kernel(inline=True)
 def _mix(state: np.uint64) -> np.uint64:
     """The output function of splitmix64 (Steele, Lea, Flood, OOPSLA 2014, figure 16)."""
     z = state
@@ -48,7 +48,7 @@ def _mix(state: np.uint64) -> np.uint64:
     return z ^ (z >> _S31)
 
 
-@njit(cache=True)
+@kernel
 def stream(seed: int, episode: int, step: int) -> np.uint64:
     """The uint64 that names the stream of a key of three integers."""
     state = _mix(np.uint64(seed) + _GAMMA)
@@ -56,13 +56,13 @@ def stream(seed: int, episode: int, step: int) -> np.uint64:
     return _mix(state + (np.uint64(step) + _ONE) * _GAMMA)
 
 
-@njit(cache=True, inline="always")
+@kernel(inline=True)
 def bits(stream: np.uint64, index: int) -> np.uint64:
     """64 random bits: number `index` of the splitmix64 sequence that starts at `stream`."""
     return _mix(stream + (np.uint64(index) + _ONE) * _GAMMA)
 
 
-@njit(cache=True, inline="always")
+@kernel(inline=True)
 def normal(word: np.uint64) -> np.float64:
     """A draw from N(0, 1) out of the upper 32 of 64 random bits.
 
@@ -75,7 +75,7 @@ def normal(word: np.uint64) -> np.float64:
     return np.float64(left + fraction * (right - left))
 
 
-@njit(cache=True, inline="always")
+@kernel(inline=True)
 def uniform(word: np.uint64) -> np.float64:
     """A draw from [0, 1) out of the lower 32 of 64 random bits: independent of `normal`."""
     return np.float64(word & _LOW_32) * 2.0**-32

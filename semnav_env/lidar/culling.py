@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 GRID = np.dtype([("x", "f8"), ("y", "f8"), ("cell", "f8"), ("columns", "i8"), ("rows", "i8")])
 """The lower left corner, the side of a cell in metres, and how many cells: shape (1,)."""
@@ -69,7 +69,7 @@ def _grid(segments: FloatArray) -> np.ndarray:
     return np.array([(*low, cell, columns, rows)], GRID)
 
 
-@njit(cache=True)
+@kernel
 def cell_of(grid: np.ndarray, x: float, y: float) -> Any:
     """Which list (int) a lidar at (x, y) needs: its cell's, or the last one outside the grid."""
     g = grid[0]
@@ -79,18 +79,18 @@ def cell_of(grid: np.ndarray, x: float, y: float) -> Any:
     return g.columns * g.rows
 
 
-@njit(cache=True)
+@kernel
 def _centre(g: Any, cell: int) -> tuple[float, float]:
     return g.x + (cell % g.columns + 0.5) * g.cell, g.y + (cell // g.columns + 0.5) * g.cell
 
 
-@njit(cache=True)
+@kernel
 def _reach(g: Any, range_max: float) -> Any:
     """How far from a cell's centre a segment may be, with a margin for rounding."""
     return range_max + g.cell * math.sqrt(0.5) + 1e-9
 
 
-@njit(cache=True)
+@kernel
 def _reaches(segment: FloatArray, x: float, y: float, reach: float) -> Any:
     """Whether the segment comes within `reach` of a point."""
     dx, dy = segment[2] - segment[0], segment[3] - segment[1]
@@ -102,7 +102,7 @@ def _reaches(segment: FloatArray, x: float, y: float, reach: float) -> Any:
     return off_x * off_x + off_y * off_y <= reach * reach
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _list_starts(segments: FloatArray, grid: np.ndarray, range_max: float) -> NDArray[np.int64]:
     g = grid[0]
     reach = _reach(g, range_max)
@@ -116,7 +116,7 @@ def _list_starts(segments: FloatArray, grid: np.ndarray, range_max: float) -> ND
     return starts
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _listed_ends(
     segments: FloatArray, grid: np.ndarray, range_max: float, starts: NDArray[np.int64]
 ) -> FloatArray:

@@ -6,10 +6,10 @@ from typing import TypeAlias
 from weakref import WeakValueDictionary
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose, compose
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.lidar_spec import CosinesSines, LidarSpec, lidar_spec
 from semnav_env.features.scan import Scan
 from semnav_env.lidar.culling import Culling
@@ -22,7 +22,7 @@ Key: TypeAlias = tuple[int, int, int]
 """(seed, episode, step), each at least 0 and below 2**63; the step counts sweeps."""
 
 
-@njit(cache=True)
+@kernel
 def measure(
     x: float,
     y: float,

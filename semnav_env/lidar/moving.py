@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.lidar_spec import CosinesSines
 
 NO_MOVING_THINGS = (np.zeros((0, 3)), np.zeros((0, 4)))
 """Discs and segments where nothing moves."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def cast_moving(
     x: float,
     y: float,
@@ -50,7 +50,7 @@ def cast_moving(
         _shorten_by_segment(a, b, beams, range_max, out)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _shorten_by_disc(
     x: float, y: float, radius: float, beams: CosinesSines, range_max: float, out: FloatArray
 ) -> None:
@@ -65,7 +65,7 @@ def _shorten_by_disc(
                 out[i] = distance
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _shorten_by_segment(
     a: tuple[float, float],
     b: tuple[float, float],

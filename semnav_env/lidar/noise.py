@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.lidar.counter_rng import bits, normal, stream, uniform
 
 _WHOLE_EPISODE = -1
 """Takes the place of the step in the key of what stays the same throughout an episode."""
 
 
-@njit(cache=True)
+@kernel
 def corrupt(ranges: FloatArray, sensor: np.ndarray, seed: int, episode: int, step: int) -> None:
     """Make measured ranges out of exact ones, in place.
 

@@ -12,10 +12,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.lidar_spec import CosinesSines
 from semnav_env.lidar.culling import cell_of
 
@@ -33,7 +33,7 @@ _AX, _AY, _BX, _BY, _NX, _NY, _FIRST, _SPAN = range(8)
 """Rows of the table of prepared segments: a, b, n / (a x b), a's beam and the span in beams."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def cast(
     x: float,
     y: float,
@@ -74,7 +74,7 @@ def cast(
         out[i] = 1.0 / inverse if inverse > farthest else np.inf
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@kernel(inline=True)
 def _coarse_atan2(y: float, x: float) -> float:
     """Arc tangent of y / x in (-pi, pi], good to 1e-4 rad (a polynomial without branches)."""
     run, rise = abs(x), abs(y)
@@ -87,7 +87,7 @@ def _coarse_atan2(y: float, x: float) -> float:
     return -angle if y < 0.0 else angle
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _prepare(
     x: float,
     y: float,
@@ -131,7 +131,7 @@ def _prepare(
         spans[k] = _NO_SPAN if unseen else span * beams_per_radian
 
 
-@njit(cache=True)
+@kernel
 def _draw(
     table: FloatArray,
     k: int,

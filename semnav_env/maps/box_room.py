@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.maps.floor_plan import FloorPlan
 
 HAS_ROOM, HAS_NO_ROOM, IS_DOUBTFUL = 0, 1, 2
@@ -57,7 +57,7 @@ def _edges(ring: shapely.LinearRing) -> FloatArray:
     return np.hstack((points[:-1], points[1:]))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def box_room(
     edges: FloatArray,
     outline: FloatArray,
@@ -95,7 +95,7 @@ def box_room(
     return HAS_ROOM
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _meets(
     edges: FloatArray, x: float, y: float, heading: float, half_length: float, half_width: float
 ) -> int:
@@ -117,7 +117,7 @@ def _meets(
     return answer
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _meets_box(
     x1: float, y1: float, x2: float, y2: float, half_length: float, half_width: float
 ) -> bool:
@@ -130,7 +130,7 @@ def _meets_box(
     return abs(dx * y1 - dy * x1) <= half_length * abs(dy) + half_width * abs(dx)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _is_inside(edges: FloatArray, x: float, y: float) -> bool:
     """Whether a ray from a point to the east crosses the edges an odd number of times."""
     inside = False

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 import shapely
-from numba import njit
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 from shapely import Polygon
 
 from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.grid_search import descent, least_costs
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.nearness import clear_near
@@ -163,7 +163,7 @@ class WaysTo:
         return np.vstack((start, inner[1:-1], self.goal))
 
 
-@njit(cache=True)
+@kernel
 def distance_at(
     field: FloatArray, west: float, south: float, spacing: float, x: float, y: float
 ) -> float:
@@ -177,7 +177,7 @@ def distance_at(
     return best
 
 
-@njit(cache=True)
+@kernel
 def _nearest_free(
     free: NDArray[np.bool_], west: float, south: float, spacing: float, x: float, y: float
 ) -> tuple[int, int]:
@@ -201,7 +201,7 @@ def _nearest_free(
         half *= 2
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def _nearest_reached(field: FloatArray, row: int, column: int) -> tuple[int, int]:
     """The nearest cell with a finite distance."""
     best, found = np.inf, (0, 0)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def clear_near(
     free: NDArray[np.bool_],
     segments: FloatArray,

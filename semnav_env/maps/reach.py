@@ -13,11 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from numba import njit
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.maps.floor_plan import FloorPlan
 
 REACH_SPACING = 0.05
@@ -138,7 +138,7 @@ def _footprints(
     return np.array(starts), table[:, 0].copy(), table[:, 1].copy(), table[:, 2].copy()
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _drawn(
     segments: FloatArray, west: float, south: float, spacing: float, rows: int, columns: int
 ) -> NDArray[np.bool_]:
@@ -158,7 +158,7 @@ def _drawn(
     return blocked
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _flood(
     blocked: NDArray[np.bool_],
     starts: NDArray[np.int64],
@@ -219,7 +219,7 @@ def _flood(
     return reached
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _free_ahead(blocked: NDArray[np.bool_]) -> NDArray[np.int16]:
     """How many successive cells are free from each cell to the right, itself included."""
     rows, columns = blocked.shape
@@ -232,7 +232,7 @@ def _free_ahead(blocked: NDArray[np.bool_]) -> NDArray[np.int16]:
     return ahead
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _wide(blocked: NDArray[np.bool_], far: int) -> NDArray[np.bool_]:
     """Whether nothing solid is in the square of `far` cells to all sides of each cell.
 

@@ -6,10 +6,10 @@ A path or a route is an array of points, shape (n, 2), metres, with at least one
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from scipy.spatial.distance import cdist
 
 from semnav_env.features.frames import FloatArray, path_length
+from semnav_env.features.kernels.compiling import kernel
 
 PUBLISHED_GOAL_RADIUS = 3.0
 """Distance at which the published measures call a place reached, metres (Anderson et al. 2018b in
@@ -99,7 +99,7 @@ def cls(path: FloatArray, route: FloatArray, threshold: float = PUBLISHED_GOAL_R
     return coverage * score
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _warp(distances: FloatArray) -> float:
     """The cost of the cheapest monotone way through a matrix from its first cell to its last."""
     rows, columns = distances.shape

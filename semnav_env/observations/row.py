@@ -9,12 +9,12 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.belief.understand import Senses
 from semnav_env.commands import MAX_CLAUSES
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.door_memory import door_counts
 from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
 from semnav_env.features.kernels.scratch import Features
@@ -43,7 +43,7 @@ _KIND, _PLACE = STARTS["goal"], column(GOAL, "x")
 _JAMBS, _HAS_DOOR = column(GOAL, "door_start_x"), column(GOAL, "has_door")
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@kernel(counts_references=True)
 def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     """Write all entries; and the scan, if there is room for it.
 
@@ -54,7 +54,7 @@ def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     write_belief(row, senses, senses.estimate)
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@kernel(counts_references=True)
 def write_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray) -> None:
     """As `write_row`, with another belief than the last one.
 
@@ -82,7 +82,7 @@ def write_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray)
     _write_goal(row, believed.target, pose, c, s)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _write_goal(row: NDArray[np.float32], goal: Any, pose: Pose, c: float, s: float) -> None:
     """Write what to head for, given in the odometry frame, in the robot frame."""
     place, door = goal.pose, goal.door
@@ -95,7 +95,7 @@ def _write_goal(row: NDArray[np.float32], goal: Any, pose: Pose, c: float, s: fl
         row[_HAS_DOOR] = 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _write_bumps(row: NDArray[np.float32], bumps: Any, pose: Pose) -> None:
     """Write walls that were bumped into, given in the odometry frame, in the robot frame."""
     row[_BUMPS:_CLAUSE] = 0.0
@@ -108,7 +108,7 @@ def _write_bumps(row: NDArray[np.float32], bumps: Any, pose: Pose) -> None:
         row[_BUMPS_MASK + i] = 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _write_features(row: NDArray[np.float32], features: Features, mount: Pose) -> None:
     """Write the features of a scan, given in the lidar frame, in the robot frame."""
     c, s = math.cos(mount[2]), math.sin(mount[2])
@@ -133,7 +133,7 @@ def _write_features(row: NDArray[np.float32], features: Features, mount: Pose) -
         row[_CORRIDORS_MASK + i] = 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _write_remembered(row: NDArray[np.float32], doors: np.ndarray, used: int, pose: Pose) -> None:
     """Write the remembered doors that count, given in the odometry frame, in the robot frame."""
     row[_REMEMBERED:_BUMPS] = 0.0
@@ -147,7 +147,7 @@ def _write_remembered(row: NDArray[np.float32], doors: np.ndarray, used: int, po
             k += 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _write_scan(
     row: NDArray[np.float32], ranges: FloatArray, range_min: float, range_max: float
 ) -> None:
@@ -157,7 +157,7 @@ def _write_scan(
         row[i] = measured if (measured >= range_min) & (measured < range_max) else range_max
 
 
-@njit(cache=True, inline="always")
+@kernel(inline=True)
 def _write_ends(
     row: NDArray[np.float32], at: int, item: Any, x: float, y: float, c: float, s: float
 ) -> None:
@@ -167,7 +167,7 @@ def _write_ends(
     row[at + 3] = y + s * item.end_x + c * item.end_y
 
 
-@njit(cache=True, inline="always")
+@kernel(inline=True)
 def _local(x: float, y: float, pose: Pose, c: float, s: float) -> tuple[float, float]:
     dx, dy = x - pose[0], y - pose[1]
     return c * dx + s * dy, c * dy - s * dx

@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import Pose
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.lidar.counter_rng import bits, normal, stream
 from semnav_env.world.drive_record import POSE
 
@@ -122,19 +122,19 @@ class Odometry:
         return self.pose
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _turned(angle: float) -> float:
     """The same angle in [-pi, pi]."""
     return float(angle - _TURN * np.rint(angle / _TURN))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _walk(moved: float, draws: np.uint64, index: int) -> float:
     """The error of a random walk over a motion, at one unit of noise."""
     return math.sqrt(abs(moved)) * float(normal(bits(draws, index)))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def advance(record: np.ndarray, x: float, y: float, heading: float) -> None:
     """Move the odometry pose on by a true displacement.
 

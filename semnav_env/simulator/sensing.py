@@ -11,10 +11,11 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit, types
+from numba import types
 from numba.experimental import structref
 
 from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.lidar.lidar import measure
 from semnav_env.simulator.odometry import advance
 from semnav_env.world.drive import drive
@@ -84,7 +85,7 @@ class SimulatorArrays(structref.StructRefProxy):
 structref.define_proxy(SimulatorArrays, SimulatorArraysType, list(SimulatorArrays.__annotations__))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def join_simulator(
     drive: np.ndarray,
     odometry: np.ndarray,
@@ -97,7 +98,7 @@ def join_simulator(
     return SimulatorArrays(drive, odometry, sensing, lidar, mount, ranges)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel(counts_references=True)
 def sense(arrays: SimulatorArrays) -> int:
     """Drive a robot for one control period and sense; returns events, 0 or `TOUCHED`."""
     drive(arrays.drive)
@@ -107,7 +108,7 @@ def sense(arrays: SimulatorArrays) -> int:
     return look(arrays)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel(counts_references=True)
 def look(arrays: SimulatorArrays) -> int:
     """Sense where the robot is now; returns events, 0 or `TOUCHED`."""
     driven, sensing = arrays.drive[0], arrays.sensing[0]
@@ -118,7 +119,7 @@ def look(arrays: SimulatorArrays) -> int:
     return TOUCHED if driven.touches > 0 else 0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _scan(arrays: SimulatorArrays, x: float, y: float, heading: float) -> None:
     """Measure the ranges from a robot's true pose, world frame."""
     grid, starts, ends, beams, sensor, discs, leaves = arrays.lidar

@@ -6,7 +6,6 @@ import math
 from itertools import count
 
 import numpy as np
-from numba import njit
 
 from semnav_env.commands import (
     LAST,
@@ -24,6 +23,7 @@ from semnav_env.commands import (
 )
 from semnav_env.features.corridor import CorridorAxis, axis_at, corridor_at
 from semnav_env.features.frames import FloatArray, Pose, wrap_angle
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.rules import DoorRules
 from semnav_env.grounding import Goal, GroundingError, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
@@ -100,7 +100,7 @@ def beside_door(floor_plan: FloorPlan, pose: Pose, rules: DoorRules) -> bool:
     return bool(_any_beside(floor_plan.scene_by(rules).door_ends, *pose))
 
 
-@njit(cache=True)
+@kernel
 def _any_beside(doors: FloatArray, x: float, y: float, heading: float) -> bool:
     c, s = math.cos(heading), math.sin(heading)
     for x1, y1, x2, y2 in doors:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba import njit, types
+from numba import types
 from numba.experimental import structref
 from numba.typed.typedlist import List
 
 from semnav_env.belief.understand import Senses
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.simulator.sensing import SimulatorArrays
 from semnav_env.verifier.judge_record import JudgeRecord
 
@@ -35,13 +36,13 @@ class RobotArrays(structref.StructRefProxy):
 structref.define_proxy(RobotArrays, RobotArraysType, list(RobotArrays.__annotations__))
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def join_robot(simulator: SimulatorArrays, senses: Senses, judge: JudgeRecord) -> RobotArrays:
     """The structures as one; they are shared, not copied."""
     return RobotArrays(simulator, senses, judge)
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def list_of(robot: RobotArrays, count: int) -> Any:
     """A list that holds the same robot as often as said, to be replaced."""
     robots: Any = List()
@@ -50,7 +51,7 @@ def list_of(robot: RobotArrays, count: int) -> Any:
     return robots
 
 
-@njit(cache=True)
+@kernel(counts_references=True)
 def put(robots: Any, index: int, robot: RobotArrays) -> None:
     """Put another robot into a list."""
     robots[index] = robot

@@ -9,11 +9,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from semnav_env.belief.understand import understand
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.observations.row import write_row
 from semnav_env.simulator.sensing import TOUCHED, sense
 from semnav_env.vector.robot_arrays import RobotArrays
@@ -31,7 +31,7 @@ way to the goal got shorter; whether the body touches anything.
 """
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel(counts_references=True)
 def tick(
     robots: Any,
     first: int,
@@ -57,14 +57,14 @@ def tick(
             _tick_robot(robots[k], twists[k], seconds, periods[k])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel(counts_references=True)
 def write_rows(robots: Any, first: int, last: int, rows: NDArray[np.float32]) -> None:
     """Write the observations of some of the robots, see `write_row`; rows has one for each."""
     for k in range(first, last):
         write_row(rows[k], robots[k].senses)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel(counts_references=True)
 def _tick_robot(robot: RobotArrays, twist: FloatArray, seconds: float, period: Any) -> None:
     command = robot.simulator.drive[0].command
     command.forward, command.left, command.turn = twist[0], twist[1], twist[2]
@@ -79,7 +79,7 @@ def _tick_robot(robot: RobotArrays, twist: FloatArray, seconds: float, period: A
     period.progress = judged.progress
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel(counts_references=True)
 def _hand_over(robot: RobotArrays, in_contact: int, seconds: float) -> None:
     """Give what was sensed to the robot's mind, and the true motion to its judge."""
     sensing, estimate, state = (

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+from semnav_env.features.kernels.compiling import kernel
 
 _SPLITTER = 2.0**27 + 1.0
 """Splits a double into halves whose products are exact (Dekker 1971)."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def exact_hypot(x: float, y: float) -> float:
     """`math.hypot` of CPython to the last bit; the C library's differs in one of 150 cases.
 
@@ -27,7 +27,7 @@ def exact_hypot(x: float, y: float) -> float:
     return h + residual / (2.0 * h)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _square_error(x: float, square: float) -> float:
     """What is missing from the rounded square of a number."""
     t = x * _SPLITTER

@@ -10,10 +10,11 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit, types
+from numba import types
 from numba.experimental import structref
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.maps.geodesic import GRID_SPACING, distance_at
@@ -58,7 +59,7 @@ class JudgeRecord(structref.StructRefProxy):
 structref.define_proxy(JudgeRecord, JudgeRecordType, list(JudgeRecord.__annotations__))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def join_record(
     state: np.ndarray,
     doors: FloatArray,
@@ -70,20 +71,20 @@ def join_record(
     return JudgeRecord(state, doors, arms, distances, progress)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def set_arms(record: JudgeRecord, arms: FloatArray) -> None:
     """Put other arms into a record, for another goal."""
     record.arms = arms
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def set_distances(record: JudgeRecord, distances: FloatArray) -> None:
     """Put another field of distances into a record, and read it where the robot is."""
     record.distances = distances
     record.state[0].remaining = _remaining(record, record.state[0])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel(counts_references=True)
 def judge_motion(record: JudgeRecord) -> int:
     """Take the motion of one control period into account; returns the events as bits."""
     state = record.state[0]
@@ -111,7 +112,7 @@ def judge_motion(record: JudgeRecord) -> int:
     return events
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(counts_references=True)
 def _remaining(record: JudgeRecord, state: Any) -> float:
     """Length of the way to the goal, metres."""
     if record.distances.size == 0:
@@ -119,7 +120,7 @@ def _remaining(record: JudgeRecord, state: Any) -> float:
     return distance_at(record.distances, state.west, state.south, GRID_SPACING, state.x, state.y)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _is_astray(arms: FloatArray, state: Any) -> bool:
     """Whether the robot is inside an arm that leads astray, or has missed its junction."""
     c, s = state.corridor_cos, state.corridor_sin

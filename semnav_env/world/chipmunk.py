@@ -8,8 +8,9 @@ from functools import cache
 
 import numpy as np
 import pymunk
-from numba import njit, types
+from numba import types
 
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.robots import SPOT
 from semnav_env.world.bodies import driving_joints, robot_body, solid_space
 from semnav_env.world.chipmunk_functions import (
@@ -33,7 +34,7 @@ _turn = simple_function("cpBodyGetAngularVelocity", NUMBER, ADDRESS)
 _position, _velocity = vector_of("cpBodyGetPosition"), vector_of("cpBodyGetVelocity")
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def run_substeps(record: np.ndarray) -> None:
     """Move the control body as demanded for a control period, and read the robot's motion.
 

@@ -6,13 +6,13 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from semnav_env.features.frames import relative, wrap_angle
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.world.chipmunk import run_substeps
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def drive(record: np.ndarray) -> None:
     """Drive a robot for one control period.
 
@@ -25,7 +25,7 @@ def drive(record: np.ndarray) -> None:
     settle(record)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def demand_velocity(record: np.ndarray) -> None:
     """Demand one velocity of the control body for a control period.
 
@@ -43,7 +43,7 @@ def demand_velocity(record: np.ndarray) -> None:
     r.demand.turn = turn
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _approach(r: Any) -> tuple[float, float, float]:
     """The velocity nearest to the commanded one that the limits allow in one period."""
     forward, turn = r.axle_velocity.forward, r.axle_velocity.turn
@@ -55,12 +55,12 @@ def _approach(r: Any) -> tuple[float, float, float]:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _cut(value: float, limit: float) -> float:
     return limit if value > limit else -limit if value < -limit else value
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def settle(record: np.ndarray) -> None:
     """Find pose and velocity of the footprint's centre, and what it touches in the robot frame.
 
@@ -79,7 +79,7 @@ def settle(record: np.ndarray) -> None:
     _take_contacts_into_robot_frame(r)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _take_contacts_into_robot_frame(r: Any) -> None:
     pose = r.pose.x, r.pose.y, r.pose.heading
     for k in range(r.contact_count):

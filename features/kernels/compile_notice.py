@@ -1,0 +1,46 @@
+"""Tells a user who waits that kernels are being compiled."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+PATIENCE = 1.0
+"""Seconds of compiling that pass without a word."""
+
+
+class CompileNotice:
+    """Says once in a process, on stderr, that kernels are compiled; not before it takes long."""
+
+    def __init__(self) -> None:
+        self._said = False
+        self._spent = 0.0
+        self._since: float | None = None
+
+    @contextmanager
+    def while_compiling(self) -> Iterator[None]:
+        """Count the time that passes inside."""
+        self._since = time.perf_counter()
+        try:
+            yield
+        finally:
+            self._spent += time.perf_counter() - self._since
+            self._since = None
+
+    def work_goes_on(self) -> None:
+        """Say so, if the user has waited for long enough."""
+        if self._said or self._since is None:
+            return
+        if self._spent + time.perf_counter() - self._since > PATIENCE:
+            self._said = True
+            print(
+                "semnav-env: compiling kernels for this version, once: about half a minute",
+                file=sys.stderr,
+                flush=True,
+            )
+
+
+NOTICE = CompileNotice()
+"""Of this process."""

@@ -1,0 +1,91 @@
+"""Compiled kernels as files: one for each kernel and each types of its arguments."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import uuid
+from collections.abc import Callable
+from contextlib import suppress
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from numba.core.caching import _Cache
+from numba.core.compiler import CompileResult
+from numba.core.serialize import dumps
+
+from semnav_env.features.kernels.cache_folder import cache_folder
+
+
+class KernelCache(_Cache):
+    """Keeps one kernel between runs.
+
+    Numba's own cache looks at the file of the kernel alone, not at what it calls, and counts its
+    files in an index that two processes can spoil. Here the folder's name tells the version of all
+    sources, and a file's name what is in it. No fault of a file is ever an error: what cannot be
+    read is compiled anew, and what cannot be written is not kept.
+    """
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        code = function.__code__
+        name = f"{function.__module__}.{function.__qualname__}-{code.co_firstlineno}"
+        self._name = name.replace("<", "").replace(">", "")
+        cells = tuple(cell.cell_contents for cell in function.__closure__ or ())
+        self._code = (code.co_code, dumps(cells) if cells else b"")
+        self._enabled = True
+
+    @property
+    def cache_path(self) -> Any:
+        """Folder of the files."""
+        return str(cache_folder())
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The kernel compiled for a signature, or None."""
+        if not self._enabled:
+            return None
+        target_context.refresh()
+        path, key = self._entry(sig, target_context.codegen())
+        try:
+            kept, payload = pickle.loads(path.read_bytes())
+            return CompileResult._rebuild(target_context, *payload) if kept == key else None
+        except FileNotFoundError:
+            return None
+        except Exception:  # a damaged file may raise anything
+            with suppress(OSError):
+                path.unlink()
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep what was compiled for a signature, if it can be kept."""
+        if not self._enabled or data.lifted or data.library.has_dynamic_globals:
+            return
+        path, key = self._entry(sig, data.codegen)
+        part = path.with_suffix(f".{uuid.uuid4().hex[:16]}")
+        try:
+            content = dumps((key, data._reduce()))
+            path.parent.mkdir(parents=True, exist_ok=True)
+            part.write_bytes(content)
+            os.replace(part, path)
+        except Exception:  # a full disk, or what no pickle can hold
+            with suppress(OSError):
+                part.unlink()
+
+    def enable(self) -> None:
+        """Use the files."""
+        self._enabled = True
+
+    def disable(self) -> None:
+        """Do not use the files."""
+        self._enabled = False
+
+    def flush(self) -> None:
+        """Remove the kernel's files."""
+        for path in cache_folder().glob(f"{self._name}.*"):
+            with suppress(OSError):
+                path.unlink()
+
+    def _entry(self, sig: Any, codegen: Any) -> tuple[Path, str]:
+        """The file for a signature on this processor, and all that it depends on."""
+        key = repr((self._name, sig, codegen.magic_tuple(), self._code))
+        return cache_folder() / f"{self._name}.{sha256(key.encode()).hexdigest()[:20]}.bin", key

@@ -1,0 +1,168 @@
+"""Kernels: compiled once, and kept by what they are made of."""
+
+import copy
+import os
+import pickle
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from semnav_env.features.kernels import cache_folder as folders
+from semnav_env.features.kernels.compile_notice import PATIENCE, CompileNotice
+from semnav_env.features.kernels.compiling import kernel
+from tests.support.paths import ROOT
+from tests.support.small_kernels import counting, increased_twice, sum_of_twice, twice
+
+
+def test_a_kernel_gives_the_same_to_python_and_to_kernels():
+    values = np.arange(4.0)
+    assert sum_of_twice(values) == sum_of_twice.py_func(values)
+    assert [twice(3), twice(2.5), increased_twice(1)] == [6, 5.0, 3]
+
+
+def test_a_literal_argument_needs_no_kernel_of_its_own():
+    sum_of_twice(np.arange(4.0))
+    assert len(twice.body.overloads) <= 2  # of floats and of integers
+
+
+def test_only_what_python_calls_becomes_callable_from_python():
+    @kernel
+    def inner(x):
+        return x * 3
+
+    @kernel
+    def outer(x):
+        return inner(x) + 1
+
+    outer._cache.disable()
+    assert outer(2) == 7
+    assert (len(inner.body.overloads), len(inner.overloads)) == (1, 0)
+    assert inner(2) == 6
+
+
+def test_arrays_and_errors_of_a_kernel_reach_python():
+    kept = [counting(3) for _ in range(100)]
+    assert all(array.tolist() == [0, 1, 2] for array in kept)
+    with pytest.raises(ValueError, match="negative"):
+        counting(-1)
+
+
+def test_a_kernel_is_pickled_and_copied_by_its_name():
+    assert pickle.loads(pickle.dumps(twice)) is twice
+    assert copy.deepcopy([twice]) == [twice]
+
+
+USE_KERNELS = """
+import numpy as np
+from tests.support import small_kernels as small
+print(small.sum_of_counting(4), small.counting(3))  # a caller first, then what it calls
+print(small.sum_of_twice(np.arange(4.0)), small.twice(2.5), small.increased_twice(1))
+kernels = [k for k in vars(small).values() if hasattr(k, "stats")]
+print(sum(sum(kernel.stats.cache_misses.values()) for kernel in kernels))
+"""
+
+
+def use_kernels(folder):
+    """A process that calls some kernels and prints what they return and how many it compiled."""
+    environment = {**os.environ, "SEMNAV_CACHE_DIR": str(folder)}
+    command = [sys.executable, "-c", USE_KERNELS]
+    return subprocess.Popen(
+        command,
+        cwd=ROOT,
+        env=environment,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+
+
+def outcome(process):
+    out, err = process.communicate()
+    assert process.returncode == 0, err
+    *results, compiled = out.splitlines()
+    return "\n".join(results), int(compiled), err
+
+
+def test_processes_that_compile_at_once_do_not_harm_each_other(tmp_path):
+    results = {outcome(process)[0] for process in [use_kernels(tmp_path) for _ in range(3)]}
+    again, compiled, err = outcome(use_kernels(tmp_path))
+    assert results == {again}
+    assert (compiled, err) == (0, "")
+
+
+@pytest.mark.parametrize("content", [b"", bytes(5000), pickle.dumps(("key", ())), b"\x80\x05half"])
+def test_a_damaged_file_is_compiled_anew(tmp_path, content):
+    first, compiled, _ = outcome(use_kernels(tmp_path))
+    files = sorted(tmp_path.rglob("*.bin"))
+    assert len(files) == compiled == 5
+    files[0].write_bytes(content)
+    files[1].write_bytes(files[1].read_bytes()[:-100])
+    assert outcome(use_kernels(tmp_path))[:2] == (first, 2)
+    assert outcome(use_kernels(tmp_path))[:2] == (first, 0)
+
+
+def test_a_place_that_cannot_be_written_to_is_replaced(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.touch()
+    _, _, err = outcome(use_kernels(blocked))
+    assert len(err.splitlines()) == 1
+    assert "cannot be written to" in err
+
+
+def test_every_source_of_a_kernel_counts_and_its_place_does_not(tmp_path, monkeypatch):
+    def key(place, text):
+        file = tmp_path / place
+        file.write_text(text)
+        monkeypatch.setattr(folders, "_modules", lambda: iter([("kernels/a.py", file)]))
+        return folders.version_key()
+
+    assert (
+        key("here.py", "LIMIT = 1") == key("there.py", "LIMIT = 1") != key("here.py", "LIMIT = 2")
+    )
+
+
+def test_the_modules_with_kernels_are_among_the_sources():
+    names = {name for name, _ in folders._modules()}
+    assert {
+        "features/kernels/compiling.py",
+        "agents/planning/search.py",
+        "belief/understand.py",
+    } <= names
+
+
+def test_the_versions_used_last_are_kept(tmp_path):
+    for age in range(14):
+        folder = tmp_path / f"{age:02}"
+        folder.mkdir()
+        os.utime(folder, (time.time() - 60 * age,) * 2)
+    folders.forget_old_versions(tmp_path)
+    assert sorted(f.name for f in tmp_path.iterdir()) == [f"{age:02}" for age in range(10)]
+
+
+def test_a_temporary_folder_that_others_made_is_not_trusted(tmp_path, monkeypatch):
+    monkeypatch.setattr(folders.tempfile, "tempdir", str(tmp_path))
+    usual = folders._private_temporary_folder()
+    assert folders._private_temporary_folder() == usual
+    usual.chmod(0o777)
+    assert folders._private_temporary_folder() != usual
+
+
+def test_long_compiling_is_announced_once_and_short_is_not(capsys, monkeypatch):
+    now = 0.0
+    monkeypatch.setattr(time, "perf_counter", lambda: now)
+    notice = CompileNotice()
+    notice.work_goes_on()
+    for _ in range(4):
+        with notice.while_compiling():
+            now += 0.4 * PATIENCE
+            notice.work_goes_on()
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_numba_offers_what_the_kernels_use():
+    from semnav_env.features.kernels.compiling import NUMBA_FITS
+
+    assert NUMBA_FITS
