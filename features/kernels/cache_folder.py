@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import shutil
 import stat
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
 
@@ -16,6 +17,9 @@ import numba
 import numpy as np
 from numba.core import config
 from numba.misc.appdirs import AppDirs
+
+_KERNEL_IMPORT = "kernels.compiling import kernel"
+_IMPORT = re.compile(r"^from semnav_env\.([\w.]+) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 
 KEPT_FOLDERS = 10
 """Folders of as many versions of the sources are kept, those used last."""
@@ -51,13 +55,14 @@ def version_key() -> str:
     """Hash of every module that a kernel may be made of, and of the compiler's version.
 
     A kernel holds the code and the constants of all that it calls, wherever they stand; so no
-    edit leaves a stale kernel, and two copies of the same sources share their kernels.
+    edit leaves a stale kernel, and two copies of the same sources share their kernels. Edits of
+    modules that no kernel's module imports leave the kernels as they are.
     """
     versions = (sys.version, numba.__version__, np.__version__)
     key = hashlib.sha256("\n".join(versions).encode())
-    for name, path in sorted(_modules()):
-        key.update(name.encode())
-        key.update(path.read_bytes())
+    sources = dict(_sources())
+    for name in sorted(_behind_kernels(sources)):
+        key.update(f"{name}\n{sources[name]}".encode())
     return key.hexdigest()[:20]
 
 
@@ -68,15 +73,35 @@ def forget_old_versions(base: Path) -> None:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _modules() -> Iterator[tuple[str, Path]]:
-    """Every module of the installed package: its place in it and its file."""
+def _sources() -> Iterator[tuple[str, str]]:
+    """Every module of the installed package: its place in it, without the suffix, and its text."""
     top = Path(sys.modules[__name__.partition(".")[0]].__path__[0])
     for folder, folders, files in os.walk(top, followlinks=True):
         folders[:] = [f for f in folders if f != "__pycache__"]
         for file in files:
             if file.endswith(".py"):
                 path = Path(folder, file)
-                yield path.relative_to(top).as_posix(), path
+                place = path.relative_to(top).with_suffix("").as_posix()
+                yield place, path.read_text(encoding="utf-8")
+
+
+def _behind_kernels(sources: Mapping[str, str]) -> set[str]:
+    """The modules with kernels, and all that they import, directly or not."""
+    found = {name for name, text in sources.items() if _KERNEL_IMPORT in text}
+    waiting = list(found)
+    while waiting:
+        fresh = set(_imports(sources[waiting.pop()])).intersection(sources) - found
+        found |= fresh
+        waiting += fresh
+    return found
+
+
+def _imports(text: str) -> Iterator[str]:
+    """The places of the modules that a module's first lines may import."""
+    for module, names in _IMPORT.findall(text):
+        place = module.replace(".", "/")
+        yield from (place, f"{place}/__init__")
+        yield from (f"{place}/{name}" for name in re.findall(r"\w+", names))
 
 
 def _opened(folder: Path) -> bool:

@@ -112,25 +112,26 @@ def test_a_place_that_cannot_be_written_to_is_replaced(tmp_path):
     assert "cannot be written to" in err
 
 
-def test_every_source_of_a_kernel_counts_and_its_place_does_not(tmp_path, monkeypatch):
-    def key(place, text):
-        file = tmp_path / place
-        file.write_text(text)
-        monkeypatch.setattr(folders, "_modules", lambda: iter([("kernels/a.py", file)]))
+KERNEL_MODULE = (
+    "from semnav_env.features.kernels.compiling import kernel\n"
+    "from semnav_env.lidar.limits import LIMIT\n"
+)
+
+
+def test_an_edit_counts_where_a_kernel_imports_it_and_nowhere_else(monkeypatch):
+    def key(limit, unrelated):
+        sources = {"a/kernels": KERNEL_MODULE, "lidar/limits": limit, "scripts/main": unrelated}
+        monkeypatch.setattr(folders, "_sources", lambda: iter(sources.items()))
         return folders.version_key()
 
-    assert (
-        key("here.py", "LIMIT = 1") == key("there.py", "LIMIT = 1") != key("here.py", "LIMIT = 2")
-    )
+    assert key("LIMIT = 1", "x") == key("LIMIT = 1", "y") != key("LIMIT = 2", "x")
 
 
-def test_the_modules_with_kernels_are_among_the_sources():
-    names = {name for name, _ in folders._modules()}
-    assert {
-        "features/kernels/compiling.py",
-        "agents/planning/search.py",
-        "belief/understand.py",
-    } <= names
+def test_the_modules_behind_kernels_are_found():
+    sources = dict(folders._sources())
+    behind = folders._behind_kernels(sources)
+    assert {"agents/planning/search", "belief/understand", "features/frames", "rules"} <= behind
+    assert behind.isdisjoint({"env", "scripts/main", "rendering/viewer"})
 
 
 def test_the_versions_used_last_are_kept(tmp_path):
