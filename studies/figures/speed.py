@@ -33,9 +33,12 @@ def draw(ax: Axes, title: str, lines: dict[str, str], found: list[Timing]) -> No
     for label, pattern in lines.items():
         matches = [(re.match(pattern, timing.name), timing.microseconds) for timing in found]
         points = [(int(match[1]), cost) for match, cost in matches if match]
-        ax.plot(*zip(*points, strict=True), "o-", label=label)
+        sizes, costs = zip(*points, strict=True)
+        ax.plot(sizes, costs, "o-", label=label)
     ax.set_xscale("log")
-    ax.set_ylim(bottom=0.0)
+    ax.set_xticks(sizes, [f"{size:,}" for size in sizes])
+    ax.minorticks_off()
+    ax.set_ylim(0.0, 1.15 * ax.get_ylim()[1])
     ax.set(xlabel=title, ylabel="microseconds for a robot's step")
     ax.grid(alpha=0.3)
     ax.legend(fontsize=8)
