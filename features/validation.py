@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from numbers import Real
+from numbers import Integral, Real
 
 
 def check_kind(name: str, value: object, kind: type) -> None:
@@ -20,6 +20,16 @@ def check_kind(name: str, value: object, kind: type) -> None:
     if not isinstance(value, kind):
         right = f"{kind.__module__}.{kind.__qualname__}"
         raise ValueError(f"{name} is {value!r:.80}; it must be a {right}")
+
+
+def check_count(name: str, value: object) -> None:
+    """Refuse what is no whole number of at least 1.
+
+    Raises:
+        ValueError: says what would be right.
+    """
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < 1:
+        raise ValueError(f"{name} is {value!r:.80}; it must be a whole number, at least 1")
 
 
 def checked_seconds(max_seconds: object) -> float:

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from semnav_env.bench.suite import benchmark, growth
+from semnav_env.features.validation import check_count
 from semnav_env.maps import load_floor_plan
 
 
@@ -44,6 +45,8 @@ class Arguments:
 
     def run(self) -> int:
         """Measure and print."""
+        for name in ("robots", "threads", "runs", "steps"):
+            check_count(name, getattr(self, name))
         plan = load_floor_plan(self.map)
         kind: dict[str, Any] = {"robot": self.robot, "observation": self.observation}
         if self.growth:

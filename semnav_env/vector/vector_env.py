@@ -11,6 +11,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
+from semnav_env.features.validation import check_count
 from semnav_env.vector.actions import TeamActions
 from semnav_env.vector.held_action import HeldAction
 from semnav_env.vector.infos import Infos, info_of, step_infos, without
@@ -62,17 +63,11 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
         **options: Any,
     ) -> None:
-        each = [{}] * num_envs if each is None else each
-        if num_envs < 1 or len(each) != num_envs:
-            raise ValueError(
-                f"num_envs is {num_envs} and each has {len(each)} entries; "
-                "there must be one for each of at least one robot"
-            )
-        if threads is not None and threads < 1:
-            raise ValueError(f"threads is {threads}; it must be at least 1")
-        if repeat < 1:
-            raise ValueError(f"repeat is {repeat}; it must be at least 1")
+        check_count("num_envs", num_envs)
+        check_count("threads", 1 if threads is None else threads)
+        check_count("repeat", repeat)
         self.num_envs, self._threads, self._repeat = num_envs, threads, repeat
+        each = self._one_each("each", [{}] * num_envs if each is None else each)
         self.envs = [SemNavEnv(**{**options, **own}) for own in each]
         first = self.envs[0]
         _check_alike(self.envs)
@@ -88,6 +83,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self._over = np.zeros(num_envs, dtype=bool)
         self._verdicts = np.full(num_envs, None, dtype=object)
         self._team: Team | None = None
+        self._refused = False
         self._observations: TeamObservations
 
     def reset(
@@ -115,8 +111,10 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         if self._team is None and not mask.all():
             raise ValueError("the first reset must be of all robots: leave reset_mask away")
         infos: Infos = {}
+        self._refused = True  # until all have begun
         for k in _indices(mask):
             infos = self._begin(infos, k, seeds[k], {**common, **(own[k] or {})} or None)
+        self._refused = False
         if self._team is None:
             self._gather()
         return self._observations.observe(self._gathered), infos
@@ -128,7 +126,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             ValueError: the actions are not finite or have another shape.
             RuntimeError: before the first `reset`.
         """
-        if self._team is None:
+        if self._team is None or self._refused:
             raise RuntimeError("call reset() before step()")
         driven = ~self._over
         if self._mode is AutoresetMode.DISABLED and not driven.all():
@@ -248,8 +246,11 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             self.envs[k].renderer.note(self.envs[k], self.envs[k].world.pose)
 
     def _one_each(self, name: str, values: Sequence[Any]) -> Sequence[Any]:
-        if len(values) != self.num_envs:
-            raise ValueError(f"{name} has {len(values)} entries for {self.num_envs} robots")
+        if isinstance(values, Mapping | str) or len(values) != self.num_envs:
+            raise ValueError(
+                f"{name} has {len(values)} entries for {self.num_envs} robots; give a list with "
+                "one for each"
+            )
         return values
 
 

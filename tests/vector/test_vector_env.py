@@ -228,3 +228,28 @@ def test_the_path_of_pymunk_gives_the_same_bits(monkeypatch):
     slow = SemNavVectorEnv(2, floor_plan="office_cross")
     slow.reset(seed=4)
     assert_goes_on_like(fast, slow, steps=60)
+
+
+def test_after_a_refused_reset_no_step_is_possible():
+    envs = SemNavVectorEnv(2)
+    envs.reset(seed=0)
+    with pytest.raises(ValueError, match="fly"):
+        envs.reset(options={"each": [{}, {"command": "fly"}]})
+    with pytest.raises(RuntimeError, match="reset"):
+        envs.step(np.zeros((2, 2)))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"threads": 0}, "threads"),
+        ({"threads": 1.5}, "threads"),
+        ({"repeat": 1.5}, "repeat"),
+        ({"num_envs": 0}, "num_envs"),
+        ({"each": [{}]}, "each has 1 entries for 2 robots"),
+        ({"each": {"robot": "spot"}}, "each has 1 entries"),
+    ],
+)
+def test_bad_arguments_are_named(options, message):
+    with pytest.raises(ValueError, match=message):
+        SemNavVectorEnv(**{"num_envs": 2} | options)
