@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from semnav_env.features.frames import FloatArray
 from semnav_env.vector.judgements import Judgements, Mask
 from semnav_env.vector.rewards import Terms
 
@@ -35,10 +36,11 @@ class HeldAction:
 
     def add(self, judged: Judgements, terms: Terms) -> None:
         """Count a control period."""
-        self.rewards += sum(terms.values(), start=np.zeros(len(self.rewards)))
+        amounts = (np.ma.filled(amount, 0.0) for amount in terms.values())
+        self.rewards += sum(amounts, start=np.zeros(len(self.rewards)))
         self.terms = self.terms | {
-            name: self.terms[name] + amounts if name in self.terms else amounts
-            for name, amounts in terms.items()
+            name: _added(self.terms[name], amount) if name in self.terms else amount
+            for name, amount in terms.items()
         }
         self.terminated |= judged.terminated
         self.truncated |= judged.truncated
@@ -48,3 +50,11 @@ class HeldAction:
     def over(self) -> Mask:
         """Whose episode is over, for one reason or the other."""
         return self.terminated | self.truncated
+
+
+def _added(one: FloatArray, other: FloatArray) -> FloatArray:
+    """The sum of two amounts, of which one may be masked where there is none."""
+    if not np.ma.isMaskedArray(one) and not np.ma.isMaskedArray(other):
+        return one + other
+    absent = np.ma.getmaskarray(one) & np.ma.getmaskarray(other)
+    return np.ma.array(np.ma.filled(one, 0.0) + np.ma.filled(other, 0.0), mask=absent)

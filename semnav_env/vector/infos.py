@@ -36,6 +36,9 @@ def masked(entries: Infos, mask: NDArray[np.bool_]) -> Infos:
     found: Infos = {}
     for name, value in entries.items():
         found[name], found[f"_{name}"] = value, mask.copy()
+        if np.ma.isMaskedArray(value):
+            found[name] = value.filled(0.0)
+            found[f"_{name}"] &= ~np.ma.getmaskarray(value)
     return found
 
 

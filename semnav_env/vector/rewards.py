@@ -15,7 +15,8 @@ from semnav_env.tasks import RewardWeights, Tick
 from semnav_env.vector.judgements import Judgements
 
 Terms = dict[str, FloatArray]
-"""Reward terms by name, each of shape (n,); 0 for robots that were not driven."""
+"""Reward terms by name, each of shape (n,); 0 for robots that were not driven. A masked array where
+some robots have no such term."""
 
 
 class TeamRewards(Protocol):
@@ -61,7 +62,7 @@ class EachTerms:
             env, action = self._envs[k], np.asarray(actions[k])
             tick = Tick(*judged.judgement(k), env.simulator.motion, env.belief, action)
             for name, value in env.rewards.terms(tick).items():
-                terms.setdefault(name, np.zeros(len(self._envs)))[k] = value
+                terms.setdefault(name, np.ma.masked_all(len(self._envs)))[k] = value
         return terms
 
 

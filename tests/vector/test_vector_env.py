@@ -253,3 +253,22 @@ def test_after_a_refused_reset_no_step_is_possible():
 def test_bad_arguments_are_named(options, message):
     with pytest.raises(ValueError, match=message):
         SemNavVectorEnv(**{"num_envs": 2} | options)
+
+
+class OnlySuccess:
+    def terms(self, tick):
+        return {"success": float(tick.success)}
+
+
+@pytest.mark.parametrize("repeat", [1, 3])
+def test_robots_with_other_rewards_have_other_terms(repeat):
+    each = [{"rewards": OnlySuccess()}, {}]
+    envs = SemNavVectorEnv(2, each=each, repeat=repeat)
+    alone = SyncVectorEnv([lambda own=own: SemNavEnv(**own) for own in each])
+    envs.reset(seed=0), alone.reset(seed=0)
+    action = np.full((2, 2), 0.1, np.float32)
+    terms = envs.step(action)[4]["reward_terms"]
+    expected = alone.step(action)[4]["reward_terms"]
+    assert set(terms) == set(expected)
+    for name in (name for name in expected if name.startswith("_")):
+        assert terms[name].tolist() == expected[name].tolist()
