@@ -41,7 +41,7 @@ metres."""
 LANE_SPACING = 0.1
 """Distance between the lanes, which are lines along the axis, metres."""
 
-BESIDE = 0.1
+SCREENING_MARGIN = 0.1
 """A segment that lies farther than this beside all rays or lanes is left out at once, metres; those
 nearer are looked at closely, so that rounding decides nothing here."""
 
@@ -80,9 +80,16 @@ def probe(local: FloatArray, sign: float, back: float, count: int) -> FloatArray
     farthest = count * PROBE_SPACING - PROBED_BEHIND
     for i in range(len(local)):
         x1, y1, x2, y2 = local[i, 0], sign * local[i, 1], local[i, 2], sign * local[i, 3]
-        if max(y1, y2) < 0.0 or min(y1, y2) > MAX_SIDE_DISTANCE + BESIDE or abs(x2 - x1) < 1e-9:
+        if (
+            max(y1, y2) < 0.0
+            or min(y1, y2) > MAX_SIDE_DISTANCE + SCREENING_MARGIN
+            or abs(x2 - x1) < 1e-9
+        ):
             continue
-        if max(x1, x2) < -PROBED_BEHIND - BESIDE or min(x1, x2) > farthest + BESIDE:
+        if (
+            max(x1, x2) < -PROBED_BEHIND - SCREENING_MARGIN
+            or min(x1, x2) > farthest + SCREENING_MARGIN
+        ):
             continue
         slope = (y2 - y1) / (x2 - x1)
         first = math.ceil((min(x1, x2) + PROBED_BEHIND) / PROBE_SPACING)
@@ -208,7 +215,10 @@ def _lanes(local: FloatArray, start: float, count: int, nearest: float) -> Float
     lanes = np.full(count, np.inf)
     for i in range(len(local)):
         x1, y1, x2, y2 = local[i, 0], local[i, 1], local[i, 2], local[i, 3]
-        if max(y1, y2) < start - BESIDE or min(y1, y2) > start + count * LANE_SPACING + BESIDE:
+        if (
+            max(y1, y2) < start - SCREENING_MARGIN
+            or min(y1, y2) > start + count * LANE_SPACING + SCREENING_MARGIN
+        ):
             continue
         if max(x1, x2) < nearest or abs(y2 - y1) <= MIN_END_SINE * math.hypot(x2 - x1, y2 - y1):
             continue

@@ -10,7 +10,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import types
 from numba.experimental import structref
 
 from semnav_env.belief.attention import is_look_due
@@ -19,6 +18,7 @@ from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.memory import how_many_count, relocate, remember
+from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.grounding.clause_progress import note_pose
 
 FIRST_SCAN, LOOK_DUE = 8, 16
@@ -27,12 +27,8 @@ be grounded anew, as after a bump into what was not known."""
 
 
 @structref.register
-class SensesType(types.StructRef):
+class SensesType(ArraysType):
     """How compiled code sees `Senses`."""
-
-    def preprocess_fields(self, fields: Any) -> Any:
-        """Fields of a general type, not of a literal value."""
-        return tuple((name, types.unliteral(kind)) for name, kind in fields)
 
 
 class Senses(structref.StructRefProxy):

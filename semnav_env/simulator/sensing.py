@@ -11,11 +11,11 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import types
 from numba.experimental import structref
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.lidar.lidar import measure
 from semnav_env.simulator.odometry import advance
 from semnav_env.world.drive import drive
@@ -54,12 +54,8 @@ NUMBERS = 10
 
 
 @structref.register
-class SimulatorArraysType(types.StructRef):
+class SimulatorArraysType(ArraysType):
     """How compiled code sees `SimulatorArrays`."""
-
-    def preprocess_fields(self, fields: Any) -> Any:
-        """Fields of a general type, not of a literal value."""
-        return tuple((name, types.unliteral(kind)) for name, kind in fields)
 
 
 class SimulatorArrays(structref.StructRefProxy):

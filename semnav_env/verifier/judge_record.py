@@ -10,11 +10,11 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import types
 from numba.experimental import structref
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.maps.geodesic import GRID_SPACING, distance_at
@@ -30,12 +30,8 @@ NO_ARMS, NO_DISTANCES = np.empty((0, 5)), np.empty((0, 0))
 
 
 @structref.register
-class JudgeRecordType(types.StructRef):
+class JudgeRecordType(ArraysType):
     """How compiled code sees `JudgeRecord`."""
-
-    def preprocess_fields(self, fields: Any) -> Any:
-        """Fields of a general type, not of a literal value."""
-        return tuple((name, types.unliteral(kind)) for name, kind in fields)
 
 
 class JudgeRecord(structref.StructRefProxy):
