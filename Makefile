@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types slow docs clean
+.PHONY: demo test lint types slow soak docs clean
 
 demo: $(VENV)/.demo
 	$(BIN)/semnav demo "go through the second door on the right" --map heidelberg_hallway \
@@ -11,6 +11,10 @@ demo: $(VENV)/.demo
 
 test: $(VENV)/.test lint types
 	$(BIN)/python -m pytest -m "not slow" -n 2
+
+COUNT ?= 2000
+soak: $(VENV)/.test
+	$(BIN)/python -m tests.reliability.soak $(COUNT)
 
 slow: $(VENV)/.test
 	$(BIN)/python -m pytest -m slow

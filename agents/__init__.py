@@ -1,1 +1,1 @@
-"""Agents that drive: scripted, oracle and learned, behind one interface."""
+"""Agents that drive: scripted, oracle, learned, and floors of benchmarks, behind one interface."""

@@ -1,24 +1,21 @@
-"""Demonstrations: the observations and actions of an agent, as a Minari dataset."""
+"""Demonstrations: what an agent does, with the observations that a learner is to have."""
 
 from __future__ import annotations
 
-import re
-import signal
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.base import Agent, steps
+from semnav_env.agents.base import Agent, Step, steps
+from semnav_env.agents.expert import Expert, true_goal
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode
 
-DATASET_NAME = re.compile(r"(?:[-_\w]+/)*[-_\w]+-v\d+")
-"""The form of a dataset's name in Minari, such as "semnav/train-scripted-v0"."""
+Column = NDArray[Any]
+"""A value for each observation, shape (n + 1, ...)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,123 +30,85 @@ class Demonstration:
         terminations: shape (n,).
         truncations: shape (n,).
         success: whether the command was carried out.
+        infos: what is known beside each observation, by name, see `demonstrate`.
     """
 
     episode: Episode
-    observations: dict[str, NDArray[Any]]
+    observations: dict[str, Column]
     actions: NDArray[np.float32]
     rewards: NDArray[np.float64]
     terminations: NDArray[np.bool_]
     truncations: NDArray[np.bool_]
     success: bool
+    infos: dict[str, Any] = field(default_factory=dict)
 
 
-def demonstrate(env: SemNavEnv, agent: Agent, episode: Episode) -> Demonstration:
-    """Let an agent drive a frozen episode, with its number as the seed, and record everything."""
+def demonstrate(
+    env: SemNavEnv,
+    agent: Agent,
+    episode: Episode,
+    shown: SemNavEnv | None = None,
+    expert: Expert | None = None,
+) -> Demonstration:
+    """Let an agent drive a frozen episode, with its number as the seed, and record everything.
+
+    The infos are the true "pose" (world frame), the true "goal" (as the entry of an observation,
+    robot frame), the number of the true "clause", "collisions", "path_length", "in_contact" and
+    "reward_terms"; and "expert_action" if there is an expert.
+
+    Args:
+        env: in which the agent drives; it has the `observation=` of the agent.
+        agent: the driver.
+        episode: what to drive.
+        shown: an environment like the first one but for its `observation=`, which is recorded. It
+            is driven beside it with the same actions. The first one itself if not given.
+        expert: labels every state that the agent comes to.
+    """
+    reset: dict[str, Any] = {"seed": episode.number, "options": {"episode": episode}}
     with episode.named_in_errors():
-        first, info = env.reset(seed=episode.number, options={"episode": episode})
-    driven = list(steps(env, agent, first, info))
-    seen = [first, *(step.observation for step in driven)]
+        first, info = env.reset(**reset)
+        seen = first if shown is None else shown.reset(**reset)[0]
+    recorded = shown or env
+    observations, infos = [seen], [_info(recorded, None, expert)]
+    driven: list[Step] = []
+    for step in steps(env, agent, first, info):
+        result = step if shown is None else Step(step.action, *shown.step(step.action))
+        driven.append(result)
+        observations.append(result.observation)
+        infos.append(_info(recorded, result, expert))
+    infos[0]["reward_terms"] = dict.fromkeys(driven[0].info["reward_terms"], 0.0)
     return Demonstration(
         episode,
-        {name: np.stack([each[name] for each in seen]) for name in first},
+        _stacked(observations),
         np.stack([step.action for step in driven]),
         np.array([step.reward for step in driven]),
         np.array([step.terminated for step in driven]),
         np.array([step.truncated for step in driven]),
         bool(driven[-1].info["is_success"]),
+        _stacked(infos),
     )
 
 
-class DemonstrationFile:
-    """A new Minari dataset; each demonstration is written at once.
-
-    Args:
-        out: a name such as "semnav/train-scripted-v0", by which Minari finds it, or a folder.
-        env: the environment, which gives the spaces of observations and actions.
-        agent: name of the agent, for the description of the dataset.
-
-    Raises:
-        ImportError: Minari is not installed; the error names the extra.
-        FileExistsError: there is already a dataset of that name, or something in that folder.
-    """
-
-    def __init__(self, out: str, env: SemNavEnv, agent: str) -> None:
-        try:
-            import h5py  # noqa: F401 - Minari fails late without it
-            import minari
-            from minari.dataset.minari_storage import MinariStorage
-            from minari.storage import get_dataset_path
-        except ImportError:
-            raise ImportError(
-                'demonstrations are kept by minari and h5py: pip install "semnav-env[data]"'
-            ) from None
-        named = DATASET_NAME.fullmatch(out) is not None
-        self.folder = Path(get_dataset_path(out) if named else out).absolute()
-        if self.folder.exists() and (not self.folder.is_dir() or any(self.folder.iterdir())):
-            raise FileExistsError(
-                17, "there is something already; give another name or folder", str(self.folder)
-            )
-        data = self.folder / "data"
-        data.mkdir(parents=True, exist_ok=True)
-        self._storage = MinariStorage.new(data, env.observation_space, env.action_space)
-        self._storage.update_metadata(
-            {
-                "dataset_id": out if named else f"semnav/{agent_word(agent)}-v0",
-                "minari_version": minari.__version__,
-                "algorithm_name": agent,
-                "description": f"{agent} on {env.robot.name} in frozen episodes of semnav-env",
-            }
-        )
-
-    def add(self, demonstration: Demonstration) -> None:
-        """Write a demonstration; an interruption waits until it is complete."""
-        from minari.data_collector.episode_buffer import EpisodeBuffer
-
-        episode = demonstration.episode
-        buffer = EpisodeBuffer(
-            seed=episode.number,
-            options={
-                "episode": episode.id,
-                "command": episode.command,
-                "floor_plan": episode.floor_plan,
-                "success": demonstration.success,
-            },
-            observations=demonstration.observations,
-            actions=demonstration.actions,
-            rewards=demonstration.rewards.tolist(),
-            terminations=demonstration.terminations.tolist(),
-            truncations=demonstration.truncations.tolist(),
-        )
-        with _uninterrupted():
-            self._storage.update_episodes([buffer])
-
-    @property
-    def count(self) -> int:
-        """Number of demonstrations in the file, counted there."""
-        import h5py
-
-        with h5py.File(self.folder / "data" / "main_data.hdf5", "r") as file:
-            return len(file)
+def _info(env: SemNavEnv, step: Step | None, expert: Expert | None) -> dict[str, Any]:
+    """What is known of the state that an environment is in, in plain numbers."""
+    record = env.judge.outcome
+    known = {
+        "pose": np.array(env.world.pose),
+        "goal": true_goal(env).values,
+        "clause": env.judge.verifier.follower.active,
+        "collisions": record.collisions,
+        "path_length": record.path_length,
+        "in_contact": bool(step.info["in_contact"]) if step else False,
+        "reward_terms": step.info["reward_terms"] if step else {},
+    }
+    return known | ({} if expert is None else {"expert_action": expert.label(env)})
 
 
-def agent_word(agent: str) -> str:
-    """The name of an agent, without characters that the name of a dataset cannot have."""
-    return re.sub(r"[^-_\w]+", "_", Path(agent).name) or "agent"
-
-
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Delay an interruption from the keyboard until the end of the block."""
-    held: list[int] = []
-    try:
-        before = signal.signal(signal.SIGINT, lambda number, _: held.append(number))
-    except ValueError:  # not the main thread, which alone gets interruptions
-        yield
-        return
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-        if held:
-            raise KeyboardInterrupt
+def _stacked(rows: Sequence[Any]) -> dict[str, Any]:
+    """Dictionaries as one, with an array for each name, or again a dictionary."""
+    return {
+        name: _stacked([row[name] for row in rows])
+        if isinstance(value, dict)
+        else np.stack([row[name] for row in rows])
+        for name, value in rows[0].items()
+    }

@@ -7,9 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.planning.doorway import barriers_across, target_behind
+from semnav_env.agents.planning.doorway import barriers_across
 from semnav_env.agents.planning.driver import NO_POINTS, Driver
+from semnav_env.agents.planning.exit_via_door import ExitViaDoor
+from semnav_env.agents.planning.follower import Steering
 from semnav_env.agents.planning.planner import DriveTarget
+from semnav_env.approach import DoorSide
 from semnav_env.features.frames import (
     FloatArray,
     Point,
@@ -48,11 +51,13 @@ class Pilot:
 
     Args:
         robot: the body.
+        alternatives: whether to try other poses where no path leads straight through a door.
     """
 
-    def __init__(self, robot: RobotSpec) -> None:
+    def __init__(self, robot: RobotSpec, alternatives: bool = True) -> None:
         self.robot = robot
         self.driver = Driver(robot)
+        self._exit = ExitViaDoor(robot, alternatives)
         self._pushed = 0
         self._backing = 0
         self._last: Twist = (0.0, 0.0, 0.0)
@@ -81,9 +86,22 @@ class Pilot:
         if goal.kind is not GoalKind.SEEK:  # a robot that explores may go through any door
             others = barriers_across(_other_doors(doors, goal), self.robot)
             barriers = points_to_parent(pose, others)
-        steering = self.driver.drive(points, _target(goal, pose), pose, velocity, barriers)
+        door = _side(goal, pose)
+        target = _target(goal, pose) if door is None else self._exit.target(door)
+        steering = self.driver.drive(points, target, pose, velocity, barriers)
+        if door is not None:
+            self._note(steering, points)
         self._last = steering.twist
         return self._action(*steering.twist)
+
+    def _note(self, steering: Steering, points: FloatArray) -> None:
+        """Go on to the next pose of a way through a door, or to another way if this one failed."""
+        path = self.driver.path
+        if path is not None and not path.complete:
+            if self._exit.failed(points, path.end):
+                self.driver.plan_at_once()
+        elif steering.done:
+            self._exit.reached()
 
     def _is_stuck(self, velocity: Twist) -> bool:
         """Whether it is time to back out of a contact."""
@@ -123,13 +141,18 @@ def _other_doors(doors: FloatArray, goal: SeenGoal) -> FloatArray:
 def _target(goal: SeenGoal, pose: Pose) -> DriveTarget:
     """Where to drive for a goal, in the frame of `pose`."""
     place = compose(pose, goal.pose)
-    if goal.kind is GoalKind.PASS and goal.door is not None:
-        start, end = (to_parent(pose, jamb) for jamb in goal.door)
-        door = Door(start, end)
-        return target_behind(door, _in_front(door.midpoint, place[2]))
     if goal.kind is GoalKind.SEEK:
         return DriveTarget(place, LOOKOUT_TOLERANCE, None)
     return DriveTarget(place, REACH_TOLERANCE, REACH_HEADING_TOLERANCE)
+
+
+def _side(goal: SeenGoal, pose: Pose) -> DoorSide | None:
+    """The door to pass, from the side of the robot, in the frame of `pose`; None without one."""
+    if goal.kind is not GoalKind.PASS or goal.door is None:
+        return None
+    start, end = (to_parent(pose, jamb) for jamb in goal.door)
+    door, outward = Door(start, end), pose[2] + goal.pose[2]
+    return DoorSide.seen_from(door, _in_front(door.midpoint, outward))
 
 
 def _in_front(midpoint: Point, outward: float) -> Point:

@@ -8,22 +8,33 @@ from typing import TypeAlias
 
 from semnav_env.agents.base import Agent
 from semnav_env.agents.custom import agent_factory, checked_agent
+from semnav_env.agents.floors import BlindAgent, RandomAgent
 from semnav_env.agents.learned import LearnedAgent, pretrained_names
 from semnav_env.agents.oracle import OracleAgent
 from semnav_env.agents.scripted import ScriptedAgent
+from semnav_env.agents.searching.agent import Explorer, PlanSearcher
 
 AgentSource: TypeAlias = str | Callable[[], Agent]
 """What an agent is made from, see `make_agent`."""
 
-_BUILT_IN: dict[str, Callable[[], Agent]] = {"scripted": ScriptedAgent, "oracle": OracleAgent}
+_BUILT_IN: dict[str, Callable[[], Agent]] = {
+    "scripted": ScriptedAgent,
+    "oracle": OracleAgent,
+    "blind": BlindAgent,
+    "random": RandomAgent,
+    "searcher": PlanSearcher,
+    "explorer": Explorer,
+}
 
 
 def make_agent(source: AgentSource) -> Agent:
     """A new agent.
 
     Args:
-        source: "scripted", "oracle" or a name of `pretrained_names`; the folder of a trained
-            agent; "package.module:Class"; or a class or function that is called without arguments.
+        source: "scripted", "oracle", "blind", "random", "searcher", "explorer" or a name of
+            `pretrained_names`; the folder of a trained agent; "package.module:Class"; or a class or
+            function that is called
+            without arguments.
 
     Raises:
         ValueError: there is no such agent, or what was made is none; says what would be right.

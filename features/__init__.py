@@ -5,10 +5,9 @@ Needs NumPy and Numba only, so it runs on a robot's own logs without the simulat
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from semnav_env.features.extract import extract
-from semnav_env.features.scan import Scan
 from semnav_env.features.scene import (
     Arc,
     Corner,
@@ -23,7 +22,9 @@ from semnav_env.features.scene import (
 from semnav_env.features.settings import ExtractorSettings
 
 if TYPE_CHECKING:
+    from semnav_env.features.extraction import extract
     from semnav_env.features.polyline import polylines
+    from semnav_env.features.scan import Scan
 
 __all__ = [
     "Arc",
@@ -41,11 +42,11 @@ __all__ = [
     "polylines",
 ]
 
+_LAZY = {"extract": "extraction", "polylines": "polyline", "Scan": "scan"}
+"""Names that are imported when they are asked for, with their modules; a simulator needs none."""
+
 
 def __getattr__(name: str) -> Any:
-    """Import `polylines` when it is asked for: a simulator does not need it."""
-    if name != "polylines":
+    if name not in _LAZY:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from semnav_env.features.polyline import polylines
-
-    return polylines
+    return getattr(import_module(f"{__name__}.{_LAZY[name]}"), name)

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
-from numba.extending import overload, register_jitable
 from numpy.typing import NDArray
 
 Point: TypeAlias = tuple[float, float]
@@ -34,52 +32,24 @@ def wrap_angle(angle: float) -> float:
     return math.remainder(angle, 2.0 * math.pi)
 
 
-@overload(wrap_angle)
-def _compiled_wrap_angle(angle: float) -> Callable[[float], float]:
-    """What compiled code calls as `wrap_angle`: the same to the last bit.
-
-    A remainder is exact, and so is each difference below: `rest` is the angle's distance from the
-    whole turn before it, and `missing` that from the one behind it. Of two equally near ones the
-    even turn counts, as in IEEE 754.
-    """
-
-    def wrap(angle: float) -> float:
-        size = abs(angle)
-        if size <= math.pi:
-            return angle
-        rest = size % math.tau
-        missing = math.tau - rest
-        if rest > missing:
-            rest = -missing
-        elif rest == missing:
-            rest -= 2.0 * (0.5 * (size - rest) % math.tau)
-        return math.copysign(1.0, angle) * rest
-
-    return wrap
-
-
-@register_jitable
 def compose(frame: Pose, local: Pose) -> Pose:
     """Express in the parent frame a pose that is given in `frame`."""
     x, y = to_parent(frame, (local[0], local[1]))
     return x, y, wrap_angle(frame[2] + local[2])
 
 
-@register_jitable
 def relative(frame: Pose, pose: Pose) -> Pose:
     """Express in `frame` a pose that is given in its parent frame; the inverse of `compose`."""
     x, y = to_local(frame, (pose[0], pose[1]))
     return x, y, wrap_angle(pose[2] - frame[2])
 
 
-@register_jitable
 def to_parent(frame: Pose, point: Point) -> Point:
     """Express in the parent frame a point that is given in `frame`."""
     c, s = math.cos(frame[2]), math.sin(frame[2])
     return frame[0] + c * point[0] - s * point[1], frame[1] + s * point[0] + c * point[1]
 
 
-@register_jitable
 def to_local(frame: Pose, point: Point) -> Point:
     """Express in `frame` a point that is given in its parent frame."""
     c, s = math.cos(frame[2]), math.sin(frame[2])

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Annotated, TypeAlias
 
 import numpy as np
 
+from semnav_env.features.checked_fields import Bounds, Length, Share, check_fields
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.validation import require
 
 CosinesSines: TypeAlias = tuple[FloatArray, FloatArray]
 """Cosines and sines of the directions of beams, each of shape (beams,).
@@ -47,40 +49,27 @@ class LidarSpec:
         source: where the numbers come from.
 
     Raises:
-        ValueError: a number out of the range that is given above; names it.
+        ValueError: a field of another kind or out of its bounds; names it.
     """
 
     name: str
-    beams: int
-    angle_min: float
-    angle_increment: float
-    range_min: float = 0.05
-    range_max: float = 10.0
-    rate_hz: float = 15.0
-    sigma: float = 0.0
-    dropout: float = 0.0
-    systematic: float = 0.0
+    beams: Annotated[int, Bounds(1, 100_000)]
+    angle_min: Annotated[float, Bounds(-math.pi, math.pi, "rad")]
+    angle_increment: Annotated[float, Bounds(1e-6, math.tau, "rad")]
+    range_min: Length = 0.05
+    range_max: Annotated[float, Bounds(1e-3, 1e6, "m")] = 10.0
+    rate_hz: Annotated[float, Bounds(0.1, 1000.0, "Hz")] = 15.0
+    sigma: Length = 0.0
+    dropout: Share = 0.0
+    systematic: Length = 0.0
     source: str = ""
 
     def __post_init__(self) -> None:
-        span = (self.beams - 1) * self.angle_increment
-        rules = (
-            (self.beams >= 1, "beams", "at least 1"),
-            (abs(self.angle_min) <= math.pi, "angle_min", "in [-pi, pi] radians"),
-            (self.angle_increment > 0, "angle_increment", "positive"),
-            (span <= 2 * math.pi + 1e-9, "angle_increment", "at most 2 pi / (beams - 1)"),
-            (self.range_min >= 0, "range_min", "at least 0 m"),
-            (self.range_min < self.range_max < math.inf, "range_max", "more than range_min"),
-            (0 < self.rate_hz < math.inf, "rate_hz", "positive"),
-            (0 <= self.sigma < math.inf, "sigma", "at least 0 m"),
-            (0 <= self.dropout <= 1, "dropout", "a probability in [0, 1]"),
-            (0 <= self.systematic < math.inf, "systematic", "at least 0 m"),
-        )
-        for holds, name, right in rules:
-            if not holds:
-                raise ValueError(
-                    f"lidar {self.name!r}: {name} is {getattr(self, name)}; it must be {right}"
-                )
+        check_fields(self)
+        span, step = (self.beams - 1) * self.angle_increment, self.angle_increment
+        require(span <= math.tau + 1e-9, "angle_increment", step, "at most 2 pi / (beams - 1)")
+        farther = f"more than range_min, which is {self.range_min}"
+        require(self.range_min < self.range_max, "range_max", self.range_max, farther)
 
     @property
     def angles(self) -> FloatArray:

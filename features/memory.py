@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +19,10 @@ from semnav_env.features.kernels.memory import (
     remember,
     what_counts,
 )
-from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Door, PlainWalls, Scene, ends_of
+
+if TYPE_CHECKING:
+    from semnav_env.features.scan import Scan
 
 ENDS = ("start_x", "start_y", "end_x", "end_y")
 

@@ -12,6 +12,7 @@ import numpy as np
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Arc, CornerKind, Scene, Wall
+from semnav_env.features.writing import replacing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -82,7 +83,8 @@ def save_page(
     figure.legend(
         handles, labels, loc="outside lower center", ncols=min(5, 2 * columns), fontsize=9
     )
-    figure.savefig(path, dpi=110)
+    with replacing(path) as part:
+        figure.savefig(part, dpi=110)
 
 
 def check_suffix(path: str | os.PathLike[str]) -> None:

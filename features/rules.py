@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
+
+from semnav_env.features.checked_fields import Length, check_fields, require_order
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,19 +18,17 @@ class DoorRules:
         width_tolerance: added to both limits, metres: the error of a measured width.
 
     Raises:
-        ValueError: a width is negative or not finite, or the narrowest door exceeds the widest.
+        ValueError: a width is no number, negative or too large, or the narrowest door exceeds the
+            widest.
     """
 
-    width_min: float = 0.7
-    width_max: float = 1.2
-    width_tolerance: float = 0.05
+    width_min: Length = 0.7
+    width_max: Length = 1.2
+    width_tolerance: Length = 0.05
 
     def __post_init__(self) -> None:
-        values = self.width_min, self.width_max, self.width_tolerance
-        if not all(math.isfinite(value) and value >= 0.0 for value in values):
-            raise ValueError(f"{self} has a width that is negative or not finite")
-        if self.width_min > self.width_max:
-            raise ValueError(f"{self}: width_min must not exceed width_max")
+        check_fields(self)
+        require_order(self, ("width_min", "width_max"))
 
     @property
     def widest(self) -> float:

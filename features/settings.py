@@ -5,13 +5,22 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields, replace
 from enum import IntEnum
+from typing import Annotated
 
 import numpy as np
 
+from semnav_env.features.checked_fields import (
+    Bounds,
+    Length,
+    OneOf,
+    Share,
+    check_fields,
+    require_order,
+)
 from semnav_env.features.rules import DoorRules
 from semnav_env.features.strategies import BreakpointRule, Segmentation, strategy_names
 
-_RECORD_TYPES = {"float": "f8", "int": "i8", "bool": "?", "str": "i8"}
+_RECORD_TYPES = {float: "f8", int: "i8", bool: "?", str: "i8"}
 _STRATEGIES: dict[str, type[IntEnum]] = {
     "breakpoint_rule": BreakpointRule,
     "segmentation": Segmentation,
@@ -45,7 +54,7 @@ class ExtractorSettings:
             neighbouring points are still joined, radians (thesis (2.3): 10 degrees, which loses
             the far part of a corridor's walls). Not read by "constant", "dietmayer" and "lee".
         breakpoint_distance: C0 of "constant", "dietmayer" and "santos", metres.
-        breakpoint_ratio: largest |r1 - r2| / (r1 + r2) of neighbouring ranges, for "lee".
+        breakpoint_ratio: largest `|r1 - r2| / (r1 + r2)` of neighbouring ranges, for "lee".
         dropout_beams: number of missing returns in a row that do not end a wall.
         segmentation: how a connected group is cut into straight pieces: "end_point_fit" (thesis
             2.4.4); "dynamic", the most likely partition (`kernels.optimal_partition`), which takes
@@ -112,64 +121,62 @@ class ExtractorSettings:
             gives the range, or the names.
     """
 
-    rupture_range: float = 10.0
-    sigma: float = 0.02
-    veil_angle: float = 0.0
-    median_beams: int = 0
-    breakpoint_rule: str = "certad"
-    breakpoint_angle: float = math.radians(4.0)
-    breakpoint_distance: float = 0.2
-    breakpoint_ratio: float = 0.05
-    dropout_beams: int = 2
-    segmentation: str = "end_point_fit"
-    split_distance: float = 0.08
-    wall_beams: int = 5
-    wall_length: float = 0.2
-    merge_gap: float = 0.3
-    merge_offset: float = 0.015
+    rupture_range: Annotated[float, Bounds(0.1, 1000.0, "m")] = 10.0
+    sigma: Length = 0.02
+    veil_angle: Annotated[float, Bounds(0.0, math.pi / 4, "rad")] = 0.0
+    median_beams: Annotated[int, Bounds(0, 4)] = 0
+    breakpoint_rule: Annotated[str, OneOf(strategy_names(BreakpointRule))] = "certad"
+    breakpoint_angle: Annotated[float, Bounds(math.radians(0.1), math.pi / 2, "rad")] = (
+        math.radians(4.0)
+    )
+    breakpoint_distance: Length = 0.2
+    breakpoint_ratio: Annotated[float, Bounds(0.0, 0.9)] = 0.05
+    dropout_beams: Annotated[int, Bounds(0, 10)] = 2
+    segmentation: Annotated[str, OneOf(strategy_names(Segmentation))] = "end_point_fit"
+    split_distance: Annotated[float, Bounds(1e-4, 10.0, "m")] = 0.08
+    wall_beams: Annotated[int, Bounds(2, 10_000)] = 5
+    wall_length: Annotated[float, Bounds(0.01, 100.0, "m")] = 0.2
+    merge_gap: Length = 0.3
+    merge_offset: Length = 0.015
     robust_fit: bool = False
-    confidence: float = 2.0
-    door_width_min: float = _DOOR.width_min
-    door_width_max: float = _DOOR.width_max
-    door_width_tolerance: float = _DOOR.width_tolerance
-    door_angle_tolerance: float = math.radians(4.0)
-    door_point_tolerance: float = 0.05
-    door_wall_gap: float = 0.4
-    door_depth: float = 0.15
-    door_clear_fraction: float = 0.4
-    door_recess: float = 0.2
-    door_shadow: float = 0.3
-    door_beams: int = 3
-    door_confidence_min: float = 0.6
+    confidence: Annotated[float, Bounds(0.0, 10.0)] = 2.0
+    door_width_min: Length = _DOOR.width_min
+    door_width_max: Length = _DOOR.width_max
+    door_width_tolerance: Length = _DOOR.width_tolerance
+    door_angle_tolerance: Annotated[float, Bounds(0.0, math.pi / 4, "rad")] = math.radians(4.0)
+    door_point_tolerance: Length = 0.05
+    door_wall_gap: Length = 0.4
+    door_depth: Length = 0.15
+    door_clear_fraction: Share = 0.4
+    door_recess: Length = 0.2
+    door_shadow: Length = 0.3
+    door_beams: Annotated[int, Bounds(1, 10_000)] = 3
+    door_confidence_min: Share = 0.6
     one_sided_doors: bool = True
     arcs: bool = True
-    arc_radius_min: float = 0.1
-    arc_radius_max: float = 10.0
-    arc_extent_min: float = math.radians(20.0)
-    arc_sagitta_min: float = 0.06
-    arc_beams: int = 8
-    arc_residual: float = 0.03
-    corner_angle: float = math.radians(50.0)
-    corner_gap: float = 0.3
-    corner_fuse: float = 0.1
-    corridor_probe: float = 2.5
-    corridor_wall_slack: float = 0.2
-    corridor_angle_tolerance: float = math.radians(30.0)
-    corridor_half_width: float = 0.3
-    corridor_distance_min: float = 0.5
-    corridor_distance_max: float = 6.0
+    arc_radius_min: Annotated[float, Bounds(0.01, 1000.0, "m")] = 0.1
+    arc_radius_max: Length = 10.0
+    arc_extent_min: Annotated[float, Bounds(math.radians(1.0), math.tau, "rad")] = math.radians(
+        20.0
+    )
+    arc_sagitta_min: Length = 0.06
+    arc_beams: Annotated[int, Bounds(4, 10_000)] = 8
+    arc_residual: Length = 0.03
+    corner_angle: Annotated[float, Bounds(math.radians(5.0), math.radians(175.0), "rad")] = (
+        math.radians(50.0)
+    )
+    corner_gap: Length = 0.3
+    corner_fuse: Length = 0.1
+    corridor_probe: Length = 2.5
+    corridor_wall_slack: Length = 0.2
+    corridor_angle_tolerance: Annotated[float, Bounds(0.0, math.pi / 2, "rad")] = math.radians(30.0)
+    corridor_half_width: Length = 0.3
+    corridor_distance_min: Length = 0.5
+    corridor_distance_max: Length = 6.0
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value, kind = getattr(self, field.name), str(field.type)
-            checked = _checked_name if kind == "str" else _checked_number
-            object.__setattr__(self, field.name, checked(field.name, value, kind))
-        for small, large in _ORDER:
-            if getattr(self, small) > getattr(self, large):
-                raise ValueError(
-                    f"{small} is {getattr(self, small)}; it must not exceed {large}, "
-                    f"which is {getattr(self, large)}"
-                )
+        check_fields(self)
+        require_order(self, *_ORDER)
 
     @property
     def door_rules(self) -> DoorRules:
@@ -197,63 +204,6 @@ def _recorded(name: str, value: float | str) -> float:
     return value if not isinstance(value, str) else _STRATEGIES[name][value.upper()]
 
 
-def _checked_name(name: str, value: object, kind: str) -> str:
-    names = strategy_names(_STRATEGIES[name])
-    if not isinstance(value, str) or value not in names:
-        raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(names)}")
-    return value
-
-
-def _checked_number(name: str, value: float, kind: str) -> float:
-    number = _number(name, value, kind)
-    low, high = _LIMITS.get(name, _LENGTH)
-    if not low <= number <= high:
-        raise ValueError(f"{name} is {number}; it must be from {low:g} to {high:g}")
-    return number
-
-
-def _number(name: str, value: float, kind: str) -> float:
-    if kind == "bool":
-        if not isinstance(value, (bool, np.bool_)):
-            raise ValueError(f"{name} is {value!r}; it must be True or False")
-        return bool(value)
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} is {value!r}; it must be a number") from None
-    if kind == "int":
-        if not math.isfinite(number) or number != math.floor(number):
-            raise ValueError(f"{name} is {value!r}; it must be a whole number")
-        return int(number)
-    return number
-
-
-_LENGTH = (0.0, 1000.0)
-_RIGHT_ANGLE = math.pi / 2
-_LIMITS = {
-    "rupture_range": (0.1, 1000.0),
-    "veil_angle": (0.0, _RIGHT_ANGLE / 2),
-    "median_beams": (0, 4),
-    "breakpoint_angle": (math.radians(0.1), _RIGHT_ANGLE),
-    "breakpoint_ratio": (0.0, 0.9),
-    "dropout_beams": (0, 10),
-    "split_distance": (1e-4, 10.0),
-    "wall_beams": (2, 10_000),
-    "wall_length": (0.01, 100.0),
-    "robust_fit": (0, 1),
-    "confidence": (0.0, 10.0),
-    "door_angle_tolerance": (0.0, _RIGHT_ANGLE / 2),
-    "door_clear_fraction": (0.0, 1.0),
-    "door_confidence_min": (0.0, 1.0),
-    "door_beams": (1, 10_000),
-    "one_sided_doors": (0, 1),
-    "arcs": (0, 1),
-    "arc_radius_min": (0.01, 1000.0),
-    "arc_extent_min": (math.radians(1.0), 2.0 * math.pi),
-    "arc_beams": (4, 10_000),
-    "corner_angle": (math.radians(5.0), math.radians(175.0)),
-    "corridor_angle_tolerance": (0.0, _RIGHT_ANGLE),
-}
 _ORDER = (
     ("door_width_min", "door_width_max"),
     ("merge_gap", "door_width_min"),
@@ -261,5 +211,5 @@ _ORDER = (
     ("corridor_distance_min", "corridor_distance_max"),
 )
 
-RECORD = np.dtype([(f.name, _RECORD_TYPES[str(f.type)]) for f in fields(ExtractorSettings)])
+RECORD = np.dtype([(f.name, _RECORD_TYPES[type(f.default)]) for f in fields(ExtractorSettings)])
 """The layout of `ExtractorSettings.as_record`."""

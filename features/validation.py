@@ -1,25 +1,60 @@
-"""Settings of the environment, looked at before anything is made of them."""
+"""Values that are looked at before anything is made of them, and the words of a refusal."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Set, Sized
 from numbers import Integral, Real
+from typing import Any
+
+import numpy as np
+
+SHOWN = 80
+"""Largest number of characters of a value that a message repeats."""
+
+
+def require(holds: object, name: str, value: object, right: str) -> None:
+    """Refuse a value if a condition on it does not hold.
+
+    Args:
+        holds: whether the value is right.
+        name: of the value.
+        value: for the message.
+        right: what would be right, in words that follow "it must be".
+
+    Raises:
+        ValueError: names the value and says what would be right.
+    """
+    if not holds:
+        raise ValueError(f"{name} is {shown(value)}; it must be {right}")
+
+
+def shown(value: object) -> str:
+    """A value for a message, which it never fills."""
+    try:
+        return clipped(repr(value))
+    except ValueError:  # Python writes no integer of more than some thousand digits
+        return f"a {type(value).__name__} that is too long to write"
+
+
+def clipped(text: str, most: int = SHOWN) -> str:
+    """A text for a message, cut to a number of characters."""
+    return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
 def check_kind(name: str, value: object, kind: type) -> None:
-    """Refuse a setting that is of another kind.
+    """Refuse a value that is of another kind.
 
     Args:
-        name: of the argument.
-        value: that was given for it.
+        name: of the value.
+        value: to look at.
         kind: what it must be an instance of.
 
     Raises:
         ValueError: it is something else; says what would be right.
     """
-    if not isinstance(value, kind):
-        right = f"{kind.__module__}.{kind.__qualname__}"
-        raise ValueError(f"{name} is {value!r:.80}; it must be a {right}")
+    known = "text" if kind is str else f"a {kind.__module__}.{kind.__qualname__}"
+    require(isinstance(value, kind), name, value, known)
 
 
 def check_count(name: str, value: object) -> None:
@@ -28,17 +63,28 @@ def check_count(name: str, value: object) -> None:
     Raises:
         ValueError: says what would be right.
     """
-    if isinstance(value, bool) or not isinstance(value, Integral) or value < 1:
-        raise ValueError(f"{name} is {value!r:.80}; it must be a whole number, at least 1")
+    whole = isinstance(value, Integral) and not isinstance(value, bool) and int(value) >= 1
+    require(whole, name, value, "a whole number, at least 1")
 
 
-def checked_seconds(max_seconds: object) -> float:
-    """A time limit, seconds.
+def finite_floats(values: object) -> tuple[float, ...] | None:
+    """A row of numbers as floats; None if it is no row, or one of them no finite number.
 
-    Raises:
-        ValueError: no number, or none that is positive and finite.
+    Texts, dates, booleans, complex numbers and masked entries are no numbers; sets and
+    dictionaries are no rows.
     """
-    check_kind("max_seconds", max_seconds, Real)
-    if not 0 < (seconds := float(max_seconds)) < math.inf:  # type: ignore[arg-type]
-        raise ValueError(f"max_seconds is {max_seconds!r}; it must be positive and finite")
-    return seconds
+    if type(values) is tuple and all(type(each) is float for each in values):
+        return values if all(map(math.isfinite, values)) else None
+    if np.ma.is_masked(values):
+        return None
+    if hasattr(values, "__array__"):
+        values = np.asarray(values)
+    if not isinstance(values, Sized) or isinstance(values, str | bytes | Set | Mapping):
+        return None
+    try:
+        given: tuple[Any, ...] = tuple(values)  # type: ignore[arg-type]
+        numbers = tuple(map(float, given))
+    except (TypeError, ValueError, OverflowError):
+        return None
+    known = all(isinstance(each, Real) and not isinstance(each, bool | np.bool_) for each in given)
+    return numbers if known and all(map(math.isfinite, numbers)) else None

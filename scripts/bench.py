@@ -10,7 +10,8 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from semnav_env.bench.suite import benchmark, growth
+from semnav_env.bench.suite import benchmark, growth, starting
+from semnav_env.bench.timing import Timing
 from semnav_env.features.validation import check_count
 from semnav_env.maps import load_floor_plan
 
@@ -28,6 +29,8 @@ class Arguments:
         robots: number of robots in the vector environment.
         threads: most threads to drive them in.
         growth: time instead how a step grows with the building, the beams and the robots.
+        start: time instead how long processes take that import, ground, or make an environment.
+        cold: with --start, also compile all kernels into an empty folder, about a minute.
         runs: number of timings of each part, of which the median is shown.
         steps: number of calls in a timing.
         json: print as JSON.
@@ -39,6 +42,8 @@ class Arguments:
     robots: int = 64
     threads: int = min(2, os.cpu_count() or 1)
     growth: bool = False
+    start: bool = False
+    cold: bool = False
     runs: int = 9
     steps: int = 2000
     json: bool = False
@@ -47,20 +52,39 @@ class Arguments:
         """Measure and print."""
         for name in ("robots", "threads", "runs", "steps"):
             check_count(name, getattr(self, name))
-        plan = load_floor_plan(self.map)
-        kind: dict[str, Any] = {"robot": self.robot, "observation": self.observation}
-        if self.growth:
-            found = growth(plan, self.threads, self.runs, self.steps, **kind)
-        else:
-            counts = (self.robots, self.threads, self.runs, self.steps)
-            found = benchmark(*counts, floor_plan=plan, **kind)
+        if self.cold and not self.start:
+            raise ValueError("--cold is for --start; give both")
+        found = self._measured()
         if self.json:
             rows = [{**asdict(timing), "per_second": timing.per_second} for timing in found]
             print(json.dumps(rows))
             return 0
-        table = Table("part", "microseconds", "per second", "times as fast as brute force")
+        table = Table("part", "microseconds", "per second", "takes, in brute-force scans")
         for t in found:
-            numbers = (f"{t.microseconds:.1f}", f"{t.per_second:,.0f}", f"{t.ratio:.1f}")
+            numbers = (f"{t.microseconds:,.1f}", _rate(t.per_second), _in_scans(t.ratio))
             table.add_row(t.name, *numbers)
         Console().print(table)
         return 0
+
+    def _measured(self) -> list[Timing]:
+        if self.start:
+            return starting(self.runs, self.cold)
+        plan = load_floor_plan(self.map)
+        kind: dict[str, Any] = {"robot": self.robot, "observation": self.observation}
+        if self.growth:
+            return growth(plan, self.threads, self.runs, self.steps, **kind)
+        counts = (self.robots, self.threads, self.runs, self.steps)
+        return benchmark(*counts, floor_plan=plan, **kind)
+
+
+def _rate(per_second: float) -> str:
+    return f"{per_second:,.0f}" if per_second >= 10.0 else f"{per_second:.2g}"
+
+
+def _in_scans(ratio: float) -> str:
+    """How long a part takes: "1/20" of a brute-force scan, or "1.7" of them.
+
+    Args:
+        ratio: how often it is done while the scan is done once.
+    """
+    return f"1/{ratio:,.1f}" if ratio > 1.0 else f"{1.0 / ratio:,.1f}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,18 +11,25 @@ import numpy as np
 from numpy.typing import NDArray
 from tyro.conf import Positional, arg
 
-from semnav_env.agents.base import steps
+from semnav_env.agents.base import Agent, steps
 from semnav_env.agents.registry import make_agent
-from semnav_env.commands import parse
+from semnav_env.commands import SearchHouse, parse
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.dynamics.social import for_json
 from semnav_env.env import SemNavEnv
+from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
 
+DEFAULT_MAP = "heidelberg_hallway"
+"""The floor plan where none is named."""
+
 STEPS_PER_FRAME = 3
 """Steps of the environment for each frame of a film: 5 frames a second are enough to follow it."""
+
+STEPS_PER_SEARCH_FRAME = 60
+"""The same for a search, which takes minutes: the film is twenty times as fast."""
 
 
 @dataclass(frozen=True)
@@ -34,11 +41,13 @@ class Arguments:
 
     Attributes:
         command: what to say to the robot.
-        map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
+        map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path;
+            heidelberg_hallway if not given, for a search a generated house.
         language: of the command: en or de (english, german).
         robot: wheelchair or spot.
-        agent: scripted, oracle, quick, office (trained ones), the folder of a trained agent, or
-            package.module:Class.
+        agent: scripted, oracle, blind, random, quick, office (trained ones), the folder of a
+            trained agent, or package.module:Class; searcher (knows the plan) or explorer for a
+            search. If not given: scripted, for a search searcher.
         pose: where the robot starts, x,y,heading in metres and radians; random if not given.
         seed: of everything that is random.
         dynamics: what else moves.
@@ -49,10 +58,10 @@ class Arguments:
     """
 
     command: Positional[str]
-    map: str = "heidelberg_hallway"
+    map: str | None = None
     language: str = "en"
     robot: str = "wheelchair"
-    agent: str = "scripted"
+    agent: str | None = None
     pose: str | None = None
     seed: int = 0
     dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
@@ -66,17 +75,13 @@ class Arguments:
         if self.seed < 0:
             raise ValueError(f"seed is {self.seed}; it must be 0 or more")
         self._check_files()
-        agent = make_agent(self.agent)
+        plan = load_floor_plan(self.map or DEFAULT_MAP)
+        command = parse(self.command, self.language, plan.room_names)
+        searches = SearchHouse() in command.clauses
+        agent = make_agent(self.agent or ("searcher" if searches else "scripted"))
         filmed = self.save is not None or self.picture is not None
-        mode = "human" if self.show else "rgb_array" if filmed else None
-        env = SemNavEnv(
-            self.robot,
-            self.map,
-            observation=agent.observation,
-            dynamics=self.dynamics,
-            render_mode=mode,
-        )
-        command = parse(self.command, self.language, env.floor_plan.room_names)
+        env = self._environment(plan, agent, searches, filmed)
+        frames_apart = STEPS_PER_SEARCH_FRAME if searches else STEPS_PER_FRAME
         options: dict[str, Any] = {"command": command}
         if self.pose is not None:
             options["pose"] = parse_pose(self.pose)
@@ -88,12 +93,35 @@ class Arguments:
         )
         for number, step in enumerate(driven):
             info = step.info
-            if filmed and (number % STEPS_PER_FRAME == 0 or "is_success" in info):
+            if filmed and (number % frames_apart == 0 or "is_success" in info):
                 frames.append(env.render())  # type: ignore[arg-type]
         env.close()
         self._save(frames, env.metadata["render_fps"] / STEPS_PER_FRAME)
         self._report(start, info, env.seconds, for_json(env.world.social()))
         return 0 if info["is_success"] else 1
+
+    def _environment(
+        self, plan: FloorPlan, agent: Agent, searches: bool, filmed: bool
+    ) -> SemNavEnv:
+        """The environment for a command: that of a search has a person detector and victims."""
+        mode = "human" if self.show else "rgb_array" if filmed else None
+        if not searches:
+            return SemNavEnv(
+                self.robot,
+                plan,
+                observation=agent.observation,
+                dynamics=self.dynamics,
+                render_mode=mode,
+            )
+        from semnav_env.rescue.environment import VICTIMS, search_and_rescue
+
+        return search_and_rescue(
+            observation=agent.observation,
+            robot=self.robot,
+            floor_plan=plan if self.map else f"office:house:{self.seed}",
+            dynamics=replace(self.dynamics, victims=self.dynamics.victims or VICTIMS),
+            render_mode=mode,
+        )
 
     def _check_files(self) -> None:
         """Refuse bad paths before the drive, which takes a while."""
@@ -130,6 +158,7 @@ class Arguments:
             "path_length": round(info["path_length"], 3),
             "route_length": round(info["route_length"], 3),
             **social,
+            **({"search": info["search"]} if "search" in info else {}),
             "files": [str(path) for path in (self.save, self.picture) if path is not None],
         }
         if self.json:
@@ -142,7 +171,18 @@ class Arguments:
             f'"{start["command"]}": {verdict} after {seconds:.1f} s and '
             f"{info['path_length']:.1f} m, {info['collisions']} collisions"
         )
+        if "search" in outcome:
+            print(_found(outcome["search"]))
         if outcome["impossible"]:
             print(f"the robot took it for impossible: {outcome['impossible']}")
         for path in outcome["files"]:
             print(f"wrote {path}")
+
+
+def _found(search: dict[str, Any]) -> str:
+    """What became of a search, in one line."""
+    return (
+        f"{search['found']} of {search['victims']} people found, "
+        f"{search['false_reports']} false reports, "
+        f"least covered room {100 * search['least_coverage']:.0f} %"
+    )

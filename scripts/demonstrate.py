@@ -5,10 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
+import gymnasium as gym
 from tyro.conf import Positional
 
-from semnav_env.agents.demonstrations import Demonstration, DemonstrationFile, demonstrate
+from semnav_env.agents.demonstration_file import DemonstrationFile
+from semnav_env.agents.demonstrations import Demonstration, demonstrate
+from semnav_env.agents.expert import Expert
 from semnav_env.agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Expected, evenly, load_episodes
@@ -24,8 +28,12 @@ class Arguments:
     Attributes:
         split: a split (`semnav episodes list`), or a file of episodes.
         out: name of the dataset, such as semnav/train-scripted-v0, or a new folder.
-        agent: scripted, oracle, quick, office (trained ones), the folder of a trained agent, or
-            package.module:Class.
+        agent: scripted, oracle, blind, random, quick, office (trained ones), the folder of a
+            trained agent, or package.module:Class.
+        observation: what is recorded: semantic, raw, truth, all or command; the agent's own if not
+            given.
+        rounds: round observations to a millimetre, which takes far less room.
+        labels: record what the oracle would do as well, in every state, as DAgger needs it.
         robot: wheelchair or spot.
         episodes: number of episodes, evenly spaced; all if not given.
         failures: keep failed episodes as well.
@@ -36,6 +44,9 @@ class Arguments:
     split: Positional[str]
     out: str
     agent: str = "scripted"
+    observation: str | None = None
+    rounds: bool = False
+    labels: bool = False
     robot: str = "wheelchair"
     episodes: int | None = None
     failures: bool = False
@@ -51,10 +62,15 @@ class Arguments:
             raise ValueError(f"{self.split} has commands that cannot be carried out; give another")
         chosen = episodes if self.episodes is None else evenly(episodes, self.episodes)
         agent = make_agent(self.agent)
-        env = SemNavEnv(self.robot, observation=agent.observation, max_seconds=self.max_seconds)
-        file = DemonstrationFile(self.out, env, self.agent)
+        seen = agent.observation
+        env = self._env(seen)
+        shown = env if self.observation in (None, seen) else self._env(self.observation)
+        file = DemonstrationFile(self.out, shown, self.agent, self.rounds)
         kept: list[bool] = []
-        demonstrations: Iterator[Demonstration] = (demonstrate(env, agent, e) for e in chosen)
+        others = None if shown is env else shown, Expert() if self.labels else None
+        demonstrations: Iterator[Demonstration] = (
+            demonstrate(env, agent, each, *others) for each in chosen
+        )
         for each in tracked(
             demonstrations, lambda n: f"{n} episodes", lambda: len(kept) / len(chosen)
         ):
@@ -69,3 +85,15 @@ class Arguments:
         else:
             print(f"drove {len(kept)} episodes, kept {count} in {file.folder}")
         return 0
+
+    def _env(self, observation: Any) -> SemNavEnv:
+        """An environment that says how it was made, for the dataset's specification."""
+        made = gym.make(
+            "semnav_env:SemNav-v0",
+            robot=self.robot,
+            observation=observation,
+            episodes=self.split,
+            max_seconds=self.max_seconds,
+        ).unwrapped
+        assert isinstance(made, SemNavEnv)
+        return made

@@ -75,7 +75,6 @@ class Arguments:
         if self.plot is not None:
             from semnav_env.routes.draw import save_routes
 
-            self.plot.parent.mkdir(parents=True, exist_ok=True)
             save_routes(floor_plan, [(route, said)], self.plot)
         door = door_of(plan_goals(floor_plan, command, start)[-1])
         if self.json:

@@ -7,14 +7,22 @@ and what would be right; 130 interrupted.
 from __future__ import annotations
 
 import difflib
+import errno
 import os
+import signal
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module, metadata
 
+from semnav_env.features.validation import clipped
+
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO)
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
 """Exit codes; the last two are those of a shell for SIGINT and SIGPIPE."""
+
+LONGEST_LINE = 1000
+"""Largest number of characters of an error that are shown."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +33,7 @@ class CommandTable:
         prog: name of the command.
         about: one sentence that says what it is for.
         commands: module and help of each sub-command, by its name. The module's `Arguments` have
-            `run() -> int`.
+            `run() -> int`; or its `COMMANDS` are a table of further sub-commands.
     """
 
     prog: str
@@ -64,6 +72,8 @@ class CommandTable:
         if not words:
             raise ValueError(f"no command given; there are: {known} ({self.prog} --help)")
         name, *rest = words
+        if rest and f"{name} {rest[0]}" in self.commands:
+            name, rest = f"{name} {rest[0]}", rest[1:]
         if name in ("-h", "--help"):
             print(self._help())
             return 0
@@ -74,13 +84,16 @@ class CommandTable:
             near = difflib.get_close_matches(name, self.commands, n=1)
             hint = f"did you mean {near[0]!r}? " if near else ""
             raise ValueError(f"no command {name!r}; {hint}there are: {known}")
+        module = import_module(self.commands[name][0])
+        if isinstance(further := getattr(module, "COMMANDS", None), CommandTable):
+            return further._run(rest)
         from semnav_env.scripts.arguments import HelpShown, parse
 
-        module = import_module(self.commands[name][0])
         try:
             command = parse(module.Arguments, rest, prog=f"{self.prog} {name}")
         except HelpShown:
             return 0
+        _end_loading()
         return command.run()
 
     def _help(self) -> str:
@@ -94,13 +107,24 @@ class CommandTable:
         )
 
 
+def _end_loading() -> None:
+    """From here on Ctrl-C is an exception, so that a command can put away what it has begun."""
+    if getattr(signal.getsignal(signal.SIGINT), "__name__", "") == "leave_at_once":
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def in_one_line(error: Exception) -> str:
-    """What an error says, in one line that a user understands."""
+    """What an error says, in one line that a user understands, of `LONGEST_LINE` at most."""
+    return clipped(_first_line(error), LONGEST_LINE)
+
+
+def _first_line(error: Exception) -> str:
     if isinstance(error, FileExistsError):
         return f"{os.fspath(error.filename)!r} is a file, not a folder"
     if isinstance(error, OSError) and error.strerror:
         where = f" {os.fspath(error.filename)!r}" if error.filename else ""
-        return f"cannot open{where}: {error.strerror}"
+        what = "write" if error.errno in _NO_ROOM else "open"
+        return f"cannot {what}{where}: {error.strerror}"
     if isinstance(error, ModuleNotFoundError) and not str(error.name).startswith("semnav_env"):
         return f"{error.name} is not installed; `semnav doctor` says what to install"
     lines = str(error).strip().splitlines()

@@ -70,7 +70,6 @@ class Arguments:
                 damage = error
         written = [self.out] if self.out and tally.scenes else []
         if self.plot and tally.scenes:
-            self.plot.parent.mkdir(parents=True, exist_ok=True)
             save_page(self.plot, page.items())
             written.append(self.plot)
         if self.json:

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
+from semnav_env.features.writing import discard, naming, part_of, put_in_place
 from semnav_env.scripts.outputs import counted
 
 
@@ -28,12 +29,9 @@ class JsonLines:
 
     def __init__(self, path: Path) -> None:
         self.path = path.resolve()
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        if self.path.is_dir():
-            raise IsADirectoryError(errno.EISDIR, "it is a folder; give a file", str(path))
-        special = self.path.exists() and not self.path.is_file()
-        self._part = self.path if special else self.path.with_name(self.path.name + ".part")
-        self._file = open(self._part, "wb", buffering=0)  # noqa: SIM115 - closed by __exit__
+        with naming(self.path):
+            self._part = part_of(self.path, f"{self.path.name}.part")
+            self._file = open(self._part, "wb", buffering=0)  # noqa: SIM115 - closed by __exit__
         self._lines = 0
 
     def write(self, document: dict[str, Any]) -> None:
@@ -44,7 +42,9 @@ class JsonLines:
             OSError: the disk is full.
         """
         line = json.dumps(document, allow_nan=False).encode() + b"\n"
-        if (written := self._file.write(line)) != len(line):
+        with naming(self.path):
+            written = self._file.write(line)
+        if written != len(line):
             self._file.truncate(self._file.tell() - written)
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(self.path))
         self._lines += 1
@@ -61,10 +61,10 @@ class JsonLines:
     ) -> None:
         """Put the file in its place."""
         self._file.close()
-        if self._part != self.path:
-            if self._lines or error is None:
-                os.replace(self._part, self.path)
-                if error is not None:
-                    error.add_note(f"'{self.path}' holds the {counted(self._lines, 'line')} so far")
-            else:
-                self._part.unlink()
+        if not self._lines and error is not None:
+            discard(self._part, self.path)
+            return
+        with naming(self.path):
+            put_in_place(self._part, self.path)
+        if error is not None and self._part != self.path:
+            error.add_note(f"'{self.path}' holds the {counted(self._lines, 'line')} so far")

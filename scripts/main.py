@@ -10,17 +10,19 @@ SEMNAV = CommandTable(
     "semnav",
     "Semantic indoor navigation: see, understand, drive.",
     {
-        name: (f"semnav_env.scripts.{name}", help)
+        name: (f"semnav_env.scripts.{name.replace(' ', '_')}", help)
         for name, help in {
             "extract": "turn a log of lidar scans into walls, doors, corners and corridors",
             "map": "list, show, check, generate, build, import and export floor plans",
             "demo": "let a robot carry out a command",
             "follow": "follow a command on a recorded log, as a robot would",
             "ground": "say what a command refers to in a floor plan",
+            "approach": "plan the pose before a door from which a robot can pass it",
             "describe": "say the command that leads to a door or a room",
             "demonstrate": "write what an agent sees and does as a dataset",
             "episodes": "list, check and generate the frozen episodes, import others",
             "evaluate": "measure an agent on a suite of commands",
+            "evaluate language": "count how much of people's commands is understood",
             "train": "teach an agent, and keep what it learned",
             "bench": "time a step of the environment and its parts",
             "doctor": "check the installation, and say how to mend it",

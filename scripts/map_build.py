@@ -29,7 +29,7 @@ from semnav_env.scripts.progress import tracked
 
 
 @dataclass(frozen=True)
-class MapBuild:
+class Arguments:
     """Build a floor plan of walls and doors from a log of lidar scans.
 
     It reads the same logs as `semnav extract`. A log that is cut short is mapped up to its last
@@ -94,12 +94,10 @@ class MapBuild:
             line_map.add(extract(record.scan, self.settings), record.scan, pose)
 
     def _write(self, plan: FloorPlan, line_map: LineMap) -> None:
-        self.out.parent.mkdir(parents=True, exist_ok=True)
         save_floor_plan(plan, self.out)
         if self.picture:
             from semnav_env.maps.draw import save_picture
 
-            self.picture.parent.mkdir(parents=True, exist_ok=True)
             save_picture(plan, self.picture)
         counts = {
             "scans": line_map.scans,

@@ -15,7 +15,7 @@ from semnav_env.robots import robot_spec
 
 
 @dataclass(frozen=True)
-class MapCheck:
+class Arguments:
     """Say what is wrong with a floor plan; the exit code is 1 if anything is.
 
     Attributes:
@@ -39,7 +39,6 @@ class MapCheck:
         if self.plot:
             from semnav_env.maps.draw import save_picture
 
-            self.plot.parent.mkdir(parents=True, exist_ok=True)
             save_picture(plan, self.plot, faults=faults)
         if self.json:
             rows = [asdict(fault) for fault in faults]

@@ -14,7 +14,7 @@ from semnav_env.maps.occupancy_export import export_map
 
 
 @dataclass(frozen=True)
-class MapExport:
+class Arguments:
     """Write a floor plan as a map of ROS's map_server.
 
     Beside the YAML file and its image it writes doors.yaml and locations.yaml, from which `semnav

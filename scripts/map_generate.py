@@ -12,7 +12,7 @@ from semnav_env.scripts.outputs import counted
 
 
 @dataclass(frozen=True)
-class MapGenerate:
+class Arguments:
     """Generate an office; the same distribution and seed always give the same one.
 
     Attributes:
@@ -35,8 +35,6 @@ class MapGenerate:
             check_suffix(self.plot)
         plan = generate_office(self.seed, self.distribution)
         written = [path for path in (self.out, self.plot) if path is not None]
-        for path in written:
-            path.parent.mkdir(parents=True, exist_ok=True)
         if self.out:
             save_floor_plan(plan, self.out)
         if self.plot:

@@ -15,7 +15,7 @@ from semnav_env.maps.importers import Drawing, Tracing, import_map
 
 
 @dataclass(frozen=True)
-class MapImport:
+class Arguments:
     """Make a floor plan from a map of another program, and say what was understood of it.
 
     It reads maps of ROS's map_server (.yaml, with doors.yaml and locations.yaml beside it if they
@@ -47,12 +47,10 @@ class MapImport:
         if self.picture:
             check_suffix(self.picture)
         plan, report = import_map(self.source, self.resolution, self.tracing, self.drawing)
-        self.out.parent.mkdir(parents=True, exist_ok=True)
         save_floor_plan(plan, self.out)
         if self.picture:
             from semnav_env.maps.draw import save_picture
 
-            self.picture.parent.mkdir(parents=True, exist_ok=True)
             save_picture(plan, self.picture)
         if self.json:
             print(json.dumps({**asdict(report), "out": str(self.out)}))

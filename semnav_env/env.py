@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -13,20 +12,25 @@ from semnav_env.belief import Belief, BeliefTracker
 from semnav_env.commands import encode
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics, PlanSource
 from semnav_env.features import ExtractorSettings
+from semnav_env.features.checked_fields import Seconds, checked
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
-from semnav_env.features.validation import check_kind, checked_seconds
+from semnav_env.features.validation import check_kind
+from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
 from semnav_env.maps import FloorPlan
 from semnav_env.observations import Moment, ObservationType, as_observation
 from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.robots.actions import Actions
 from semnav_env.rules import Rules, with_doors_of
-from semnav_env.simulator import OdometrySettings, RobotSetup, Simulator
+from semnav_env.simulator import OdometrySettings, RobotSetup, Simulator, odometry_settings
 from semnav_env.verifier import Mission
 from semnav_env.world import World
 
+if TYPE_CHECKING:
+    from semnav_env.payload import Payload
 
-class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
+
+class SemNavEnv(GymnasiumEnv[Any]):
     """A robot in an office carries out a spoken-style command.
 
     ## Description
@@ -48,16 +52,15 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
 
     - walls, doors, corners, corridors: features of this scan.
     - remembered_doors, bumps: remembered doors that count; walls bumped into unseen.
-    - NAME_mask: which rows of each of these count.
-    - command: as tokens, see `commands.encode`; clause: which one the robot believes to be
-      under way, one-hot.
-    - odometry: believed pose and velocity; goal: where to drive now, its kind, pose and door.
+    - command: as tokens, see `commands.encode`; clause: which one the robot believes to be under
+      way; odometry: believed pose and velocity; goal: where to drive now.
     - scan: ranges; no return reads as the lidar's range.
 
-    `semnav_env.observations.layout` declares size, columns, bounds, unit and meaning of each.
+    `semnav_env.observations.layout` declares each, and NAME_mask tells which of its rows count.
     `observation="semantic"` has all but the scan; `"raw"` has scan, command, clause and odometry;
-    `"all"` has everything; `"truth"` has the entries of "semantic" without errors: features from an
+    `"all"` has these all; `"truth"` has the entries of "semantic" without errors: features from an
     exact scan, the true pose in the world as odometry, and the goal grounded on the floor plan.
+    `"command"` is for who is to hear the command: no goal and no clause, but what is remembered.
     An object with `space(robot, lidar)` and `observe(moment)` makes observations of its own;
     `EntryObservation(mode, extra)` adds entries to a mode.
 
@@ -81,34 +84,36 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     ## Arguments
     robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a `FloorPlan`.
     observation: a mode, see above, or an observation type. lidar: "tim561", "barbret" or a
-    `LidarSpec`; its rate is the control rate. odometry: how dead reckoning errs. extractor: limits
-    of the feature extractor. corrects_drift: whether walls that are seen again correct odometry.
-    rules: what a door is, how words are grounded, and what success is; robot and judge follow the
-    same. rewards: `RewardWeights`, or an object with `terms(tick)`. dynamics: what else moves.
-    task: a command, a list of commands, or a `Task`: what episodes are asked to be. episodes: to
-    draw from instead: the name of a split, a file, or `Episode`s. max_seconds: of simulated time.
-    render_mode: "rgb_array" or "human" (extra `render`).
+    `LidarSpec`; its rate is the control rate. odometry: how dead reckoning errs: "usual",
+    "exact", "wheelchair", "spot" or an `OdometrySettings`. extractor: its limits. corrects_drift:
+    whether walls that are seen again correct odometry. rules: what a door is, how words are
+    grounded, and what success is; robot and judge follow the same. rewards: `RewardWeights`, or
+    an object with `terms(tick)`. dynamics: what else moves. payload: a
+    `Payload`, such as the person detector of a search. task: a command, a list of commands,
+    or a `Task`: what episodes are asked to be. episodes: to draw from instead: the name of a split,
+    a file, or `Episode`s. max_seconds: of simulated time. render_mode: "rgb_array" or "human"
+    (extra `render`).
 
-    ## Vectorized Environment
-    `SemNavVectorEnv`, by `gymnasium.make_vec(..., vectorization_mode="vector_entry_point")`.
-
-    ## Version History
-    v0: first version. References: see CITATION.cff.
+    ## Vectorized Environment, Version History, References
+    `gymnasium.make_vec(..., vectorization_mode="vector_entry_point")`; v0 is the first version; see
+    CITATION.cff.
     """
 
     metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 15}  # noqa: RUF012
 
+    @takes_plain_settings
     def __init__(
         self,
         robot: str | RobotSpec = "wheelchair",
         floor_plan: str | FloorPlan = "heidelberg_hallway",
         observation: str | ObservationType = "semantic",
         lidar: str | LidarSpec = "tim561",
-        odometry: OdometrySettings = OdometrySettings(),
+        odometry: str | OdometrySettings = "usual",
         extractor: ExtractorSettings = ExtractorSettings(),
         corrects_drift: bool = True,
         rewards: tasks.Rewards = tasks.RewardWeights(),
         dynamics: Dynamics = NO_DYNAMICS,
+        payload: Payload | None = None,
         task: object = None,
         episodes: tasks.Episodes | None = None,
         rules: Rules = Rules(),
@@ -117,18 +122,19 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ValueError(f"no render mode {render_mode!r}; there are: rgb_array, human")
-        check_kind("odometry", odometry, OdometrySettings)
         check_kind("extractor", extractor, ExtractorSettings)
         check_kind("rules", rules, Rules)
         self.rules, self.extractor = with_doors_of(rules, extractor)
         self.corrects_drift, self.rewards = corrects_drift, tasks.as_rewards(rewards)
+        self.payload = None if payload is None else _checked_payload(payload)
         self.episode_source = tasks.EpisodeSource(task, episodes)
         self.observation_type = as_observation(observation)
         exact = bool(getattr(self.observation_type, "exact", False))
-        self.usual = RobotSetup(robot_spec(robot), lidar_spec(lidar), odometry, exact)
-        self.max_steps = round(checked_seconds(max_seconds) * self.usual.control_hz)
+        sensors = lidar_spec(lidar), odometry_settings(odometry)
+        self.usual = RobotSetup(robot_spec(robot), *sensors, exact)
+        self.max_steps = round(checked("max_seconds", max_seconds, Seconds) * self.usual.control_hz)
         self.render_mode = render_mode
-        self.metadata = self.metadata | {"render_fps": self.usual.control_hz}
+        self.metadata = self.metadata | {"render_fps": max(1, round(self.usual.control_hz))}
         self.plan_source = PlanSource(floor_plan, dynamics, self.usual.robot)
         self._enter(self.plan_source.plan(), self.usual)
         self.action_space = self._actions.space
@@ -153,11 +159,15 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             self._enter(floor_plan, setup)
         mission = self._missions.make(request, self.np_random)
         sensed = self.simulator.reset(mission.start, self.np_random)
-        self._begin(mission)
+        info = mission.info | setup.info | request.info
+        self._begin(mission, info["instruction"])
         self.tracker.update(*sensed[:4])
+        if self.payload is not None:
+            self.payload.begin(self.floor_plan, self.setup, mission.start, self.np_random)
+            self.payload.update(sensed.motion, self.tracker)
+            info |= self.payload.start_info()
         self._started = True
-        specs = {"robot": vars(self.robot).copy(), "lidar": vars(self.lidar_spec).copy()}
-        return self.observe(), mission.info | specs | request.info
+        return self.observe(), info
 
     def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Drive for one control period.
@@ -166,13 +176,15 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             ValueError: the action is not finite or has another shape.
             RuntimeError: before the first `reset`.
         """
-        if not self._started:
-            raise RuntimeError("call reset() before step()")
+        self._require_reset("step")
         sensed = self.simulator.step(self._actions.twist(action))
         motion = sensed.motion
         belief = self.tracker.update(*sensed[:4])
+        if self.payload is not None:
+            self.payload.update(motion, self.tracker)
         judgement = self.judge.update(motion)
-        terms = self.rewards.terms(tasks.Tick(*judgement, motion, belief, np.asarray(action)))
+        tick = tasks.Tick(*judgement, motion, belief, np.asarray(action), self.payload)
+        terms = self.rewards.terms(tick)
         terminated = self.judge.verifier.over
         truncated = not terminated and self.simulator.steps >= self.max_steps
         ended = self.conclude(truncated) if terminated or truncated else {}
@@ -182,17 +194,24 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
 
     def observe(self) -> Any:
         """A fresh observation from where the robot is now."""
-        moment = Moment(self.belief, self.tracker, self.tracker.command, self.tokens)
+        told = self.tracker.command, self.tokens, self.simulator.see, self.instruction
+        moment = Moment(self.belief, self.tracker, *told, self.payload)
         return self.observation_type.observe(moment)
 
     def conclude(self, truncated: bool) -> dict[str, Any]:
         """End the episode; returns what `info` says at its end."""
         ended = self.judge.conclude(truncated) | self.world.social()
         self.episode_source.note(ended["is_success"])
+        ended |= {} if self.payload is None else self.payload.final_info()
         return ended | {"impossible": self.belief.impossible}
 
     def render(self) -> NDArray[np.uint8] | None:
-        """The picture, shape (height, width, 3), or a window in "human" mode."""
+        """The picture, shape (height, width, 3), or a window in "human" mode.
+
+        Raises:
+            RuntimeError: before the first `reset`.
+        """
+        self._require_reset("render")
         return self.renderer.draw(self)
 
     def close(self) -> None:
@@ -224,6 +243,10 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
         """Simulated time since the start of the episode."""
         return self.simulator.steps / self.setup.control_hz
 
+    def _require_reset(self, name: str) -> None:
+        if not self._started:
+            raise RuntimeError(f"call reset() before {name}()")
+
     def _enter(self, floor_plan: FloorPlan, setup: RobotSetup) -> None:
         """Set everything up that belongs to one floor plan and one robot."""
         self.floor_plan, self.setup = floor_plan, setup
@@ -240,10 +263,16 @@ class SemNavEnv(gym.Env[Any, NDArray[np.float32]]):
             rules=self.rules,
         )
 
-    def _begin(self, mission: Mission) -> None:
+    def _begin(self, mission: Mission, instruction: str) -> None:
         """Give a mission to the judge, and its command to the robot."""
-        self.judge = tasks.EpisodeJudge(mission)
+        self.judge, self.instruction = tasks.EpisodeJudge(mission, self.payload), instruction
         self.tokens = encode(mission.command, self.floor_plan.room_names)
         odometry_frame = (0.0, 0.0, 0.0) if self.setup.exact else mission.start
         self.tracker.begin(mission.command, mission.ways_seen_from(odometry_frame))
         self.renderer.begin(mission.start)
+
+
+def _checked_payload(payload: object) -> Payload:
+    from semnav_env.payload import checked_payload  # most robots carry none
+
+    return checked_payload(payload)

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import Annotated
 
+from semnav_env.features.checked_fields import Angle, Bounds, Count, Length, Share, check_fields
 from semnav_env.features.rules import DoorRules
 from semnav_env.features.settings import ExtractorSettings
 
@@ -80,41 +82,44 @@ class GroundingRules:
             so that it aims well inside what the judge accepts.
     """
 
-    stand_off: float = 0.9
-    doorway_exit: float = 1.0
-    look_ahead: float = 4.0
-    end_margin: float = 1.0
-    lookout_distance: float = 0.45
-    inspection_angle: float = math.radians(40.0)
-    door_offset: float = 0.25
-    end_door_offset: float = 0.6
-    abreast_distance: float = 0.3
-    behind_angle: float = math.radians(6.0)
-    corridor_width: float = 3.0
-    same_door_distance: float = 0.5
-    other_wall_distance: float = 0.3
-    leading_out_depth: float = 1.0
-    sightings_ratio: float = 4.0
-    doorway_depth: float = 0.25
-    opposite_door_distance: float = 8.0
-    opposite_robot_distance: float = 5.0
-    across_distance: float = 0.5
-    lookout_step: float = 1.0
-    arm_depth: float = 1.0
-    junction_ahead: float = 0.5
-    before_door: float = 0.3
-    behind_referent: float = 0.3
-    beside_doorway: float = 0.5
-    faced_door_distance: float = 2.0
-    way_door_depth: float = 1.5
-    way_door_offset: float = 1.0
-    way_door_angle: float = math.radians(30.0)
-    way_door_passed: float = 0.5
-    places_ahead: int = 2
-    way_drift: float = 1.5
-    straight_way_angle: float = 0.6
-    jamb_margin: float = 0.3
-    care: float = 0.5
+    stand_off: Length = 0.9
+    doorway_exit: Length = 1.0
+    look_ahead: Length = 4.0
+    end_margin: Length = 1.0
+    lookout_distance: Length = 0.45
+    inspection_angle: Angle = math.radians(40.0)
+    door_offset: Length = 0.25
+    end_door_offset: Length = 0.6
+    abreast_distance: Length = 0.3
+    behind_angle: Angle = math.radians(6.0)
+    corridor_width: Length = 3.0
+    same_door_distance: Length = 0.5
+    other_wall_distance: Length = 0.3
+    leading_out_depth: Length = 1.0
+    sightings_ratio: Annotated[float, Bounds(1.0, 1e6)] = 4.0
+    doorway_depth: Length = 0.25
+    opposite_door_distance: Length = 8.0
+    opposite_robot_distance: Length = 5.0
+    across_distance: Length = 0.5
+    lookout_step: Length = 1.0
+    arm_depth: Length = 1.0
+    junction_ahead: Length = 0.5
+    before_door: Length = 0.3
+    behind_referent: Length = 0.3
+    beside_doorway: Length = 0.5
+    faced_door_distance: Length = 2.0
+    way_door_depth: Length = 1.5
+    way_door_offset: Length = 1.0
+    way_door_angle: Angle = math.radians(30.0)
+    way_door_passed: Length = 0.5
+    places_ahead: Count = 2
+    way_drift: Length = 1.5
+    straight_way_angle: Angle = 0.6
+    jamb_margin: Length = 0.3
+    care: Share = 0.5
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
     @property
     def seen_end_distance(self) -> float:
@@ -148,6 +153,9 @@ class SuccessRules:
         still_seconds: longest time of standing still, beyond what a clause asks for, seconds.
         final_still_seconds: standing still for longer when time runs out is stopping short,
             seconds.
+        search_rest_seconds: a robot that has not moved from its place for so long during a search
+            says that it has finished, seconds: longer than it takes to look all around and to plan
+            anew where no way leads on.
         wrong_arm_depth: a robot farther inside an arm that the clause does not name has taken a
             wrong turn, metres: its body has left the corridor.
         missed_turn_distance: a robot farther behind the junction at which it was to turn has taken
@@ -156,23 +164,27 @@ class SuccessRules:
             farther ahead than this of where the clause began, metres.
     """
 
-    door_distance: float = 0.7
-    door_heading: float = 0.6
-    junction_distance: float = 1.6
-    turn_distance: float = 1.5
-    turn_heading: float = 0.5
-    turn_heading_min: float = 0.2
-    corridor_distance: float = 1.0
-    way_distance: float = 1.0
-    way_offset: float = 1.5
-    standstill_speed: float = 0.05
-    still_speed: float = 0.02
-    still_yaw_rate: float = 0.02
-    still_seconds: float = 10.0
-    final_still_seconds: float = 1.0
-    wrong_arm_depth: float = 1.2
-    missed_turn_distance: float = 2.4
-    passed_arm_distance: float = 0.5
+    door_distance: Length = 0.7
+    door_heading: Angle = 0.6
+    junction_distance: Length = 1.6
+    turn_distance: Length = 1.5
+    turn_heading: Angle = 0.5
+    turn_heading_min: Angle = 0.2
+    corridor_distance: Length = 1.0
+    way_distance: Length = 1.0
+    way_offset: Length = 1.5
+    standstill_speed: Annotated[float, Bounds(0.0, 10.0, "m/s")] = 0.05
+    still_speed: Annotated[float, Bounds(0.0, 10.0, "m/s")] = 0.02
+    still_yaw_rate: Annotated[float, Bounds(0.0, 20.0, "rad/s")] = 0.02
+    still_seconds: Annotated[float, Bounds(0.0, 1e6, "s")] = 10.0
+    final_still_seconds: Annotated[float, Bounds(0.0, 1e6, "s")] = 1.0
+    search_rest_seconds: Annotated[float, Bounds(0.0, 1e6, "s")] = 20.0
+    wrong_arm_depth: Length = 1.2
+    missed_turn_distance: Length = 2.4
+    passed_arm_distance: Length = 0.5
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,6 +200,9 @@ class Rules:
     door: DoorRules = field(default_factory=DoorRules)
     grounding: GroundingRules = field(default_factory=GroundingRules)
     success: SuccessRules = field(default_factory=SuccessRules)
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
 
 def with_doors_of(rules: Rules, extractor: ExtractorSettings) -> tuple[Rules, ExtractorSettings]:

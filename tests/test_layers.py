@@ -19,9 +19,11 @@ INSTALLED = {
     layer: "semnav_env" if layer == "semnav_env" else f"semnav_env.{layer}" for layer in LAYERS
 }
 MAY_NEED = {
+    "features/clouds": {"scipy"},
+    "features/clouds/picture.py": {"matplotlib"},
     "features/mapping": {"scipy"},
     "features/plot.py": {"matplotlib"},
-    "features/readers": {"rosbags"},
+    "features/readers": {"rosbags", "lz4"},  # lz4 comes with rosbags
 }
 
 
@@ -80,7 +82,7 @@ def importers(package):
     }
 
 
-MAX_IMPORTED_LINES = 21_000
+MAX_IMPORTED_LINES = 19_700
 """Lines of our own code that making an environment may import."""
 
 COUNT_IMPORTED_LINES = """
@@ -183,12 +185,13 @@ def needed(name, seen):
     return seen
 
 
-ROBOTS_SIDE = {"belief", "features", "commands", "grounding", "rules", "lazy_names"}
+ROBOTS_SIDE = {"belief", "features", "commands", "grounding", "localization", "rules", "lazy_names"}
 """What runs on a robot as it is."""
 
 
 def test_the_robots_side_needs_nothing_of_the_simulator():
-    for name in [name for name in MODULES if name.startswith("semnav_env.belief")]:
+    sides = "semnav_env.belief", "semnav_env.localization"
+    for name in [name for name in MODULES if name.startswith(sides)]:
         folders = {other.split(".")[1] for other in needed(name, set()) if "." in other}
         assert folders <= ROBOTS_SIDE, name
 
@@ -227,7 +230,7 @@ def test_what_is_not_installed_is_never_imported():
 
 def test_the_oracle_and_the_truth_import_no_kernel():
     folders = (ROOT / "tests" / "numpy_oracle", ROOT / "semnav_env" / "truth")
-    kernels = ("semnav_env.features.kernels", "semnav_env.features.extract", "numba")
+    kernels = ("semnav_env.features.kernels", "semnav_env.features.extraction", "numba")
     for path in (path for folder in folders for path in folder.glob("*.py")):
         module = Module(path.stem, "", path, ast.parse(path.read_text()))
         names = {f"{name}.{member}" for name, member in imported(module)}

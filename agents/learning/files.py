@@ -8,13 +8,16 @@ itself and is replaced in one move, so an interruption at any moment leaves a fo
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from numpy.typing import NDArray
+
+from semnav_env.features.reading import read_bytes
+from semnav_env.features.validation import clipped
+from semnav_env.features.writing import write_file
 
 Array = NDArray[Any]
 
@@ -52,7 +55,7 @@ class AgentDescription:
     def write(self, folder: Path) -> None:
         """Write it to a folder, in one move."""
         text = json.dumps(asdict(self), indent=1) + "\n"
-        replace_file(folder / AGENT_FILE, text.encode())
+        write_file(folder / AGENT_FILE, text.encode())
 
     @classmethod
     def read(cls, folder: Path) -> AgentDescription:
@@ -65,10 +68,11 @@ class AgentDescription:
         path = folder / AGENT_FILE
         if not path.is_file():
             raise ValueError(f"{folder} holds no trained agent: there is no {AGENT_FILE} in it")
+        content = read_bytes(path, MAX_FILE_SIZE)
         try:
-            document = json.loads(_read(path))
-        except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
-            raise ValueError(f"{path} is not JSON: {error}") from None
+            document = json.loads(content)
+        except (ValueError, RecursionError) as error:
+            raise ValueError(f"{path} is not JSON: {clipped(str(error))}") from None
         return cls(**_checked(path, document))
 
 
@@ -107,7 +111,7 @@ def save_tensors(path: Path, tensors: Mapping[str, Array]) -> None:
     """Write named tensors in one move."""
     from safetensors.numpy import save
 
-    replace_file(path, save({name: tensor.copy() for name, tensor in tensors.items()}))
+    write_file(path, save({name: tensor.copy() for name, tensor in tensors.items()}))
 
 
 def load_tensors(path: Path) -> dict[str, Array]:
@@ -126,22 +130,6 @@ def load_tensors(path: Path) -> dict[str, Array]:
             'a trained agent needs safetensors: pip install "semnav-env[rl]"'
         ) from None
     try:
-        return dict(load(_read(path)))
+        return dict(load(read_bytes(path, MAX_FILE_SIZE)))
     except (SafetensorError, KeyError, ValueError) as error:
         raise ValueError(f"{path} is not a safetensors file: {error}") from None
-
-
-def _read(path: Path) -> bytes:
-    if path.stat().st_size > MAX_FILE_SIZE:
-        raise ValueError(f"{path} is larger than {MAX_FILE_SIZE >> 20} MiB; no trained agent is")
-    return path.read_bytes()
-
-
-def replace_file(path: Path, data: bytes) -> None:
-    """Write a file in one move: at any moment there is the old one or the new one, never a part."""
-    part = path.with_name(path.name + ".part")
-    with open(part, "wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(part, path)

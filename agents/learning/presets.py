@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from semnav_env.agents.evaluation.suites import Trial, suite
+from semnav_env.features.checked_fields import Count, Share, check_fields
 from semnav_env.tasks import RewardWeights
 
 
@@ -26,17 +27,20 @@ class PPOSettings:
         max_kl: divergence from the old policy at which an update stops early.
     """
 
-    hidden: tuple[int, ...] = (64, 64)
-    rollout: int = 64
-    batch_size: int = 512
-    epochs: int = 10
-    learning_rate: float = 3e-4
-    gamma: float = 0.99
-    gae_lambda: float = 0.95
-    clip_range: float = 0.2
+    hidden: tuple[Count, ...] = (64, 64)
+    rollout: Count = 64
+    batch_size: Count = 512
+    epochs: Count = 10
+    learning_rate: Share = 3e-4
+    gamma: Share = 0.99
+    gae_lambda: Share = 0.95
+    clip_range: Share = 0.2
     entropy: float = 0.0
     log_std: float = -0.5
     max_kl: float = 0.05
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,18 @@ import gymnasium as gym
 import numpy as np
 from gymnasium.vector import AutoresetMode, VectorEnv
 from numpy.typing import NDArray
-from stable_baselines3.common.vec_env import VecEnv
-from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvStepReturn
 
 from semnav_env.env import SemNavEnv
 from semnav_env.vector import SemNavVectorEnv
 from semnav_env.vector.infos import Infos, info_of
+
+try:
+    from stable_baselines3.common.vec_env import VecEnv
+    from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvStepReturn
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        f'as_sb3_vec_env needs {error.name}: pip install "semnav-env[rl]"', name=error.name
+    ) from None
 
 Array = NDArray[Any]
 
@@ -120,7 +126,7 @@ class SB3VecEnv(VecEnv):
     def env_method(
         self, method_name: str, *arguments: Any, indices: VecEnvIndices = None, **options: Any
     ) -> list[Any]:
-        """What a method of single environments returns; `reset` and `step` are not for this."""
+        """What a method of single environments returns; `reset` and `step` are refused."""
         methods = self.get_attr(method_name, indices)
         return [method(*arguments, **options) for method in methods]
 

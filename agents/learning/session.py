@@ -5,7 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
+
+from semnav_env.features.checked_fields import Bounds, check_fields
 
 if TYPE_CHECKING:  # stable-baselines3 is optional
     from semnav_env.agents.learning.training import Trainer, TrainingReport
@@ -23,8 +25,11 @@ class TrainingLimits:
         minutes: time limit of the session; None for none.
     """
 
-    steps: int
-    minutes: float | None
+    steps: Annotated[int, Bounds(0, 10**15)]
+    minutes: Annotated[float | None, Bounds(0.0, 1e6, "min")]
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
     def fraction(self, first: int, steps: int, seconds: float) -> float:
         """Share of the session that is done; 1 or more when it is time to end.

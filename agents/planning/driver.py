@@ -81,6 +81,10 @@ class Driver:
         self._refusals = 0
         self._heeds_barriers = False
 
+    def plan_at_once(self) -> None:
+        """Plan to the next target without standing still first."""
+        self._wait = 0
+
     def drive(
         self,
         points: FloatArray,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +16,7 @@ from semnav_env.agents.planning.obstacle_kernels import (
     forget,
     select,
 )
+from semnav_env.features.checked_fields import Bounds, Count, Length, Share, check_fields
 from semnav_env.features.frames import FloatArray, Pose
 
 
@@ -36,17 +38,20 @@ class MemorySettings:
         capacity: largest number of centres; further ones are dropped.
     """
 
-    radius: float = 6.0
-    merge: float = 0.05
-    window: int = 40
-    travel: float = 8.0
-    turned: float = 10.0
-    scans: int = 600
-    through: float = 0.15
-    sure: int = 2
-    share: float = 0.12
-    blunt: float = 0.018
-    capacity: int = 8192
+    radius: Length = 6.0
+    merge: Length = 0.05
+    window: Count = 40
+    travel: Length = 8.0
+    turned: Annotated[float, Bounds(0.0, 1e6, "rad")] = 10.0
+    scans: Count = 600
+    through: Length = 0.15
+    sure: Count = 2
+    share: Share = 0.12
+    blunt: Length = 0.018
+    capacity: Annotated[int, Bounds(1, 1_000_000)] = 8192
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
 
 class ObstacleMemory:

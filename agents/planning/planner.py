@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Annotated, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,6 +25,7 @@ from semnav_env.agents.planning.motion import MotionCosts, SafetyMargin
 from semnav_env.agents.planning.path import MAX_CLEARANCE, PlannedPath, sampled
 from semnav_env.agents.planning.search import SearchProblem, search
 from semnav_env.agents.planning.shorten import merged, rounded, shortened
+from semnav_env.features.checked_fields import Bounds, Count, Length, check_fields
 from semnav_env.features.frames import FloatArray, Point, Pose, compose
 from semnav_env.robots import RobotSpec
 
@@ -44,6 +46,10 @@ class DriveTarget:
     position_tolerance: float = 0.10
     heading_tolerance: float | None = 0.10
     gate: tuple[Point, Point] | None = None
+
+
+Price: TypeAlias = Annotated[float, Bounds(0.0, 1000.0)]
+Effort: TypeAlias = tuple[Annotated[float, Bounds(1.0, 100.0)], Count]
 
 
 @dataclass(frozen=True)
@@ -67,18 +73,21 @@ class PlannerSettings:
             still to go, and the largest number of nodes to expand.
     """
 
-    margins: tuple[float, ...] = (0.10, 0.06, 0.03, 0.0)
-    detour: float = 1.0
-    half_window: float = 7.0
-    widest: float = 64.0
-    speed: float = 1.0
-    turn_rate: float = 0.8
-    reverse: float = 3.0
-    stop: float = 0.4
-    steering: float = 0.1
-    room: float = 0.25
-    crowding: float = 3.0
-    efforts: tuple[tuple[float, int], ...] = ((2.0, 500), (5.0, 2500))
+    margins: tuple[Length, ...] = (0.10, 0.06, 0.03, 0.0)
+    detour: Price = 1.0
+    half_window: Length = 7.0
+    widest: Length = 64.0
+    speed: Annotated[float, Bounds(0.01, 10.0, "m/s")] = 1.0
+    turn_rate: Annotated[float, Bounds(0.01, 20.0, "rad/s")] = 0.8
+    reverse: Price = 3.0
+    stop: Price = 0.4
+    steering: Price = 0.1
+    room: Length = 0.25
+    crowding: Price = 3.0
+    efforts: tuple[Effort, ...] = ((2.0, 500), (5.0, 2500))
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
 
 def plan(

@@ -6,15 +6,18 @@ import itertools
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Annotated, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.planning.motion import TURN
 from semnav_env.agents.planning.path import PlannedPath
+from semnav_env.features.checked_fields import Bounds, check_fields
 from semnav_env.features.frames import FloatArray
 from semnav_env.robots import RobotSpec
+
+Gain: TypeAlias = Annotated[float, Bounds(0.0, 1000.0)]
 
 
 @dataclass(frozen=True)
@@ -38,20 +41,23 @@ class FollowerSettings:
         lost_at_turn: the same where the robot stands to turn, metres.
     """
 
-    cruise: float = 1.1
-    creep: float = 0.12
-    sideways: float = 0.3
-    crowded: float = 3.0
-    turn_rate: float = 1.0
-    crowded_turn: float = 0.4
-    braking: float = 0.6
-    stiffness: float = 2.5
-    preview: float = 0.2
-    small_turn: float = 0.06
-    done_distance: float = 0.015
-    done_angle: float = 0.02
-    lost: float = 0.12
-    lost_at_turn: float = 0.06
+    cruise: Gain = 1.1
+    creep: Gain = 0.12
+    sideways: Gain = 0.3
+    crowded: Gain = 3.0
+    turn_rate: Gain = 1.0
+    crowded_turn: Gain = 0.4
+    braking: Gain = 0.6
+    stiffness: Gain = 2.5
+    preview: Gain = 0.2
+    small_turn: Gain = 0.06
+    done_distance: Gain = 0.015
+    done_angle: Gain = 0.02
+    lost: Gain = 0.12
+    lost_at_turn: Gain = 0.06
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
 
 class PathLeg(NamedTuple):

@@ -25,6 +25,8 @@ from numba.core.cpu import CPUContext
 from numba.core.environment import Environment
 from numba.core.registry import CPUDispatcher
 
+from semnav_env.features.kernels import frames_in_kernels  # noqa: F401 - kernels call them
+from semnav_env.features.kernels.cache_folder import cache_folder
 from semnav_env.features.kernels.compile_notice import NOTICE
 from semnav_env.features.kernels.kernel_cache import KernelCache
 
@@ -73,6 +75,8 @@ def kernel(
     if inline:
         return njit(function, error_model="numpy", nogil=True, inline="always")
     if getattr(config, "DISABLE_JIT", False) or not NUMBA_FITS:
+        # Numba's own folder may be one where nothing can be written.
+        config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
         return njit(function, error_model="numpy", nogil=True, cache=True)
     return Kernel(function, counts_references)
 

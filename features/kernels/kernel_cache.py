@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import pickle
-import uuid
 from collections.abc import Callable
 from contextlib import suppress
 from hashlib import sha256
@@ -16,6 +14,7 @@ from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
 from semnav_env.features.kernels.cache_folder import cache_folder
+from semnav_env.features.writing import write_file
 
 
 class KernelCache(_Cache):
@@ -61,15 +60,8 @@ class KernelCache(_Cache):
         if not self._enabled or data.lifted or data.library.has_dynamic_globals:
             return
         path, key = self._entry(sig, data.codegen)
-        part = path.with_suffix(f".{uuid.uuid4().hex[:16]}")
-        try:
-            content = dumps((key, data._reduce()))
-            path.parent.mkdir(parents=True, exist_ok=True)
-            part.write_bytes(content)
-            os.replace(part, path)
-        except Exception:  # a full disk, or what no pickle can hold
-            with suppress(OSError):
-                part.unlink()
+        with suppress(Exception):  # a full disk, or what no pickle can hold
+            write_file(path, dumps((key, data._reduce())))
 
     def enable(self) -> None:
         """Use the files."""

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
+from typing import Annotated
+
+from semnav_env.features.checked_fields import Angle, Bounds, Count, Length, Share, check_fields
 
 
 @dataclass(frozen=True)
@@ -36,30 +39,27 @@ class MapSettings:
         door_open: ... this share of the beams that came to its opening passed it.
 
     Raises:
-        ValueError: a limit is negative or not finite; names it.
+        ValueError: a limit is no number or out of its bounds; names it.
     """
 
-    position: float = 0.02
-    angle: float = math.radians(0.3)
-    least_move: float = 0.1
-    least_turn: float = math.radians(5.0)
-    confidence: float = 3.0
-    angle_tolerance: float = math.radians(2.0)
-    offset_tolerance: float = 0.03
-    gap: float = 0.3
-    wall_hits: int = 3
-    wall_share: float = 0.15
-    wall_length: float = 0.2
-    wall_reach: float = 8.0
-    door_jamb: float = 0.35
-    door_apart: float = 0.6
-    door_reach: float = 5.0
-    door_sightings: int = 3
-    door_share: float = 0.25
-    door_open: float = 0.6
+    position: Length = 0.02
+    angle: Angle = math.radians(0.3)
+    least_move: Length = 0.1
+    least_turn: Angle = math.radians(5.0)
+    confidence: Annotated[float, Bounds(0.0, 100.0)] = 3.0
+    angle_tolerance: Angle = math.radians(2.0)
+    offset_tolerance: Length = 0.03
+    gap: Length = 0.3
+    wall_hits: Count = 3
+    wall_share: Share = 0.15
+    wall_length: Length = 0.2
+    wall_reach: Length = 8.0
+    door_jamb: Length = 0.35
+    door_apart: Length = 0.6
+    door_reach: Length = 5.0
+    door_sightings: Count = 3
+    door_share: Share = 0.25
+    door_open: Share = 0.6
 
     def __post_init__(self) -> None:
-        for limit in fields(self):
-            value = getattr(self, limit.name)
-            if not 0 <= value < math.inf:
-                raise ValueError(f"{limit.name} is {value}; it must be finite and at least 0")
+        check_fields(self)

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from semnav_env.features.extract import beam_directions
+from semnav_env.features.extraction import beam_directions
 from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.features.mapping.icp import align
 from semnav_env.features.mapping.settings import MatchSettings

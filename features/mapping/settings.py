@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
+from semnav_env.features.checked_fields import Bounds, Share, check_fields
 from semnav_env.features.mapping.icp import SETTINGS
 
 
@@ -38,44 +40,23 @@ class MatchSettings:
         ValueError: a limit is out of its range; names it and its range.
     """
 
-    sigma: float | None = None
-    roughness: float = 0.003
-    window: int = 20
-    max_distance: float = 0.6
-    outliers: float = 3.0
+    sigma: Annotated[float | None, Bounds(1e-4, 1.0)] = None
+    roughness: Annotated[float, Bounds(1e-4, 1.0)] = 0.003
+    window: Annotated[int, Bounds(1, 10_000)] = 20
+    max_distance: Annotated[float, Bounds(1e-3, 100.0)] = 0.6
+    outliers: Annotated[float, Bounds(1.0, 100.0)] = 3.0
     point_to_point: bool = False
-    guess_position: float = 0.3
-    guess_angle: float = math.radians(15.0)
-    tolerance_position: float = 1e-4
-    tolerance_angle: float = 1e-5
-    max_iterations: int = 60
-    undetermined: float = 1e-3
-    fewest_pairs: int = 10
+    guess_position: Annotated[float, Bounds(1e-3, 100.0)] = 0.3
+    guess_angle: Annotated[float, Bounds(1e-3, 100.0)] = math.radians(15.0)
+    tolerance_position: Annotated[float, Bounds(1e-9, 1.0)] = 1e-4
+    tolerance_angle: Annotated[float, Bounds(1e-9, 1.0)] = 1e-5
+    max_iterations: Annotated[int, Bounds(1, 1000)] = 60
+    undetermined: Share = 1e-3
+    fewest_pairs: Annotated[int, Bounds(3, 10_000)] = 10
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            low, high = _LIMITS[field.name]
-            value = getattr(self, field.name)
-            if value is not None and not low <= value <= high:
-                raise ValueError(f"{field.name} is {value}; it must be from {low:g} to {high:g}")
+        check_fields(self)
 
     def as_record(self) -> np.ndarray:
         """The settings as the kernel takes them, shape (1,)."""
         return np.array([tuple(getattr(self, n) for n in SETTINGS.names or ())], SETTINGS)
-
-
-_LIMITS = {
-    "sigma": (1e-4, 1.0),
-    "roughness": (1e-4, 1.0),
-    "window": (1, 10_000),
-    "max_distance": (1e-3, 100.0),
-    "outliers": (1.0, 100.0),
-    "point_to_point": (0, 1),
-    "guess_position": (1e-3, 100.0),
-    "guess_angle": (1e-3, 100.0),
-    "tolerance_position": (1e-9, 1.0),
-    "tolerance_angle": (1e-9, 1.0),
-    "max_iterations": (1, 1000),
-    "undetermined": (0.0, 1.0),
-    "fewest_pairs": (3, 10_000),
-}

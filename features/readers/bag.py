@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Protocol
 
 from semnav_env.features.readers.channel import Channel, Message
+from semnav_env.features.readers.chunks import bound_decompression
 from semnav_env.features.readers.log import DamageError
-from semnav_env.features.readers.salvage import SalvagedBag
+from semnav_env.features.readers.salvage import SalvagedBag, check_tables
 
 
 class Bag(Protocol):
@@ -90,6 +91,9 @@ def open_bag(path: Path) -> Bag:
         raise ImportError(
             'ROS bags are read with rosbags, which is not installed: pip install "semnav-env[ros]"'
         ) from None
+    bound_decompression()
+    for file in [path] if path.is_file() else sorted(path.glob("*.db3")):
+        check_tables(file)
     try:
         return IndexedBag(path)
     except Exception:  # bags without an index, of other kinds of messages, or damaged in any way

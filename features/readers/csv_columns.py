@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.readers.geometry import checked_pose
 from semnav_env.features.readers.log import BadRecordError, LogError
+from semnav_env.features.validation import shown
 
 _MEANINGS = {
     "stamp": ("stamp", "time", "timestamp", "t"),
@@ -56,7 +57,7 @@ class Columns:
         ranges = [place for place, name in enumerate(names) if _RANGE.match(name)]
         if not ranges:
             raise LogError(
-                f"no column of ranges among {', '.join(names[:8])!r}; name them r0, r1, ..."
+                f"no column of ranges among {shown(', '.join(names[:8]))}; name them r0, r1, ..."
             )
         places: dict[str, int] = {}
         for meaning, known in _MEANINGS.items():

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated, TypeAlias
 
+from semnav_env.features.checked_fields import Bounds, check_fields
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.readers.log import BadRecordError
 from semnav_env.features.scan import Scan
 
 _FARTHEST = 4.0 * math.pi
+Direction: TypeAlias = Annotated[float, Bounds(-_FARTHEST, _FARTHEST, "rad")]
+
 _WIDEST = 3.0 * math.pi
 """A turn and a half: some scanners repeat beams of the circle; radians."""
 
@@ -29,23 +33,16 @@ class Geometry:
             None to take the log's own.
 
     Raises:
-        ValueError: a number is not finite, or not positive where it must be.
+        ValueError: a field is no number, or out of its bounds; names it.
     """
 
-    range_max: float = 50.0
-    beam_spacing: float | None = None
-    angle_min: float | None = None
-    angle_increment: float | None = None
+    range_max: Annotated[float, Bounds(0.01, 1e6, "m")] = 50.0
+    beam_spacing: Annotated[float | None, Bounds(1e-3, 360.0, "degrees")] = None
+    angle_min: Direction | None = None
+    angle_increment: Direction | None = None
 
     def __post_init__(self) -> None:
-        for name in ("range_max", "beam_spacing"):
-            value = getattr(self, name)
-            if value is not None and not 0 < value < math.inf:
-                raise ValueError(f"{name} is {value}; it must be positive and finite")
-        for name in ("angle_min", "angle_increment"):
-            value = getattr(self, name)
-            if value is not None and not math.isfinite(value):
-                raise ValueError(f"{name} is {value}; it must be finite, in radians")
+        check_fields(self)
 
     def nearer(self, range_max: float) -> float:
         """The log's own limit, metres, if it has one and that is the smaller."""

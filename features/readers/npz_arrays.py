@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import math
 import zipfile
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,6 +14,13 @@ from numpy.lib import format as npy
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.readers.log import DamageError, LogError
+from semnav_env.features.validation import clipped, shown
+
+MAX_BEAMS = 100_000
+"""Largest number of beams of a scan."""
+
+MAX_BYTES = 200_000_000
+"""Size of the largest array that is read as a whole, bytes."""
 
 
 class NpzArrays:
@@ -39,11 +46,11 @@ class NpzArrays:
         Raises:
             LogError: it is not one number.
         """
-        array = self._whole(name)
+        array = self.whole(name)
         if array is None:
             return None
         if array.size != 1:
-            raise self._error(name, f"has shape {array.shape}; it must be one number")
+            raise self._error(name, f"has shape {shown(array.shape)}; it must be one number")
         return float(array.reshape(-1)[0])
 
     def table(self, name: str, shape: tuple[int, ...]) -> FloatArray | None:
@@ -52,10 +59,27 @@ class NpzArrays:
         Raises:
             LogError: it has another shape, or holds no numbers.
         """
-        array = self._whole(name)
+        array = self.whole(name)
         if array is not None and array.shape != shape:
-            raise self._error(name, f"has shape {array.shape}; it must be {shape}")
+            raise self._error(name, f"has shape {shown(array.shape)}; it must be {shape}")
         return array
+
+    def whole(self, name: str) -> FloatArray | None:
+        """An array of any shape; None if there is no such array.
+
+        Raises:
+            LogError: it holds no numbers, or more than `MAX_BYTES`.
+            DamageError: its data end too early or are damaged.
+        """
+        if name not in self._names:
+            return None
+        with _damage(), self._member(name) as file:
+            shape, by_columns, dtype = self._header(name, file)
+            size = math.prod(shape) * dtype.itemsize
+            self._check_size(name, size)
+            data = _exactly(file, size)
+        flat = np.frombuffer(data, dtype).astype(np.float64)
+        return flat.reshape(shape[::-1]).T if by_columns else flat.reshape(shape)
 
     def shape(self, name: str) -> tuple[int, ...]:
         """Shape of an array.
@@ -64,9 +88,9 @@ class NpzArrays:
             LogError: there is no such array, or it holds no numbers.
         """
         if name not in self._names:
-            there = ", ".join(sorted(self._names)) or "nothing"
+            there = clipped(", ".join(sorted(self._names)) or "nothing", 200)
             raise LogError(f"{self.path} has no array {name!r}; it holds {there}")
-        with self._member(name) as file:
+        with _damage(), self._member(name) as file:
             return self._header(name, file)[0]
 
     def rows(self, name: str) -> Iterator[FloatArray]:
@@ -78,8 +102,11 @@ class NpzArrays:
         """
         with _damage(), self._member(name) as file:
             (rows, columns), by_columns, dtype = self._header(name, file)
+            if not 0 < columns <= MAX_BEAMS:
+                raise self._error(name, f"has {shown(columns)} columns, not 1 to {MAX_BEAMS:,}")
             size = columns * dtype.itemsize
             if by_columns:
+                self._check_size(name, rows * size)
                 data = _exactly(file, rows * size)
                 yield from np.frombuffer(data, dtype).reshape(columns, rows).T.astype(np.float64)
                 return
@@ -103,17 +130,12 @@ class NpzArrays:
             except ValueError:
                 raise self._error(name, "is no NumPy array") from None
         if dtype.kind not in "fiu":
-            raise self._error(name, f"has dtype {dtype}; it must be real numbers")
+            raise self._error(name, f"has dtype {clipped(str(dtype))}; it must be real numbers")
         return shape, by_columns, dtype
 
-    def _whole(self, name: str) -> FloatArray | None:
-        if name not in self._names:
-            return None
-        with _damage(), self._member(name) as file:
-            shape, by_columns, dtype = self._header(name, file)
-            data = _exactly(file, int(np.prod(shape)) * dtype.itemsize)
-        flat = np.frombuffer(data, dtype).astype(np.float64)
-        return flat.reshape(shape[::-1]).T if by_columns else flat.reshape(shape)
+    def _check_size(self, name: str, size: int) -> None:
+        if size > MAX_BYTES:
+            raise self._error(name, f"has {shown(size)} bytes; at most {MAX_BYTES:,} are read")
 
     def _error(self, name: str, fault: str) -> LogError:
         return LogError(f"{self.path}: array {name!r} {fault}")
@@ -123,7 +145,9 @@ class NpzArrays:
 def _damage() -> Iterator[None]:
     try:
         yield
-    except (EOFError, zipfile.BadZipFile, zlib.error):
+    except (LogError, DamageError, FileNotFoundError, PermissionError):
+        raise
+    except Exception:  # damaged bytes raise whatever the parser of the moment stumbles over
         raise DamageError from None
 
 

@@ -11,6 +11,7 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.readers.geometry import Geometry, checked_pose, checked_scan
 from semnav_env.features.readers.log import BadRecordError, LogError, LogReader, LogRecord
 from semnav_env.features.readers.npz_arrays import NpzArrays
+from semnav_env.features.validation import shown
 
 
 class NpzLog(LogReader):
@@ -64,7 +65,7 @@ class NpzLog(LogReader):
         shape = self._arrays.shape("ranges")
         if len(shape) != 2:
             raise LogError(
-                f"{self.path}: array 'ranges' has shape {shape}; it must be (scans, beams)"
+                f"{self.path}: array 'ranges' has shape {shown(shape)}; it must be (scans, beams)"
             )
         self._count = shape[0]
         self._start = self._angle("angle_min", geometry.angle_min)

@@ -64,7 +64,8 @@ class Decoder:
         """
         pose = self._message(channel, data).pose.pose
         place, q = pose.position, pose.orientation
-        heading = math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y**2 + q.z**2))
+        sine, cosine = 2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)
+        heading = math.atan2(sine, cosine) if math.isfinite(sine + cosine) else math.nan
         return checked_pose(place.x, place.y, heading)
 
     def _message(self, channel: Channel, data: bytes) -> Any:

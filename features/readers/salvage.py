@@ -6,6 +6,7 @@ The parts that records are made of are read by functions of rosbags.
 from __future__ import annotations
 
 import io
+import re
 import sqlite3
 import struct
 from collections import Counter
@@ -163,6 +164,33 @@ def _mcap_records(
             yield from _mcap_records(chunk, types, channels)
 
 
+def check_tables(path: Path) -> None:
+    """Refuse a database whose topics or messages are computed, which may never end.
+
+    Raises:
+        LogError: names the file.
+    """
+    with open(path, "rb") as file:
+        if not file.read(16).startswith(b"SQLite"):
+            return
+    try:
+        with closing(_database(path)) as database:
+            named = "SELECT type, sql FROM sqlite_master WHERE name IN ('topics', 'messages')"
+            made = database.execute(named).fetchall()
+    except sqlite3.Error:
+        return  # the readers say what of it can be read
+    for kind, statement in made:
+        if kind != "table" or re.search(r"\b(VIRTUAL|GENERATED|AS)\b", statement, re.IGNORECASE):
+            raise LogError(f"{path} computes its messages; a bag has tables of topics and messages")
+
+
+def _database(path: Path) -> sqlite3.Connection:
+    database = sqlite3.connect(f"{path.resolve().as_uri()}?immutable=1", uri=True)
+    # Without it SQLite opens no file that is shorter than its first page says.
+    database.execute("PRAGMA writable_schema=ON")
+    return database
+
+
 def _sqlite_messages(path: Path) -> Iterator[Message]:
     """The messages of ROS 2's SQLite storage in the order of recording.
 
@@ -170,10 +198,7 @@ def _sqlite_messages(path: Path) -> Iterator[Message]:
         sqlite3.DatabaseError: it ends too early or is damaged.
         EOFError: it is shorter than it should be, where no message lies.
     """
-    address = f"{path.resolve().as_uri()}?immutable=1"
-    with closing(sqlite3.connect(address, uri=True)) as database:
-        # Without it SQLite opens no file that is shorter than its first page says.
-        database.execute("PRAGMA writable_schema=ON")
+    with closing(_database(path)) as database:
         topics = database.execute("SELECT id, name, type, serialization_format FROM topics")
         channels = {number: Channel.of(*names) for number, *names in topics}
         rows = database.execute("SELECT topic_id, timestamp, data FROM messages ORDER BY id")

@@ -10,12 +10,24 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TypeAlias
 
-from semnav_env.features.readers.log import DamageError, LogReader
+from semnav_env.features.readers.log import DamageError, LogError, LogReader
+from semnav_env.features.reading import check_file
 
 _Text: TypeAlias = io.BufferedReader | gzip.GzipFile
 
 _DAMAGED = (EOFError, gzip.BadGzipFile, zlib.error)
 _LONGEST_LINE = 1 << 20
+_LONGEST_PARTS = 64
+
+MAX_LOG_BYTES = 1 << 40
+"""Size of the largest log that is read, bytes; only a part of it is in memory at a time."""
+
+MAX_EXPANSION = 100
+"""Decompressed bytes for each byte of a compressed log beyond which it is no log: texts of numbers
+expand five to twenty times."""
+
+_ALWAYS_EXPANDED = 1 << 20
+"""Bytes that are decompressed at any rate."""
 
 
 class TextFile:
@@ -32,6 +44,7 @@ class TextFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        check_file(path, MAX_LOG_BYTES, LogError)
         self._file = open(path, "rb")  # noqa: SIM115 - closed by its reader
         try:
             self._size = os.fstat(self._file.fileno()).st_size
@@ -58,7 +71,12 @@ class TextFile:
             DamageError: the compressed data end too early or are damaged.
         """
         try:
-            yield from enumerate(_lines(self._text), start=1)
+            size = 0
+            for number, line in enumerate(_lines(self._text), start=1):
+                size += len(line)
+                if self.compressed and size > _ALWAYS_EXPANDED + MAX_EXPANSION * self._file.tell():
+                    raise LogError(f"{self.path}: expands more than {MAX_EXPANSION} times")
+                yield number, line
         except _DAMAGED:
             raise DamageError from None
 
@@ -91,6 +109,10 @@ def _decompressed(file: io.BufferedReader) -> _Text:
 def _lines(text: _Text) -> Iterator[bytes]:
     while line := text.readline(_LONGEST_LINE):
         whole = len(line) < _LONGEST_LINE
-        while len(line) == _LONGEST_LINE and not line.endswith(b"\n"):
+        for _ in range(_LONGEST_PARTS):
+            if len(line) < _LONGEST_LINE or line.endswith(b"\n"):
+                break
             line = text.readline(_LONGEST_LINE)
+        else:
+            raise EOFError
         yield line if whole else b"-"

@@ -15,6 +15,7 @@ from semnav_env.belief.belief import Belief, SceneSource
 from semnav_env.belief.bump_map import BumpMap
 from semnav_env.belief.estimate import BELIEVED, BELIEVED_OFFSET, ESTIMATE, SENSED
 from semnav_env.belief.scene_source import KnownScene, RememberedScene, nothing
+from semnav_env.belief.told_ways import ToldWays
 from semnav_env.belief.understand import (
     FIRST_SCAN,
     LOOK_DUE,
@@ -98,6 +99,7 @@ class BeliefTracker:
         self._scratch = allocate_scratch(self.lidar.beams)
         self._estimate = np.zeros(1, ESTIMATE)
         self._progress = np.zeros(1, CLAUSE_PROGRESS)
+        self._told = ToldWays()
         self._period = 1.0 / self.lidar.rate_hz
         self._begun = False
         self._known_scene: SceneSource | None = (
@@ -108,19 +110,10 @@ class BeliefTracker:
 
     def _join(self) -> Senses:
         self._buffer, self._contacts = self._estimate.data, self._estimate["contacts"][0]
-        return join_senses(
-            self.lidar.sensor,
-            self._beams,
-            self._record,
-            self._scratch,
-            self.mount,
-            self.ranges,
-            self.features,
-            self.memory.arrays,
-            self.bumps.arrays,
-            self._estimate,
-            self._progress,
-        )
+        sensor = self.lidar.sensor, self._beams, self._record, self._scratch, self.mount
+        known: tuple[Any, Any] = self.memory.arrays, self.bumps.arrays
+        mind: tuple[Any, Any, Any] = self._estimate, self._progress, self._told.arrays
+        return join_senses(*sensor, self.ranges, self.features, *known, *mind)
 
     def __getstate__(self) -> dict[str, Any]:
         self._keep_last_scene()
@@ -148,6 +141,7 @@ class BeliefTracker:
         self.let_go()
         self.memory.clear()
         self.bumps.clear()
+        self._told.tell(ways)
         self.follower = Follower(
             command,
             complete=self.known_scene is not None,

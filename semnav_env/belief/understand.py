@@ -46,6 +46,7 @@ class Senses(structref.StructRefProxy):
         bumps: `BumpMap.arrays`.
         estimate: dtype `ESTIMATE`, shape (1,): what is given with a scan, and what is believed.
         progress: `Follower.progress`.
+        told: `ToldWays.arrays`.
     """
 
     limits: np.ndarray
@@ -59,6 +60,7 @@ class Senses(structref.StructRefProxy):
     bumps: Any
     estimate: np.ndarray
     progress: np.ndarray
+    told: Any
 
 
 structref.define_proxy(Senses, SensesType, list(Senses.__annotations__))
@@ -77,6 +79,7 @@ def join_senses(
     bumps: Any,
     estimate: np.ndarray,
     progress: np.ndarray,
+    told: Any,
 ) -> Senses:
     """The arrays as one structure; they are shared, not copied."""
     return Senses(
@@ -91,6 +94,7 @@ def join_senses(
         bumps,
         estimate,
         progress,
+        told,
     )
 
 

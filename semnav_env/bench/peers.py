@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import tempfile
+from importlib.metadata import version
 from importlib.util import find_spec
 from itertools import cycle
 from pathlib import Path
@@ -30,7 +31,8 @@ def peer_parts(plan: FloorPlan, robot: RobotSpec, lidar: LidarSpec, start: Pose)
         lidar: beams, span and range; peers do without its errors.
         start: pose of the robot, world frame.
     """
-    return [_ir_sim(plan, robot, lidar, start)] if find_spec("irsim") else []
+    peers = {"irsim": _ir_sim, "navground": _navground}
+    return [make(plan, robot, lidar, start) for name, make in peers.items() if find_spec(name)]
 
 
 def _ir_sim(plan: FloorPlan, robot: RobotSpec, lidar: LidarSpec, start: Pose) -> Part:
@@ -73,3 +75,32 @@ def _ir_sim_world(
         ],
         "obstacle": walls,
     }
+
+
+def _navground(plan: FloorPlan, robot: RobotSpec, lidar: LidarSpec, start: Pose) -> Part:
+    """A step of navground: the body is a disc that turns in a small circle."""
+    from navground import core, sim  # pyright: ignore[reportMissingImports]
+
+    period, radius = 1.0 / lidar.rate_hz, robot.width / 2
+    wheels = core.kinematics.TwoWheelsDifferentialDriveKinematics(1.0, robot.width)
+    behavior = core.behaviors.DummyBehavior(kinematics=wheels, radius=radius)
+    behavior.target = core.Target.Twist(core.Twist2((0.1, 0.0), 1.0, frame=core.Frame.relative))
+    agent = sim.Agent(radius, behavior, wheels, control_period=period)
+    agent.pose = core.Pose2(start[:2], start[2])
+    world = sim.World()
+    world.add_agent(agent)
+    for x1, y1, x2, y2 in plan.opaque_segments.tolist():
+        world.add_wall(sim.Wall((x1, y1), (x2, y2)))
+    view = lidar.angle_increment * (lidar.beams - 1)
+    sensor = sim.state_estimations.LidarStateEstimation(
+        lidar.range_max, -view / 2, view, lidar.beams
+    )
+    sensed = core.SensingState()
+    sensor.prepare_state(sensed)
+
+    def step() -> None:
+        world.update(period)
+        sensor.update(agent, world, sensed)
+
+    name = f"step of navground {version('navground')}, lidar alone"
+    return Part(name, lambda: seconds_per_call(step, PEER_STEPS))

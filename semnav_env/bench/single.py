@@ -11,13 +11,20 @@ import numpy as np
 from semnav_env.belief import BeliefTracker
 from semnav_env.belief.understand import extract_features, understand
 from semnav_env.bench.timing import Part, seconds_per_call
+from semnav_env.depth import DepthRig
 from semnav_env.env import SemNavEnv
+from semnav_env.features import Door
+from semnav_env.features.clouds import find_door
 from semnav_env.features.frames import compose
 from semnav_env.lidar.raster import cast
 from semnav_env.simulator.sensing import sense
 
 RESETS = 20
 """Resets timed in a run; one takes as long as many steps."""
+
+
+RARE = 10
+"""Calls timed of what takes milliseconds."""
 
 
 def step_parts(steps: int, **options: Any) -> list[Part]:
@@ -54,9 +61,16 @@ def kernel_parts(steps: int, **options: Any) -> list[Part]:
         "of it the features": lambda: extract_features(tracker.senses),
         "grounding a clause, when it is time to look": lambda: follower.look(scene(), believed),
     }
+    rig, door = DepthRig.spot(), Door((1.0, 0.45), (1.0, -0.45))
+    cloud = env.simulator.see(rig)
+    rare = {
+        f"a cloud of {rig.pixels} pixels": lambda: env.simulator.see(rig),
+        "a door looked for in it": lambda: find_door(cloud, door),
+    }
+    timed = [*((*each, steps) for each in calls.items()), *((*each, RARE) for each in rare.items())]
     return [
-        Part(name, lambda call=call: seconds_per_call(call, steps))  # type: ignore[misc]
-        for name, call in calls.items()
+        Part(name, lambda call=call, count=count: seconds_per_call(call, count))  # type: ignore[misc]
+        for name, call, count in timed
     ]
 
 

@@ -12,6 +12,7 @@ from semnav_env.bench.brute_force import brute_force_ranges
 from semnav_env.bench.peers import peer_parts
 from semnav_env.bench.plans import repeated
 from semnav_env.bench.single import kernel_parts, step_parts
+from semnav_env.bench.start_up import compile_seconds, start_parts
 from semnav_env.bench.timing import Part, Timing, seconds_per_call, timings
 from semnav_env.bench.vector import vector_part
 from semnav_env.env import SemNavEnv
@@ -61,6 +62,21 @@ def growth(plan: FloorPlan, threads: int, runs: int, steps: int, **options: Any)
     for count in range(1, threads + 1):
         parts += [vector_part(steps, n, count, floor_plan=plan, **options) for n in ROBOTS]
     return timings(parts, runs)
+
+
+def starting(runs: int, cold: bool) -> list[Timing]:
+    """Time how long starting takes; the yardstick first.
+
+    Args:
+        runs: how often each part is timed; the median counts.
+        cold: also compile all kernels, once, into an empty folder.
+    """
+    found = timings([yardstick(), *start_parts()], runs)
+    if cold:
+        taken = 1e6 * compile_seconds()
+        name = "compiling all kernels, processor time"
+        found.append(Timing(name, taken, found[0].microseconds / taken))
+    return found
 
 
 def with_beams(beams: int) -> LidarSpec:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from semnav_env.commands.clauses import (
     Approach,
     Clause,
+    Face,
     Follow,
     GoBack,
     GoToDoor,
@@ -12,6 +13,7 @@ from semnav_env.commands.clauses import (
     IfThere,
     Leave,
     OwnClause,
+    SearchHouse,
     Stop,
     Turn,
     Turning,
@@ -19,8 +21,6 @@ from semnav_env.commands.clauses import (
 from semnav_env.commands.command import MAX_CLAUSES, Command
 from semnav_env.commands.encoding import encode
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
-from semnav_env.commands.paraphrases import paraphrases
-from semnav_env.commands.parser import correct, parse, readings
 from semnav_env.commands.references import (
     LAST,
     MAX_FROM_END,
@@ -30,10 +30,10 @@ from semnav_env.commands.references import (
     DoorReference,
     Place,
     PlaceReference,
+    RoomReference,
     Side,
     Unit,
 )
-from semnav_env.commands.sampling import sample_clause, sample_command
 from semnav_env.commands.tokens import CLAUSE_FEATURES, token_mask, token_space
 from semnav_env.lazy_names import lazy_names
 
@@ -46,7 +46,10 @@ if TYPE_CHECKING:
         ModelInterpreter,
         TemplateInterpreter,
     )
+    from semnav_env.commands.parser import correct, parse, readings
     from semnav_env.commands.program import from_program, to_program
+    from semnav_env.commands.rewording import paraphrases
+    from semnav_env.commands.sampling import sample_clause, sample_command
 
 __all__ = [
     "CLAUSE_FEATURES",
@@ -62,6 +65,7 @@ __all__ = [
     "CommandError",
     "Distance",
     "DoorReference",
+    "Face",
     "Follow",
     "GoBack",
     "GoToDoor",
@@ -75,6 +79,8 @@ __all__ = [
     "OwnClause",
     "Place",
     "PlaceReference",
+    "RoomReference",
+    "SearchHouse",
     "Side",
     "Stop",
     "TemplateInterpreter",
@@ -106,6 +112,9 @@ __getattr__ = lazy_names(
             "ModelInterpreter",
             "TemplateInterpreter",
         ),
+        "parser": ("correct", "parse", "readings"),
         "program": ("from_program", "to_program"),
+        "rewording": ("paraphrases",),
+        "sampling": ("sample_clause", "sample_command"),
     },
 )

@@ -6,7 +6,6 @@ clauses around it belong together; `command_readings` applies it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TypeAlias, get_args
 
@@ -17,6 +16,38 @@ from semnav_env.commands.references import DoorReference, PlaceReference, Side
 @dataclass(frozen=True, slots=True)
 class EnterMentionedDoor:
     """Mark: go through the door that was mentioned last ("... and go in")."""
+
+
+@dataclass(frozen=True, slots=True)
+class StopBeforeMentioned:
+    """Mark: in front of the door or room that was mentioned last ("... and stop outside")."""
+
+
+@dataclass(frozen=True, slots=True)
+class IntoDoorway:
+    """Mark: into a doorway: through it, unless the next clause is to stop there.
+
+    Attributes:
+        door: which door.
+    """
+
+    door: DoorReference
+
+
+@dataclass(frozen=True, slots=True)
+class TurnBack:
+    """Mark: turn around, unless the clause before did ("turn around and go back to ...")."""
+
+
+@dataclass(frozen=True, slots=True)
+class NextIfClosed:
+    """Mark: what to do if the door that was mentioned last is closed ("if it's closed, ...").
+
+    Attributes:
+        clause: what to do then.
+    """
+
+    clause: Clause
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,20 +68,26 @@ class OtherwiseMarker:
 
 @dataclass(frozen=True, slots=True)
 class Correction:
-    """Mark: a correction of the clause before it ("no, the second one on the left").
+    """Mark: what is to be done instead of the clause before it ("no, turn right").
 
     Attributes:
-        clause: replaces that clause; None if only its ordinal or side is corrected.
-        ordinal: the right ordinal of its door or place.
-        side: the right side of its door, or of its turn.
+        clause: replaces that clause.
     """
 
-    clause: Clause | None = None
-    ordinal: int | None = None
-    side: Side | None = None
+    clause: Clause
 
 
-Step: TypeAlias = Clause | EnterMentionedDoor | SideOfMentionedDoor | OtherwiseMarker | Correction
+Step: TypeAlias = (
+    Clause
+    | EnterMentionedDoor
+    | StopBeforeMentioned
+    | TurnBack
+    | IntoDoorway
+    | NextIfClosed
+    | SideOfMentionedDoor
+    | OtherwiseMarker
+    | Correction
+)
 Steps: TypeAlias = tuple[Step, ...]
 Readings: TypeAlias = tuple[Steps, ...]
 """The ways in which a stretch of text can be understood; each is a sequence of steps."""
@@ -77,7 +114,7 @@ class ClauseReadings:
     @property
     def wants_side(self) -> bool:
         """Whether some reading ends with a door whose side was not said."""
-        ends = [reading[-1] for reading in self.readings]
+        ends = [reading[-1] for reading in self.readings if reading]
         return any(isinstance(end, GoToDoor) and end.door.side is None for end in ends)
 
     def without_sides(self) -> ClauseReadings:
@@ -91,11 +128,6 @@ class ClauseReadings:
         return max(
             sum(isinstance(step, get_args(Clause)) for step in each) for each in self.readings
         )
-
-
-def single_reading(clause: Clause) -> Readings:
-    """The readings of a clause that can be understood in one way only."""
-    return ((clause,),)
 
 
 def at_reference(reference: DoorReference | PlaceReference, steps: Steps) -> Readings:
@@ -125,25 +157,3 @@ def on_condition(condition: IfThere, readings: Readings) -> Readings:
     if any(len(steps) != 1 for steps in readings):
         raise ValueError('one clause depends on a condition; begin the next with "in any case"')
     return tuple((condition, *steps) for steps in readings)
-
-
-def correction_of(readings: Readings) -> Correction:
-    """The correction that "no, ..." makes, from the readings of the words behind "no".
-
-    Raises:
-        ValueError: these are more than one clause.
-    """
-    sides = list(_sides(readings))
-    if sides:
-        return Correction(side=sides[0])
-    (step, *more), *others = readings
-    if isinstance(step, GoToDoor) and others:
-        return Correction(ordinal=step.door.ordinal, side=step.door.side)
-    if more or others or not isinstance(step, Clause):
-        raise ValueError("one clause is corrected at a time")
-    return Correction(step)
-
-
-def _sides(readings: Readings) -> Iterable[Side]:
-    steps = (step for steps in readings for step in steps)
-    return (step.side for step in steps if isinstance(step, SideOfMentionedDoor))

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import re
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from enum import StrEnum
@@ -13,16 +12,21 @@ from typing import TypeAlias
 
 from semnav_env.commands.language import Language
 from semnav_env.commands.languages import english
-from semnav_env.commands.references import Distance, DoorReference, Place, PlaceReference
-from semnav_env.commands.rooms import MAX_NAME
+from semnav_env.commands.references import (
+    Distance,
+    DoorReference,
+    Place,
+    PlaceReference,
+    RoomReference,
+    Side,
+    check_room_name,
+)
 
 MAX_DEGREES, DEGREE_STEP = 360, 5
 """The largest turn by degrees, a full one, and the step of such turns, degrees."""
 
 MAX_SECONDS = 100
 """The longest wait, seconds; the most that a token holds."""
-
-_NAME = re.compile(rf"(?=.{{1,{MAX_NAME}}}$)[a-z0-9]+(?:[ ._-][a-z0-9]+)*", re.ASCII)
 
 
 class Turning(StrEnum):
@@ -34,10 +38,11 @@ class Turning(StrEnum):
 
 
 class Approach(StrEnum):
-    """Whether a robot stops in front of a door or goes through it."""
+    """Whether a robot stops in front of a door, stops in the doorway, or goes through it."""
 
     TO = "to"
     THROUGH = "through"
+    IN = "in"
 
 
 class _SpokenClause(ABC):
@@ -62,7 +67,7 @@ class Follow(_SpokenClause):
         past: go on until `until` lies behind, so that it no longer counts.
     """
 
-    until: PlaceReference | DoorReference | Distance | None = None
+    until: PlaceReference | DoorReference | RoomReference | Distance | None = None
     past: bool = False
 
     def __post_init__(self) -> None:
@@ -120,7 +125,7 @@ class GoToDoor(_SpokenClause):
 
     Attributes:
         door: which door.
-        approach: stop in front of it, or go through it ("through", "into", "in" and "enter").
+        approach: stop in front of it, stop in its doorway, or go through it.
     """
 
     door: DoorReference
@@ -138,17 +143,21 @@ class GoToRoom(_SpokenClause):
     Attributes:
         name: its plain name: small letters a to z and digits, parted by single spaces, dots,
             hyphens or underscores; at most `MAX_NAME` characters.
+        approach: go in, or stop in front of its door.
     """
 
     name: str
+    approach: Approach = Approach.THROUGH
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or not _NAME.fullmatch(self.name):
-            raise ValueError(f"a room's name is of small letters and digits, not {self.name!r}")
+        check_room_name(self.name)
+        if self.approach is Approach.IN:
+            raise ValueError("one stops in front of a room or goes in, not in its doorway")
 
     def say(self, language: Language) -> str:
         """In the words of a language."""
-        return language.say("room", name=self.name)
+        phrase = "room" if self.approach is Approach.THROUGH else "room_front"
+        return language.say(phrase, name=self.name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,6 +176,15 @@ class GoBack(_SpokenClause):
     def say(self, language: Language) -> str:
         """In the words of a language."""
         return language.say("back")
+
+
+@dataclass(frozen=True, slots=True)
+class SearchHouse(_SpokenClause):
+    """Look into every room and report every person that is found: "search the house"."""
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        return language.say("search")
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,6 +209,27 @@ class Stop(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
+class Face(_SpokenClause):
+    """Turn on the spot until something is ahead: "face the second door on the left".
+
+    Attributes:
+        what: is to be ahead; a side: the nearest wall is to be on that side.
+    """
+
+    what: DoorReference | PlaceReference | RoomReference | Side
+
+    def __post_init__(self) -> None:
+        if isinstance(self.what, Side) and self.what not in (Side.LEFT, Side.RIGHT):
+            raise ValueError(f"a wall is on the left or on the right, not {self.what}")
+
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+        if isinstance(self.what, Side):
+            return language.say("face_wall", side=language.say(self.what))
+        return language.say("face", referent=self.what)
+
+
+@dataclass(frozen=True, slots=True)
 class IfThere(_SpokenClause):
     """Carry out the next clause only if something is there: "if there is a door on the left, ...".
 
@@ -203,6 +242,10 @@ class IfThere(_SpokenClause):
     what: DoorReference | PlaceReference
     absent: bool = False
     otherwise: bool = False
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.what, DoorReference | PlaceReference):
+            raise ValueError(f"a condition is on a door or a place ahead, not on {self.what!r}")
 
     def say(self, language: Language) -> str:
         """In the words of a language."""
@@ -225,5 +268,15 @@ class OwnClause(_SpokenClause):
 
 
 Clause: TypeAlias = (
-    Follow | Turn | GoToDoor | GoToRoom | Leave | GoBack | Stop | IfThere | OwnClause
+    Follow
+    | Turn
+    | GoToDoor
+    | GoToRoom
+    | Leave
+    | GoBack
+    | SearchHouse
+    | Stop
+    | Face
+    | IfThere
+    | OwnClause
 )

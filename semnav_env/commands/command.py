@@ -8,10 +8,10 @@ from enum import Enum
 from itertools import pairwise
 from typing import get_args
 
-from semnav_env.commands.clauses import Clause, Follow, GoToDoor, IfThere, Turn
+from semnav_env.commands.clauses import Clause, Face, Follow, GoToDoor, GoToRoom, IfThere, Turn
 from semnav_env.commands.language import Language
 from semnav_env.commands.languages import language_of
-from semnav_env.commands.references import DoorReference, PlaceReference
+from semnav_env.commands.references import DoorReference, PlaceReference, RoomReference
 
 MAX_CLAUSES = 8
 """The most clauses of a command; it fixes the shape of its tokens."""
@@ -112,8 +112,17 @@ def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
             return at
         case GoToDoor(door):
             return door
-        case IfThere(what):
+        case IfThere(what) | Face(DoorReference() | PlaceReference() as what):
             return what
+        case _:
+            return None
+
+
+def room_of(clause: Clause) -> str | None:
+    """The plain name of the room that a clause names; None if it names none."""
+    match clause:
+        case GoToRoom(name) | Follow(RoomReference(name)) | Face(RoomReference(name)):
+            return name
         case _:
             return None
 

@@ -11,12 +11,14 @@ from semnav_env.commands.clauses import (
     DEGREE_STEP,
     Approach,
     Clause,
+    Face,
     Follow,
     GoBack,
     GoToDoor,
     GoToRoom,
     IfThere,
     Leave,
+    SearchHouse,
     Stop,
     Turn,
     Turning,
@@ -30,6 +32,7 @@ from semnav_env.commands.references import (
     DoorReference,
     Place,
     PlaceReference,
+    RoomReference,
     Unit,
 )
 from semnav_env.commands.rooms import plain_name
@@ -39,8 +42,10 @@ from semnav_env.commands.tokens import (
     CONDITION_CASES,
     DEGREES,
     DOOR,
+    EVERY_ROOM,
     LAST_TOKEN,
     OTHER_TOKEN,
+    ROOM,
     SECONDS,
     TOKEN_REFERENTS,
     TOKEN_SIDES,
@@ -95,15 +100,22 @@ def _clause(number: int, row: Row, rooms: Sequence[str]) -> Clause:
 def _clause_of(row: Row, rooms: Sequence[str]) -> Clause | None:
     verb, turning, referent, number, side = row
     if TokenVerb(verb) is TokenVerb.GO_TO_ROOM:
-        if not 1 <= number <= len(rooms):
-            raise ValueError(f"there are {len(rooms)} rooms")
-        return GoToRoom(plain_name(rooms[number - 1]))
+        if number == EVERY_ROOM:
+            return SearchHouse()
+        return GoToRoom(_room(number, rooms), Approach.TO if turning else Approach.THROUGH)
     if TOKEN_REFERENTS[referent] == SECONDS:
         return Stop(number)
-    reference = _reference(referent, number, side)
+    reference = _reference(referent, number, side, rooms)
     match TokenVerb(verb), TOKEN_TURNINGS[turning], reference:
         case TokenVerb.IF_THERE, _, DoorReference() | PlaceReference() as what:
             return IfThere(what, *CONDITION_CASES[turning])
+        case TokenVerb.TURN, None, None:
+            wall = TOKEN_SIDES[side]
+            return None if wall is None else Face(wall)
+        case TokenVerb.TURN, None, DoorReference() | PlaceReference() | RoomReference() as what:
+            return Face(what)
+        case TokenVerb.FOLLOW | TokenVerb.PASS as way, _, RoomReference() as room:
+            return Follow(room, past=way is TokenVerb.PASS)
         case TokenVerb.FOLLOW, _, Distance() | PlaceReference() | DoorReference() | None:
             return Follow(reference)
         case TokenVerb.PASS, _, PlaceReference() | DoorReference():
@@ -113,7 +125,7 @@ def _clause_of(row: Row, rooms: Sequence[str]) -> Clause | None:
         case TokenVerb.TURN, Turning() as way, None | PlaceReference() as at:
             return Turn(way, at)
         case TokenVerb.GO_TO, _, DoorReference() as door:
-            return GoToDoor(door, Approach.TO)
+            return GoToDoor(door, Approach.IN if turning else Approach.TO)
         case TokenVerb.GO_THROUGH, _, DoorReference() as door:
             return GoToDoor(door, Approach.THROUGH)
         case TokenVerb.STOP, _, _:
@@ -125,10 +137,18 @@ def _clause_of(row: Row, rooms: Sequence[str]) -> Clause | None:
     return None
 
 
+def _room(number: int, rooms: Sequence[str]) -> str:
+    if not 1 <= number <= len(rooms):
+        raise ValueError(f"there are {len(rooms)} rooms")
+    return plain_name(rooms[number - 1])
+
+
 def _reference(
-    referent: int, number: int, side: int
-) -> PlaceReference | DoorReference | Distance | None:
+    referent: int, number: int, side: int, rooms: Sequence[str]
+) -> PlaceReference | DoorReference | RoomReference | Distance | None:
     kind = TOKEN_REFERENTS[referent]
+    if kind == ROOM:
+        return RoomReference(_room(number, rooms))
     if isinstance(kind, Place):
         return PlaceReference(kind, _ordinal(number))
     if isinstance(kind, Unit):

@@ -11,6 +11,7 @@ from semnav_env.commands.clauses import (
     DEGREE_STEP,
     Approach,
     Clause,
+    Face,
     Follow,
     GoBack,
     GoToDoor,
@@ -18,6 +19,7 @@ from semnav_env.commands.clauses import (
     IfThere,
     Leave,
     OwnClause,
+    SearchHouse,
     Stop,
     Turn,
 )
@@ -28,6 +30,8 @@ from semnav_env.commands.references import (
     Distance,
     DoorReference,
     PlaceReference,
+    RoomReference,
+    Side,
 )
 from semnav_env.commands.rooms import plain_name
 from semnav_env.commands.tokens import (
@@ -35,6 +39,7 @@ from semnav_env.commands.tokens import (
     CONDITION_CASES,
     DEGREES,
     DOOR,
+    EVERY_ROOM,
     LAST_TOKEN,
     MAX_NUMBER,
     OTHER_TOKEN,
@@ -70,7 +75,11 @@ def row_of(clause: Clause, rooms: Sequence[str]) -> Row:
     """The token of a clause; `rooms` as for `encode`."""
     match clause:
         case Follow(until, past):
-            return (TokenVerb.PASS if past else TokenVerb.FOLLOW, 0, *_reference_row(until))
+            return (TokenVerb.PASS if past else TokenVerb.FOLLOW, 0, *_reference_row(until, rooms))
+        case Face(Side() as side):
+            return (TokenVerb.TURN, 0, 0, 0, TOKEN_SIDES.index(side))
+        case Face(DoorReference() | PlaceReference() | RoomReference() as what):
+            return (TokenVerb.TURN, 0, *_reference_row(what, rooms))
         case Turn(turning, at, None):
             return (TokenVerb.TURN, TOKEN_TURNINGS.index(turning), *_reference_row(at))
         case Turn(turning, _, int(degrees)):
@@ -83,16 +92,18 @@ def row_of(clause: Clause, rooms: Sequence[str]) -> Row:
                 0,
             )
         case GoToDoor(door, approach):
-            verb = TokenVerb.GO_TO if approach == Approach.TO else TokenVerb.GO_THROUGH
-            return (verb, 0, *_reference_row(door))
-        case GoToRoom(name):
+            verb = TokenVerb.GO_THROUGH if approach is Approach.THROUGH else TokenVerb.GO_TO
+            return (verb, int(approach is Approach.IN), *_reference_row(door))
+        case GoToRoom(name, approach):
             return (
                 TokenVerb.GO_TO_ROOM,
-                0,
+                int(approach is Approach.TO),
                 TOKEN_REFERENTS.index(ROOM),
                 _room_number(name, rooms),
                 0,
             )
+        case SearchHouse():
+            return (TokenVerb.GO_TO_ROOM, 0, TOKEN_REFERENTS.index(ROOM), EVERY_ROOM, 0)
         case Leave():
             return (TokenVerb.LEAVE, 0, 0, 0, 0)
         case GoBack():
@@ -118,8 +129,13 @@ def _room_number(name: str, rooms: Sequence[str]) -> int:
     return 1 + names.index(name)
 
 
-def _reference_row(reference: PlaceReference | DoorReference | Distance | None) -> Row:
+def _reference_row(
+    reference: PlaceReference | DoorReference | RoomReference | Distance | None,
+    rooms: Sequence[str] = (),
+) -> Row:
     match reference:
+        case RoomReference(name):
+            return (TOKEN_REFERENTS.index(ROOM), _room_number(name, rooms), 0)
         case None:
             return (0, 0, 0)
         case DoorReference(ordinal, side):

@@ -68,17 +68,26 @@ class CommandError(ValueError):
 
 
 class AmbiguousCommandError(CommandError):
-    """A text that can mean several commands.
+    """A text that can mean several commands, or one that is doubtful because a word is misspelt.
 
     Attributes:
         readings: these commands, the likelier first.
         differences: for each reading the clauses in which it differs, in the text's language.
     """
 
-    def __init__(self, text: str, readings: tuple[Any, ...], differences: tuple[str, ...]) -> None:
+    def __init__(
+        self,
+        text: str,
+        readings: tuple[Any, ...],
+        differences: tuple[str, ...],
+        suggestion: str | None = None,
+    ) -> None:
         ways = " or ".join(f'"{difference}"' for difference in differences)
-        super().__init__(f"this can mean {ways}", text, hint="say which")
-        self.args = (text, readings, differences)
+        if suggestion:
+            super().__init__(f"did you mean {ways}?", text, suggestion=suggestion)
+        else:
+            super().__init__(f"this can mean {ways}", text, hint="say which")
+        self.args = (text, readings, differences, suggestion)
         self.readings = readings
         self.differences = differences
 

@@ -1,4 +1,4 @@
-"""A language of commands: its grammar, its words, and how it puts commands in words."""
+"""A language of commands: its words, and how it puts commands in words."""
 
 from __future__ import annotations
 
@@ -7,22 +7,18 @@ from typing import Any
 
 from semnav_env.commands.words import fold
 
-OPEN_TERMINALS = PUNCTUATION, QUESTION, NAME = "_PUNCTUATION", "_QUESTION", "NAME"
-"""Terminals whose words are in no list: signs and names of rooms."""
-
 DIGITS_HINT = "0-9"
 """The key in `Language.hints` of all words that begin with a digit."""
 
 
 @dataclass(frozen=True, eq=False)
 class Language:
-    """A language of commands, as `languages.load` reads it from its two files.
+    """A language of commands, as `languages.load` reads it from its file.
 
     Attributes:
-        name: stem of the two files, such as "english".
+        name: stem of its file, such as "english".
         code: its ISO 639-1 code, such as "en".
-        grammar: Lark grammar without the declarations of its terminals.
-        terminals: the words or fixed phrases of each terminal, the usual one first.
+        terminals: words that decide what is meant, by what they name; see `templates`.
         ordinals: for 1, 2, ... in order its words, the usual one first.
         from_end: for the last, the second to last, ... in order its words, the usual one first.
         numbers: the value of each number word.
@@ -30,7 +26,6 @@ class Language:
         decimal: the decimal sign.
         punctuation: characters that part clauses or end a command.
         same_as: characters that are read as others.
-        names: what an error calls a terminal, if its first word would not do.
         hints: advice for words that people often try and that are not understood.
         phrases: format strings that put commands in words; "door:to" is a form of "door".
         wordings: other format strings for these phrases; those of "1" are other words for the
@@ -39,7 +34,6 @@ class Language:
 
     name: str
     code: str
-    grammar: str
     terminals: dict[str, tuple[str, ...]]
     ordinals: tuple[tuple[str, ...], ...]
     from_end: tuple[tuple[str, ...], ...]
@@ -48,14 +42,9 @@ class Language:
     decimal: str
     punctuation: str
     same_as: dict[str, str]
-    names: dict[str, str]
     hints: dict[str, str]
     phrases: dict[str, str]
     wordings: dict[str, tuple[str, ...]]
-
-    def lark(self) -> str:
-        """The whole grammar in Lark's notation, with the declarations of its terminals."""
-        return f"{self.grammar}\n%declare {' '.join((*self.terminals, *OPEN_TERMINALS))}\n"
 
     def folded(self, words: str) -> str:
         """Words in the spelling that the grammar reads."""
@@ -80,10 +69,6 @@ class Language:
         """The single words of a terminal's phrases, as they are written."""
         phrases = self.terminals.get(terminal, ())
         return tuple(word for phrase in phrases for word in phrase.replace("-", " ").split())
-
-    def call(self, terminal: str) -> str:
-        """The name of a terminal in an error."""
-        return self.names.get(terminal) or self.terminals[terminal][0]
 
     def hint(self, word: str) -> str | None:
         """Advice for a word that was not understood; None if there is none."""

@@ -1,4 +1,4 @@
-"""Loads the languages of commands, each from a pair of files beside this one."""
+"""Loads the languages of commands, each from a file beside this one."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from semnav_env.commands.words import fold, pieces
 
 
 def load(name: str) -> Language:
-    """The language in `name.json` (words) and `name.lark` (grammar) beside this file."""
+    """The language in `name.json` beside this file."""
     folder = files("semnav_env.commands")
     table = json.loads((folder / f"{name}.json").read_text("utf-8"))
     same_as = table["same_as"]
@@ -26,7 +26,6 @@ def load(name: str) -> Language:
     return Language(
         name=name,
         code=table["code"],
-        grammar=(folder / f"{name}.lark").read_text("utf-8"),
         terminals=terminals,
         ordinals=ordinals,
         from_end=from_end,
@@ -35,7 +34,6 @@ def load(name: str) -> Language:
         decimal=table["decimal"],
         punctuation=table["punctuation"],
         same_as=same_as,
-        names=table["names"],
         hints={fold(w, same_as): hint["say"] for hint in table["hints"] for w in hint["words"]},
         phrases=table["phrases"],
         wordings={key: tuple(words) for key, words in table["wordings"].items()},
@@ -56,7 +54,7 @@ def english() -> Language:
 def languages() -> dict[str, Language]:
     """All languages by their code."""
     folder = files("semnav_env.commands")
-    stems = sorted(file.name[:-5] for file in folder.iterdir() if file.name.endswith(".lark"))
+    stems = sorted(file.name[:-5] for file in folder.iterdir() if file.name.endswith(".json"))
     loaded = [load(stem) for stem in stems]
     return {language.code: language for language in loaded}
 

@@ -15,7 +15,7 @@ from semnav_env.commands.references import DoorReference, Side
 MAX_CHARACTERS = 20_000
 """The longest text that is read, characters; it bounds the time that a parse can take."""
 
-MAX_WORDS = 2_000
+MAX_WORDS = 300
 """The most words that are read; far above what `MAX_CLAUSES` clauses need."""
 
 INVISIBLE = frozenset("\u00ad\u200b\u200c\u200d\u200e\u200f\u061c\u2060\ufeff")
@@ -103,6 +103,7 @@ def _folded(original: str, language: Language) -> Iterator[tuple[int, str]]:
             yield index, " "
             continue
         _refuse_invisible(original, index)
+        _refuse_superscript(original, index)
         for character in _nfkc_casefold(cluster.group()):
             known = language.folded(character)
             _refuse_foreign(original, index, known, language)
@@ -126,6 +127,13 @@ def _refuse_invisible(original: str, index: int) -> None:
         raise CommandError(
             f"{character_name(character)} is a {kind}: leave it out", original, index
         )
+
+
+def _refuse_superscript(original: str, index: int) -> None:
+    """Refuse digits that are no decimal digits: "3²" is not 32."""
+    if original[index].isdigit() and not original[index].isdecimal():
+        problem = f"{character_name(original[index])} is no plain digit: write numbers with 0 to 9"
+        raise CommandError(problem, original, index)
 
 
 def _refuse_foreign(original: str, index: int, character: str, language: Language) -> None:

@@ -10,14 +10,28 @@ from semnav_env.commands.clause_readings import (
     ClauseReadings,
     Correction,
     EnterMentionedDoor,
+    IntoDoorway,
+    NextIfClosed,
     OtherwiseMarker,
     SideOfMentionedDoor,
     Steps,
+    StopBeforeMentioned,
+    TurnBack,
 )
-from semnav_env.commands.clauses import Approach, Clause, Follow, GoToDoor, IfThere
+from semnav_env.commands.clauses import (
+    Approach,
+    Clause,
+    Follow,
+    GoBack,
+    GoToDoor,
+    GoToRoom,
+    IfThere,
+    Stop,
+    Turn,
+    Turning,
+)
 from semnav_env.commands.command import reference_of
-from semnav_env.commands.corrections import corrected
-from semnav_env.commands.references import DoorReference, Side
+from semnav_env.commands.references import DoorReference, Place, Side
 
 
 class ReadingClause(NamedTuple):
@@ -60,22 +74,75 @@ def one_reading(found: Sequence[ClauseReadings], choice: Sequence[Steps]) -> Rea
         OutOfPlaceError: a mark has nothing before it to change.
     """
     reading: Reading = []
+    doorway = -2
     for index, (each, steps) in enumerate(zip(found, choice, strict=True)):
         for number, step in enumerate(steps):
             match step:
                 case EnterMentionedDoor():
                     _enter(reading, index)
+                case StopBeforeMentioned():
+                    _stop_before(reading, index)
+                case IntoDoorway(door):
+                    doorway = len(reading)
+                    reading.append(ReadingClause(GoToDoor(door)))
+                case Stop() if doorway == len(reading) - 1:
+                    entered = reading[-1].clause
+                    assert isinstance(entered, GoToDoor)
+                    inside = replace(entered, approach=Approach.IN)
+                    reading[-1:] = [ReadingClause(inside), ReadingClause(step)]
+                case TurnBack():
+                    _turn_back(reading)
+                case NextIfClosed(clause):
+                    _unless_closed(reading, clause, index)
                 case SideOfMentionedDoor(side):
                     if not _add_side(reading, side):
                         return []
                 case OtherwiseMarker():
                     _open_otherwise(reading, index)
-                case Correction():
-                    reading[-1:] = [ReadingClause(_corrected(reading, step, index))]
+                case Correction(clause):
+                    if not reading:
+                        problem = "there is nothing before it to be corrected"
+                        raise OutOfPlaceError(problem, index)
+                    reading[-1:] = [ReadingClause(clause)]
                 case _:
                     adverbs = (each.anew, each.in_any_case) if number == 0 else (False, False)
                     reading.append(ReadingClause(step, *adverbs))
     return reading
+
+
+def _stop_before(reading: Reading, index: int) -> None:
+    """Go to the last clause's door or room and not in."""
+    before = reading[-1].clause if reading else None
+    if isinstance(before, Follow) and isinstance(before.until, DoorReference) and not before.past:
+        before = GoToDoor(before.until)
+        reading[-1] = ReadingClause(before)
+    if not isinstance(before, GoToDoor | GoToRoom):
+        raise OutOfPlaceError("in front of what? name the door", index)
+    reading[-1] = reading[-1]._replace(clause=replace(before, approach=Approach.TO))
+
+
+def _turn_back(reading: Reading) -> None:
+    """Turn around, once; "the way you came" says nothing more."""
+    before = reading[-1].clause if reading else None
+    if isinstance(before, GoBack):
+        reading.pop()
+    if before != Turn(Turning.AROUND):
+        reading.append(ReadingClause(Turn(Turning.AROUND)))
+
+
+def _unless_closed(reading: Reading, clause: Clause, index: int) -> None:
+    """Make the last clause, which leads through a door, hang on whether that is open."""
+    before = reading[-1].clause if reading else None
+    if not isinstance(before, GoToDoor):
+        raise OutOfPlaceError("if what is closed? name the door", index)
+    first, other = before.door, getattr(clause, "door", None)
+    if other is not None and other.side in (None, first.side):
+        if other.ordinal not in (1, first.ordinal + 1) or first.ordinal != 1:
+            problem = "closed doors look like walls and do not count: name the open one"
+            raise OutOfPlaceError(problem, index)
+        return  # the first open door is meant
+    condition = IfThere(first, otherwise=True)
+    reading[-1:] = [ReadingClause(each) for each in (condition, before, clause)]
 
 
 def _add_side(reading: Reading, side: Side) -> bool:
@@ -88,18 +155,13 @@ def _add_side(reading: Reading, side: Side) -> bool:
     return True
 
 
-def _corrected(reading: Reading, correction: Correction, index: int) -> Clause:
-    if not reading:
-        raise OutOfPlaceError("there is nothing before it to be corrected", index)
-    try:
-        return corrected(reading[-1].clause, correction)
-    except ValueError as error:
-        raise OutOfPlaceError(str(error), index) from None
-
-
 def _open_otherwise(reading: Reading, index: int) -> None:
     """Note in the condition, which stands before the last clause, that it has an otherwise."""
     condition = reading[-2].clause if len(reading) > 1 else None
+    before = reading[-1].clause if reading else None
+    if not isinstance(condition, IfThere) and isinstance(before, GoToDoor):
+        reading.insert(-1, ReadingClause(IfThere(before.door, otherwise=True)))
+        return
     if not isinstance(condition, IfThere) or condition.otherwise:
         raise OutOfPlaceError("otherwise than what? begin with a condition", index)
     reading[-2] = reading[-2]._replace(clause=replace(condition, otherwise=True))
@@ -108,11 +170,32 @@ def _open_otherwise(reading: Reading, index: int) -> None:
 def _enter(reading: Reading, index: int) -> None:
     """Go through the door that the last clause leads to, or that its condition names."""
     before = reading[-1].clause if reading else None
+    if isinstance(before, GoToRoom) or _is_at_turning(before):
+        return
+    if isinstance(before, Stop) and len(reading) > 1:
+        there = reading[-2].clause
+        if isinstance(there, GoToDoor) and there.approach is not Approach.THROUGH:
+            reading.append(ReadingClause(GoToDoor(DoorReference())))
+            return
+    condition = reading[-2].clause if len(reading) > 1 else None
+    if (
+        isinstance(condition, IfThere)
+        and isinstance(condition.what, DoorReference)
+        and condition.otherwise
+    ):
+        reading.append(ReadingClause(GoToDoor(condition.what)))
+        return
     entered = _through_door_of(before, index)
     if isinstance(before, IfThere):
         reading.append(ReadingClause(entered))
     else:
         reading[-1] = reading[-1]._replace(clause=entered)
+
+
+def _is_at_turning(before: Clause | None) -> bool:
+    """Whether a clause is "turn left at the turning", which says it all: "take that"."""
+    at = before.at if isinstance(before, Turn) else None
+    return at is not None and at.place is Place.TURNING
 
 
 def _through_door_of(before: Clause | None, index: int) -> GoToDoor:

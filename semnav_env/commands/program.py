@@ -14,6 +14,7 @@ from semnav_env.commands.references import (
     Place,
     PlaceReference,
     Reference,
+    RoomReference,
     Side,
     Unit,
 )
@@ -80,6 +81,8 @@ def _read(name: str, part: object, where: str) -> Any:
     inside = f"{name} of {where}"
     if part is None and name in ("until", "at", "side", "degrees"):
         return None
+    if name == "what" and part in (Side.LEFT.value, Side.RIGHT.value):
+        return Side(part)
     if name in _REFERENCE_FIELDS:
         return _value(part, _REFERENCE_FIELDS[name], inside)
     if name in _ENUM_FIELDS:
@@ -104,7 +107,7 @@ _REFERENCE_FIELDS: dict[str, dict[str, Any]] = {
     "until": REFERENCE_KINDS,
     "at": {"PlaceReference": PlaceReference},
     "door": {"DoorReference": DoorReference},
-    "what": {"DoorReference": DoorReference, "PlaceReference": PlaceReference},
+    "what": {kind.__name__: kind for kind in (DoorReference, PlaceReference, RoomReference)},
 }
 _FIELD_CHECKS: dict[str, Callable[[object], bool]] = {
     "past": lambda part: isinstance(part, bool),

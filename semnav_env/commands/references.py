@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from enum import StrEnum
 from numbers import Integral
@@ -10,6 +11,7 @@ from typing import TypeAlias
 
 from semnav_env.commands.language import Language
 from semnav_env.commands.languages import english
+from semnav_env.commands.rooms import MAX_NAME
 
 
 class Side(StrEnum):
@@ -156,7 +158,40 @@ class Distance:
         return language.say(unit, form, amount=language.number_text(self.amount))
 
 
-Reference: TypeAlias = DoorReference | PlaceReference | Distance
+@dataclass(frozen=True, slots=True)
+class RoomReference:
+    """A room of the floor plan as a landmark: "until room 12", "past the kitchen".
+
+    Attributes:
+        name: its plain name, see `semnav_env.commands.rooms.plain_name`.
+    """
+
+    name: str
+
+    def __post_init__(self) -> None:
+        check_room_name(self.name)
+
+    def __str__(self) -> str:
+        return self.say(english())
+
+    def say(self, language: Language, form: str = "") -> str:
+        """In the words of a language, in the grammatical form (case) that a phrase asks for."""
+        return language.say("named_room", form, name=self.name)
+
+
+Reference: TypeAlias = DoorReference | PlaceReference | RoomReference | Distance
+
+_NAME = re.compile(rf"(?=.{{1,{MAX_NAME}}}$)[a-z0-9]+(?:[ ._-][a-z0-9]+)*", re.ASCII)
+
+
+def check_room_name(name: str) -> None:
+    """Refuse what is no plain name of a room.
+
+    Raises:
+        ValueError: it has other characters than small letters, digits and what parts them.
+    """
+    if not isinstance(name, str) or not _NAME.fullmatch(name):
+        raise ValueError(f"a room's name is of small letters and digits, not {name!r}")
 
 
 def _check_ordinal(what: str, ordinal: int) -> None:

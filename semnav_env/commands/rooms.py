@@ -43,6 +43,24 @@ def spoken_names(names: Sequence[str]) -> dict[str, str]:
     return once | {_said(name): name for name in plain} | as_written
 
 
+def name_phrases(names: Sequence[str]) -> dict[tuple[str, ...], str]:
+    """The plain name of each room by the words that people say for it."""
+    found: dict[tuple[str, ...], str] = {}
+    for name in names:
+        folded = "".join(_GERMAN_LETTERS.get(c, c) for c in name.casefold()).replace("\u2019", "'")
+        found[tuple(p.text for p in pieces(folded) if p.text != "'")] = plain_name(name)
+    for said, name in spoken_names(names).items():
+        words = tuple(piece.text for piece in pieces(said))
+        found[words] = name
+        if len(words) == 2 and words[0] in _ROOM_WORDS and words[1][0].isdigit():
+            found.setdefault(words[1:], name)
+    return found
+
+
+_ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
+"""Words that people leave out before a room's number."""
+
+
 def _in_words(name: str) -> str:
     return " ".join(piece.text for piece in pieces(name))
 

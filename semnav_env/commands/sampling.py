@@ -91,7 +91,7 @@ def sample_clause(rng: np.random.Generator, max_ordinal: int = MAX_ORDINAL) -> C
     if kind is Turn:
         return _turn(rng, max_ordinal)
     if kind is GoToDoor:
-        return GoToDoor(_door(rng, max_ordinal), _choose(rng, tuple(Approach)))
+        return GoToDoor(_door(rng, max_ordinal), _choose(rng, (Approach.TO, Approach.THROUGH)))
     if kind is Stop:
         return Stop(_choose(rng, (0, int(rng.integers(1, MAX_SECONDS + 1)))))
     return Leave() if kind is Leave else GoBack()

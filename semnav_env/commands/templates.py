@@ -20,6 +20,7 @@ from semnav_env.commands.clauses import (
     GoBack,
     GoToDoor,
     Leave,
+    SearchHouse,
     Stop,
     Turn,
     Turning,
@@ -35,7 +36,8 @@ from semnav_env.commands.references import (
     PlaceReference,
     Side,
 )
-from semnav_env.commands.words import Lexicon, pieces
+from semnav_env.commands.terminals import Lexicon
+from semnav_env.commands.words import pieces
 from semnav_env.features.frames import FloatArray
 
 Embedding: TypeAlias = Callable[[Sequence[str]], FloatArray]
@@ -185,7 +187,7 @@ def _clauses() -> Iterator[Clause]:
     kinds = [place for place in Place if place is not Place.END]
     junctions = [PlaceReference(*each) for each in product(kinds, counts)]
     end = PlaceReference(Place.END)
-    yield from (Follow(), Stop(), Leave(), GoBack(), Follow(end))
+    yield from (Follow(), Stop(), Leave(), GoBack(), SearchHouse(), Follow(end))
     yield from (Turn(turning) for turning in Turning)
     yield from (Turn(*each) for each in product(Turning, (*junctions, end)))
     yield from (GoToDoor(*each) for each in product(doors, Approach))

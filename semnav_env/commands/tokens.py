@@ -36,7 +36,9 @@ class TokenVerb(IntEnum):
 
 
 TOKEN_TURNINGS = (None, Turning.LEFT, Turning.RIGHT, Turning.AROUND)
-"""The second column is an index into these."""
+"""The second column is an index into these; a turn without one is to face its referent.
+
+For `GO_TO` 1 means in the doorway, and for `GO_TO_ROOM` in front of the room."""
 
 CONDITION_CASES = ((False, False), (False, True), (True, False), (True, True))
 """The second column of a condition is an index into these pairs: whether it asks for something
@@ -55,8 +57,12 @@ MAX_NUMBER = 100
 It is the ordinal of a door or place: 1 to `MAX_ORDINAL`, then from `LAST_TOKEN` on the last, the
 second to last and so on, then `OTHER_TOKEN` for the other one. For a distance it is the number of
 half metres or of steps, for a turn the number of `DEGREE_STEP`, for a wait the number of seconds,
-and for a room its place among the names, from 1.
+and for a room its place among the names, from 1; `EVERY_ROOM` stands for all of them.
 """
+
+EVERY_ROOM = 0
+"""The number with which "go to room" means "search the house": it needs no verb of its own, so
+agents that were trained before keep their observations."""
 
 LAST_TOKEN = MAX_ORDINAL + 1
 """The number of "the last"; the nth from the end is n - 1 more."""

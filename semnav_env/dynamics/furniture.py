@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 import shapely
@@ -74,6 +75,10 @@ def with_moved_furniture(
     return room.plan
 
 
+Ways: TypeAlias = list[list[Polygon]]
+"""For each half width of a lane, the connected regions in which the middle of a lane may lie."""
+
+
 class FurnitureMover:
     """Moves and adds furniture in a plan, one piece after the other.
 
@@ -84,6 +89,7 @@ class FurnitureMover:
 
     Attributes:
         plan: the plan with the pieces moved so far.
+        half_lane: half the width of the narrow ways, metres.
     """
 
     def __init__(self, plan: FloorPlan, robot: RobotSpec, keep: Point | None) -> None:
@@ -92,7 +98,10 @@ class FurnitureMover:
         around += [(keep, DOOR_CLEARANCE + robot.length / 2)] if keep is not None else []
         discs = [shapely.Point(point).buffer(reach) for point, reach in around]
         self._kept_free = shapely.union_all(discs)
-        self._lanes = LANE_WIDTH, robot.width + LANE_MARGIN
+        self._half_lanes = LANE_WIDTH / 2, (robot.width + LANE_MARGIN) / 2
+        self.half_lane = self._half_lanes[1]
+        self._ways: Ways | None = None
+        self.half_lane = self._half_lanes[1]
 
     def move(self, index: int, rng: np.random.Generator) -> None:
         """Move a piece, if a free place is found."""
@@ -104,8 +113,11 @@ class FurnitureMover:
             turned = rotate(outline, rng.normal(0.0, HEADING_STD), use_radians=True)
             return translate(turned, *rng.normal(0.0, POSITION_STD, 2))
 
+        self._ways = None
         piece = self._placed(draw, replace(self.plan, surfaces=others))
-        if piece is not None:
+        if piece is None:
+            self._ways = None
+        else:
             self.plan = replace(self.plan, surfaces=(*others[:index], piece, *others[index:]))
 
     def add(self, rng: np.random.Generator) -> None:
@@ -118,13 +130,23 @@ class FurnitureMover:
             upright = shapely.box(x - half_x, y - half_y, x + half_x, y + half_y)
             return rotate(upright, rng.uniform(0.0, 180.0))
 
+        self.put(draw)
+
+    def put(self, draw: Callable[[], Polygon], material: Material = Material.FURNITURE) -> bool:
+        """Put something solid into the plan, if a free place is found; returns whether it was.
+
+        Args:
+            draw: draws its outline, at another place each time.
+            material: of it.
+        """
         piece = self._placed(draw, self.plan)
         if piece is not None:
-            self.plan = replace(self.plan, surfaces=(*self.plan.surfaces, piece))
+            thing = replace(piece, material=material)
+            self.plan = replace(self.plan, surfaces=(*self.plan.surfaces, thing))
+        return piece is not None
 
     def _placed(self, draw: Callable[[], Polygon], plan: FloorPlan) -> Surface | None:
         """The first drawn piece that stands free, at no door, and parts no way in two."""
-        ways: list[tuple[float, list[Polygon]]] = []
         for _ in range(MAX_DRAWS):
             piece = draw()
             if piece.intersects(self._kept_free) or len(plan.furniture.query(piece, "intersects")):
@@ -133,27 +155,45 @@ class FurnitureMover:
                 plan.solids.query(piece, "dwithin", FURNITURE_GAP)
             ):
                 continue
-            ways = ways or [(lane / 2, _free_ways(plan, lane / 2)) for lane in self._lanes]
-            if all(_stay_whole(parts, piece.buffer(half)) for half, parts in ways):
+            ways = self._ways or [free_ways(plan, half) for half in self._half_lanes]
+            self._ways = ways
+            left = _ways_beside(piece, ways, self._half_lanes)
+            if left is not None:
+                self._ways = left
                 return _outline(piece)
         return None
 
 
-def _free_ways(plan: FloorPlan, half: float) -> list[Polygon]:
+def free_ways(plan: FloorPlan, half: float) -> list[Polygon]:
     """Connected regions in which the middle of a lane of some half width may lie."""
     lines = shapely.multilinestrings(plan.segments.reshape(-1, 2, 2))
     lanes = plan.boundary.difference(shapely.buffer(lines, half, quad_segs=16))
     return list(shapely.get_parts(lanes))
 
 
-def _stay_whole(parts: list[Polygon], piece: Polygon) -> bool:
-    """Whether no part falls into two when a piece is taken out of it."""
+def _ways_beside(piece: Polygon, ways: Ways, half_lanes: tuple[float, ...]) -> Ways | None:
+    """The ways beside a piece; None if it parts one of them in two."""
+    left: Ways = []
+    for half, parts in zip(half_lanes, ways, strict=True):
+        whole = _whole_without(piece.buffer(half), parts)
+        if whole is None:
+            return None
+        left.append(whole)
+    return left
+
+
+def _whole_without(piece: Polygon, parts: list[Polygon]) -> list[Polygon] | None:
+    """What is left of the parts when a piece is taken out of them; None if one falls into two."""
+    left: list[Polygon] = []
     for part in parts:
-        if part.area > LEAST_WAY_AREA and part.intersects(piece):
-            rest = shapely.get_parts(part.difference(piece))
-            if sum(each.area > LEAST_PIECE_AREA for each in rest) != 1:
-                return False
-    return True
+        if not part.intersects(piece):
+            left.append(part)
+            continue
+        rest = list(shapely.get_parts(part.difference(piece)))
+        if part.area > LEAST_WAY_AREA and sum(r.area > LEAST_PIECE_AREA for r in rest) != 1:
+            return None
+        left += rest
+    return left
 
 
 def _is_piece(surface: Surface) -> bool:

@@ -55,8 +55,11 @@ class PlanSource:
         if rng is None or not self.dynamics.furnishes:
             return plan
         from semnav_env.dynamics.furniture import with_moved_furniture  # most plans do not change
+        from semnav_env.dynamics.victims import with_victims
 
-        return with_moved_furniture(plan, self.dynamics, self._robot, rng, _point(pose))
+        keep = _point(pose)
+        plan = with_moved_furniture(plan, self.dynamics, self._robot, rng, keep)
+        return with_victims(plan, self.dynamics.victims, self._robot, rng, keep)
 
     def _hung_with_leaves(self, plan: FloorPlan) -> FloorPlan:
         """The plan with leaves; the same object for the same plan."""

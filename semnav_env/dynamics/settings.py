@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
+from typing import Annotated, TypeAlias
+
+from semnav_env.features.checked_fields import Bounds, OneOf, Share, check_fields, require_span
+from semnav_env.features.validation import require
+
+StaySeconds: TypeAlias = Annotated[float, Bounds(0.1, 10_000.0, "s")]
 
 MODELS = ("social_force", "orca")
 """Models of how people avoid each other."""
@@ -27,18 +32,15 @@ class Walking:
             either way.
     """
 
-    radius: float = 0.25
-    speed: float = 1.34
-    spread: float = 0.26
-    patience: float = 6.0
+    radius: Annotated[float, Bounds(0.1, 0.5, "m")] = 0.25
+    speed: Annotated[float, Bounds(0.01, 2.0, "m/s")] = 1.34
+    spread: Annotated[float, Bounds(0.0, 1.0, "m/s")] = 0.26
+    patience: StaySeconds = 6.0
     see_robot: bool = True
 
     def __post_init__(self) -> None:
-        """Check the numbers."""
-        _check(0.1 <= self.radius <= 0.5, "radius", self.radius, "between 0.1 and 0.5 m")
-        _check(0.0 < self.speed <= 2.0, "speed", self.speed, "positive and at most 2 m/s")
-        _check(0.0 <= self.spread < self.speed / 2, "spread", self.spread, "below half the speed")
-        _check(0.0 < self.patience < math.inf, "patience", self.patience, "positive, seconds")
+        check_fields(self)
+        require(self.spread < self.speed / 2, "spread", self.spread, "below half the speed")
 
 
 @dataclass(frozen=True)
@@ -51,16 +53,14 @@ class Swinging:
         rate: angular speed of the leaf, rad/s.
     """
 
-    open_for: tuple[float, float] = (4.0, 25.0)
-    closed_for: tuple[float, float] = (4.0, 10.0)
-    rate: float = 0.8
+    open_for: tuple[StaySeconds, StaySeconds] = (4.0, 25.0)
+    closed_for: tuple[StaySeconds, StaySeconds] = (4.0, 10.0)
+    rate: Annotated[float, Bounds(0.01, 2.0, "rad/s")] = 0.8
 
     def __post_init__(self) -> None:
-        """Check the numbers."""
+        check_fields(self)
         for name in ("open_for", "closed_for"):
-            least, most = getattr(self, name)
-            _check(0.0 < least <= most < math.inf, name, (least, most), "0 < least <= most")
-        _check(0.0 < self.rate <= 2.0, "rate", self.rate, "positive and at most 2 rad/s")
+            require_span(name, getattr(self, name))
 
 
 @dataclass(frozen=True)
@@ -74,28 +74,23 @@ class Dynamics:
             Every such door gets a leaf if the plan draws none.
         moved_furniture: probability that a piece of furniture of the plan is found elsewhere.
         added_boxes: number of boxes that are added to the plan in each episode.
+        victims: number of people who lie or sit on the floor of rooms, somewhere else in each
+            episode.
         walking: how people walk.
         swinging: how doors move.
     """
 
-    pedestrians: int = 0
-    model: str = "social_force"
-    changing_doors: float = 0.0
-    moved_furniture: float = 0.0
-    added_boxes: int = 0
+    pedestrians: Annotated[int, Bounds(0, 200)] = 0
+    model: Annotated[str, OneOf(MODELS)] = "social_force"
+    changing_doors: Share = 0.0
+    moved_furniture: Share = 0.0
+    added_boxes: Annotated[int, Bounds(0, 100)] = 0
+    victims: Annotated[int, Bounds(0, 20)] = 0
     walking: Walking = field(default_factory=Walking)
     swinging: Swinging = field(default_factory=Swinging)
 
     def __post_init__(self) -> None:
-        """Check the numbers."""
-        _check(self.model in MODELS, "model", self.model, f"one of {', '.join(MODELS)}")
-        for name, most in (("pedestrians", 200), ("added_boxes", 100)):
-            value = getattr(self, name)
-            whole = isinstance(value, int) and 0 <= value <= most
-            _check(whole, name, value, f"a whole number from 0 to {most}")
-        for name in ("changing_doors", "moved_furniture"):
-            value = getattr(self, name)
-            _check(0.0 <= value <= 1.0, name, value, "a probability in [0, 1]")
+        check_fields(self)
 
     @property
     def moves(self) -> bool:
@@ -104,13 +99,8 @@ class Dynamics:
 
     @property
     def furnishes(self) -> bool:
-        """Whether every episode has furniture of its own."""
-        return self.moved_furniture > 0.0 or self.added_boxes > 0
-
-
-def _check(holds: bool, name: str, value: object, right: str) -> None:
-    if not holds:
-        raise ValueError(f"{name} is {value!r}; it must be {right}")
+        """Whether every episode has furniture, or people on the floor, of its own."""
+        return self.moved_furniture > 0.0 or self.added_boxes > 0 or self.victims > 0
 
 
 NO_DYNAMICS = Dynamics()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from semnav_env.commands import readings
 from semnav_env.episodes.episode import Episode, Expected, StaleEpisodeError
@@ -36,6 +37,11 @@ def _faults(episode: Episode, plan: FloorPlan, geodesic: Geodesic) -> Iterator[s
         if problem is not None:
             yield f"{episode.id}: {problem}"
     meanings = episode.meanings()
+    anew = replace(episode, programs=(), token_rows=()).understood(plan.room_names)
+    if episode.programs not in ((), anew.programs):
+        yield f"{episode.id}: its programs are not what its readings mean"
+    if episode.token_rows not in ((), anew.token_rows):
+        yield f"{episode.id}: its tokens are not those of its first reading"
     understood = readings(episode.command, episode.language, plan.room_names)
     if set(understood) != set(meanings):
         meant = " or ".join(f'"{m.say(episode.language)}"' for m in understood)

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Self
 
-from semnav_env.commands import Command, parse
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.commands import CLAUSE_FEATURES, MAX_CLAUSES, Command, encode, parse
 from semnav_env.episodes.fingerprint import fingerprint
 from semnav_env.features.frames import Point, Pose
 from semnav_env.maps import FloorPlan, load_floor_plan
@@ -40,6 +44,9 @@ class Episode:
         route: the true route as (x, y), metres, simplified to 5 cm. The route of an impossible
             command ends where it becomes impossible; that of an ambiguous one is empty.
         expected: the right answer.
+        programs: the readings as commands, so that nobody need parse them; empty if not stored.
+        token_rows: the tokens of the first reading, a row for each clause, with the rooms of the
+            floor plan numbered as `commands.encode` does it; empty if not stored.
     """
 
     id: str
@@ -51,6 +58,8 @@ class Episode:
     readings: tuple[str, ...]
     route: tuple[Point, ...]
     expected: Expected = Expected.FEASIBLE
+    programs: tuple[Command, ...] = ()
+    token_rows: tuple[tuple[int, ...], ...] = ()
 
     @property
     def number(self) -> int:
@@ -83,8 +92,33 @@ class Episode:
             )
         return plan
 
+    @property
+    def tokens(self) -> NDArray[np.int64]:
+        """The first reading as tokens, shape (`MAX_CLAUSES`, `CLAUSE_FEATURES`), see `encode`."""
+        if not self.token_rows:
+            return encode(self.meanings()[0], self.plan().room_names)
+        tokens = np.zeros((MAX_CLAUSES, CLAUSE_FEATURES), np.int64)
+        tokens[: len(self.token_rows)] = self.token_rows
+        return tokens
+
+    def understood(self, rooms: tuple[str, ...]) -> Self:
+        """The same episode with programs and tokens stored.
+
+        Args:
+            rooms: names of the rooms of its floor plan.
+        """
+        meanings = self.meanings()
+        rows = encode(meanings[0], rooms)[: len(meanings[0].clauses)]
+        return replace(self, programs=meanings, token_rows=tuple(map(tuple, rows.tolist())))
+
+    def command_in(self, rooms: tuple[str, ...]) -> Command:
+        """What the words mean, given the names of the rooms: parsed only if it is not stored."""
+        return self.programs[0] if self.programs else parse(self.command, self.language, rooms)
+
     def meanings(self) -> tuple[Command, ...]:
         """The readings as commands."""
+        if self.programs:
+            return self.programs
         with self.named_in_errors():
             return tuple(parse(reading, self.language) for reading in self.readings)
 

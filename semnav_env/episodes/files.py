@@ -7,15 +7,23 @@ import json
 import math
 import zlib
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict, fields, replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
 from semnav_env.commands.languages import languages
+from semnav_env.commands.program import from_program, to_program
+from semnav_env.commands.tokens import CLAUSE_FEATURES
 from semnav_env.episodes.episode import Episode, Expected
+from semnav_env.features.reading import decompressed, read_bytes
+from semnav_env.features.validation import clipped, shown
+from semnav_env.features.writing import write_file
 
 SUFFIXES = (".jsonl", ".jsonl.gz")
 """Endings of the names of episode files; the second one is compressed."""
+
+MAX_BYTES = 64_000_000
+"""Size of the largest file of episodes that is read, bytes, also when decompressed: some 80,000."""
 
 PLAN_SUFFIX = ".geojson"
 """Ending of the name of a floor plan that lies beside the file of its episodes."""
@@ -27,7 +35,9 @@ class EpisodeFileError(ValueError):
 
 def to_line(episode: Episode) -> str:
     """An episode as a line of JSON, always the same bytes."""
-    return json.dumps(asdict(episode), ensure_ascii=False, separators=(",", ":")) + "\n"
+    row = vars(episode) | {"programs": [to_program(each) for each in episode.programs]}
+    kept = {name: value for name, value in row.items() if value or name not in STORED}
+    return json.dumps(kept, ensure_ascii=False, separators=(",", ":")) + "\n"
 
 
 def write_episodes(episodes: Iterable[Episode], path: str | Path) -> None:
@@ -40,8 +50,7 @@ def write_episodes(episodes: Iterable[Episode], path: str | Path) -> None:
     where = Path(path)
     _check_name(where)
     text = "".join(map(to_line, episodes)).encode()
-    where.parent.mkdir(parents=True, exist_ok=True)
-    where.write_bytes(gzip.compress(text, mtime=0) if where.suffix == ".gz" else text)
+    write_file(where, gzip.compress(text, mtime=0) if where.suffix == ".gz" else text)
 
 
 def read_episodes(path: str | Path) -> tuple[Episode, ...]:
@@ -80,47 +89,60 @@ def _check_name(where: Path) -> None:
 
 
 def _text(where: Path) -> str:
-    raw = where.read_bytes()
+    raw = read_bytes(where, MAX_BYTES, EpisodeFileError)
     try:
-        return (gzip.decompress(raw) if where.suffix == ".gz" else raw).decode()
-    except (OSError, EOFError, zlib.error):
+        return (decompressed(raw, MAX_BYTES) if where.suffix == ".gz" else raw).decode()
+    except (EOFError, zlib.error):
         raise EpisodeFileError(f"{where}: is not gzip-compressed, or is cut off") from None
     except UnicodeDecodeError:
         raise EpisodeFileError(f"{where}: is not text in UTF-8") from None
+    except ValueError as error:
+        raise EpisodeFileError(f"{where}: {error}") from None
 
 
 def _read(line: str, place: str) -> Episode:
     try:
-        row = json.loads(line)
-    except ValueError as error:
-        raise EpisodeFileError(f"{place}: is no JSON: {error}") from None
+        row = json.loads(line, parse_int=_whole)
+    except (ValueError, RecursionError) as error:
+        raise EpisodeFileError(f"{place}: is no JSON: {clipped(str(error))}") from None
     if not isinstance(row, dict):
         raise EpisodeFileError(f"{place}: is a {type(row).__name__}; an episode is an object")
     for problem in _problems(row):
         raise EpisodeFileError(f"{place}: {problem}")
+    programs, tokens = row.pop("programs", ()), row.pop("token_rows", ())
     values: dict[str, Any] = {name: _frozen(value) for name, value in row.items()}
     values["expected"] = Expected(row["expected"])
-    return Episode(**values)
+    try:
+        values["programs"] = tuple(map(from_program, programs))
+    except ValueError as error:
+        raise EpisodeFileError(f"{place}: programs: {error}") from None
+    return Episode(**values, token_rows=tuple(map(tuple, tokens)))
 
 
 def _problems(row: dict[str, Any]) -> Iterator[str]:
     """Everything that is wrong with a row, in the order of the fields."""
     for name in FIELDS:
-        if name not in row:
+        if name not in row and name not in STORED:
             yield f"has no {name!r}; an episode has {', '.join(FIELDS)}"
     for name in row.keys() - FIELDS.keys():
-        yield f"has a {name!r}; an episode has only {', '.join(FIELDS)}"
+        yield f"has a {shown(name)}; an episode has only {', '.join(FIELDS)}"
     for name, (fits, right) in FIELDS.items():
-        if not fits(row[name]):
+        if name in row and not fits(row[name]):
             yield f"{name} is {_shown(row[name])}; it must be {right}"
     readings, expected = len(row["readings"]), row["expected"]
     if (readings > 1) != (expected == Expected.AMBIGUOUS):
         yield f"has {readings} readings and is expected to be {expected}"
+    if row.get("programs") and len(row["programs"]) != readings:
+        yield f"has {readings} readings and {len(row['programs'])} programs"
 
 
 def _shown(value: object) -> str:
-    text = json.dumps(value, ensure_ascii=False)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    return clipped(json.dumps(value, ensure_ascii=False))
+
+
+def _whole(digits: str) -> float:
+    """A whole number as an integer, or as infinity if no float is as large."""
+    return int(digits) if len(digits) < 300 else math.inf
 
 
 def _frozen(value: Any) -> Any:
@@ -140,6 +162,10 @@ def _numbers(value: object, count: int) -> bool:
         and len(value) == count
         and all(type(v) in (int, float) and math.isfinite(v) for v in value)
     )
+
+
+def _integers(value: object, count: int) -> bool:
+    return isinstance(value, list) and len(value) == count and all(type(v) is int for v in value)
 
 
 def _all(value: object, fits: Callable[[Any], bool]) -> bool:
@@ -162,7 +188,18 @@ FIELDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "readings": (lambda v: _all(v, _is_text) and len(v) > 0, "a list of texts, at least one"),
     "route": (lambda v: _all(v, lambda p: _numbers(p, 2)), "a list of [x, y], finite, metres"),
     "expected": (lambda v: v in list(Expected), f"one of {', '.join(Expected)}"),
+    "programs": (
+        lambda v: _all(v, lambda p: isinstance(p, list)),
+        "a list with the clauses of each reading, see commands.to_program",
+    ),
+    "token_rows": (
+        lambda v: _all(v, lambda row: _integers(row, CLAUSE_FEATURES)),
+        f"a list of rows of {CLAUSE_FEATURES} whole numbers, see commands.encode",
+    ),
 }
 """For each field of an episode: a test of its value, and words for what passes it."""
+
+STORED = ("programs", "token_rows")
+"""Fields that spare parsing; a file may leave them out."""
 
 assert tuple(FIELDS) == tuple(field.name for field in fields(Episode))

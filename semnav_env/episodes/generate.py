@@ -217,7 +217,8 @@ _MAKERS = {
 def _episode(name: str, site: Site, start: Pose, language: str, said: EpisodeDraft) -> Episode:
     readings = tuple(meaning.say(language) for meaning in said.meanings)
     where = site.name, site.plan_hash, start
-    return Episode(name, *where, said.text, language, readings, said.route, said.expected)
+    episode = Episode(name, *where, said.text, language, readings, said.route, said.expected)
+    return replace(episode, programs=said.meanings).understood(site.plan.room_names)
 
 
 def _start(site: Site, split: Split, topic: CommandTopic, rng: Generator) -> Pose | None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from semnav_env.commands.clauses import Follow, Turn, Turning
-from semnav_env.commands.references import Distance, DoorReference, Place, Side
-from semnav_env.features.corridor import doorway_at
+from semnav_env.commands.references import Distance, DoorReference, Place, RoomReference, Side
+from semnav_env.features.corridor import Junction, doorway_at
 from semnav_env.features.frames import compose
 from semnav_env.features.scene import Door
 from semnav_env.grounding.counted_doors import doors_along
@@ -33,14 +33,22 @@ def turn_goal(clause: Turn, situation: Situation) -> Goal:
     found = find_junction(clause.at, clause.turning, situation)
     if isinstance(found, Searching):
         return search_goal(found)
-    junction, corridor = found.value, situation.corridor
+    because = f"turn {clause.turning} at {junction_name(clause.at)}"
+    return _into_arm(found.value, clause.turning, because, situation)
+
+
+def _into_arm(
+    junction: Junction, turning: Turning, because: str, situation: Situation
+) -> ReachGoal:
+    """Be in the mouth of a junction's arm, looking out along it."""
+    corridor = situation.corridor
     rules, accepted = situation.rules.grounding, situation.rules.success
-    mouth = mouth_of(junction, clause.turning, corridor, situation.scene, rules)
+    mouth = mouth_of(junction, turning, corridor, situation.scene, rules)
     return ReachGoal(
         compose(mouth, (rules.arm_depth, 0.0, 0.0)),
         accepted.junction_distance,
         accepted.turn_heading,
-        f"turn {clause.turning} at {junction_name(clause.at)}",
+        because,
         corridor=corridor,
         junction=junction,
         onward=mouth,
@@ -54,6 +62,8 @@ def follow_goal(clause: Follow, situation: Situation) -> Goal:
         return _go_on(situation, _distance_along(until, situation), str(until))
     if isinstance(until, DoorReference):
         return _follow_to_door(clause, until, situation)
+    if isinstance(until, RoomReference):
+        raise TypeError(f"{clause!r} is grounded by follow_to_room")
     if until is None or until.place is Place.END:
         if math.isinf(last_stop):
             return search_goal(situation.go_on(END_OF_HALLWAY))
@@ -62,6 +72,9 @@ def follow_goal(clause: Follow, situation: Situation) -> Goal:
     if isinstance(found, Searching):
         return search_goal(found)
     junction = found.value
+    if clause.past and until.place is Place.CORNER:
+        way = Turning.RIGHT if junction.left is None else Turning.LEFT
+        return _into_arm(junction, way, f"go on {_where(clause)}", situation)
     if clause.past and not junction.ahead and situation.complete:
         raise GroundingError(f"the hallway does not go on behind {until}")
     behind = junction.far + situation.rules.grounding.behind_referent

@@ -12,7 +12,6 @@ from semnav_env.grounding.counted_doors import CountedDoor, doors_along, doors_s
 from semnav_env.grounding.door_geometry import heading_between, heading_through
 from semnav_env.grounding.errors import GroundingError, UnclearError
 from semnav_env.grounding.junctions import junctions_ahead
-from semnav_env.grounding.opposite import ORDINALS_OF_ONE, doors_opposite, view_from_door
 from semnav_env.grounding.room_exits import room_exits
 from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation, is_behind, turned
@@ -144,9 +143,11 @@ def junction_name(reference: PlaceReference | None) -> str:
 def _find_opposite(
     reference: DoorReference, situation: Situation
 ) -> Known[CountedDoor] | Searching:
-    if reference.ordinal not in ORDINALS_OF_ONE:
+    from semnav_env.grounding import opposite  # few commands need it
+
+    if reference.ordinal not in opposite.ORDINALS_OF_ONE:
         raise GroundingError(f"no {str(reference).removeprefix('the ')}: at most one is opposite")
-    found = doors_opposite(reference, situation)
+    found = opposite.doors_opposite(reference, situation)
     if isinstance(found, Searching):
         return found
     if len(found.value) > 1:
@@ -155,7 +156,7 @@ def _find_opposite(
     for view, door in found.value.items():
         outward = heading_through(door, view.pose[2])
         return Known(CountedDoor(door, 0.0, Side.OPPOSITE, outward))
-    here = "this place" if view_from_door(situation) is None else "that door"
+    here = "this place" if opposite.view_from_door(situation) is None else "that door"
     raise GroundingError(f"no door opposite: none faces {here}")
 
 

@@ -27,7 +27,6 @@ from semnav_env.grounding.clause_progress import (
     goal_entry,
     note_pose,
 )
-from semnav_env.grounding.conditions import is_met
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.grounding.goals import search_goal
@@ -152,6 +151,8 @@ class Follower:
         clause = in_context(self.command.clauses, self.active)
         if not isinstance(clause, IfThere):
             return goal_of(clause, situation)
+        from semnav_env.grounding.conditions import is_met  # few commands need it
+
         found = is_met(clause, situation)
         return search_goal(found) if isinstance(found, Searching) else found
 

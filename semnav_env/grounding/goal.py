@@ -138,11 +138,14 @@ class StopGoal(BaseGoal):
     Attributes:
         because: what was understood, for the picture and the log.
         wait: for how long, seconds.
+        roams: whether the robot may go anywhere before, through any door: it stands still to say
+            that it has finished.
     """
 
     kind: ClassVar[GoalKind] = GoalKind.STOP
     because: str = ""
     wait: float = 0.0
+    roams: bool = False
 
 
 Goal: TypeAlias = SeekGoal | ReachGoal | PassGoal | StopGoal

@@ -38,10 +38,10 @@ def door_goal(clause: GoToDoor, situation: Situation) -> Goal:
     if clause.approach is Approach.THROUGH:
         behind, line = door.pose(stand_off), door.pose(0.0)
         return PassGoal(behind, door.door, because, corridor=corridor, onward=line)
-    accepted = situation.rules.success
+    accepted, inside = situation.rules.success, clause.approach is Approach.IN
     return ReachGoal(
-        door.pose(-stand_off),
-        accepted.door_distance,
+        door.pose(0.0 if inside else -stand_off),
+        accepted.door_distance / 2 if inside else accepted.door_distance,
         accepted.door_heading,
         because,
         door.door,
@@ -76,8 +76,24 @@ def way_goal(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
     rules = situation.rules.grounding
     door = door_near(situation.scene, way, situation.pose, rules) or way.door
     line = CountedDoor(door, 0.0, Side.AHEAD, heading_through(door, way.heading))
+    if isinstance(clause, GoToRoom) and clause.approach is Approach.TO:
+        return _before_room(line, because, way, situation)
     behind, onward = line.pose(rules.stand_off), line.pose(0.0)
     return PassGoal(behind, door, because, onward=onward, places=way.places)
+
+
+def _before_room(line: CountedDoor, because: str, way: Way, situation: Situation) -> ReachGoal:
+    """Stand in front of a room's door, facing it."""
+    accepted = situation.rules.success
+    before = line.pose(-situation.rules.grounding.stand_off)
+    return ReachGoal(
+        before,
+        accepted.door_distance,
+        accepted.door_heading,
+        because,
+        line.door,
+        places=(*way.places[:-1], before[:2]),
+    )
 
 
 def _end_of_way(way: Way, because: str, situation: Situation) -> ReachGoal:

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from semnav_env.commands.clauses import (
     Clause,
+    Face,
     Follow,
     GoBack,
     GoToDoor,
     GoToRoom,
     IfThere,
     Leave,
+    SearchHouse,
     Stop,
     Turn,
 )
 from semnav_env.commands.command import reference_of
+from semnav_env.commands.references import RoomReference
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.corridor_goals import follow_goal, turn_goal
@@ -73,6 +76,10 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
             return door_goal(clause, situation)
         case Turn():
             return turn_goal(clause, situation)
+        case Follow(RoomReference()) | Face():
+            from semnav_env.grounding.landmark_goals import landmark_goal  # here, as it is rare
+
+            return landmark_goal(clause, situation)
         case Follow():
             return follow_goal(clause, situation)
         case Leave():
@@ -81,6 +88,9 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
             return way_goal(clause, situation)
         case IfThere():
             raise GroundingError(f"{clause}: a condition leads nowhere by itself")
+        case SearchHouse():
+            rest = situation.rules.success.search_rest_seconds
+            return StopGoal(situation.begin, str(clause), rest, roams=True)
         case Stop():
             return StopGoal(situation.begin, str(clause), float(clause.seconds))
         case GroundedClause():

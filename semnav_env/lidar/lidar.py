@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Pose, compose
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.lidar_spec import CosinesSines, LidarSpec, lidar_spec
-from semnav_env.features.scan import Scan
 from semnav_env.lidar.culling import Culling
 from semnav_env.lidar.moving import NO_MOVING_THINGS, cast_moving
 from semnav_env.lidar.noise import corrupt
 from semnav_env.lidar.raster import cast
 from semnav_env.maps.floor_plan import FloorPlan
+
+if TYPE_CHECKING:
+    from semnav_env.features.scan import Scan
 
 Key: TypeAlias = tuple[int, int, int]
 """(seed, episode, step), each at least 0 and below 2**63; the step counts sweeps."""
@@ -112,6 +114,8 @@ class Lidar:
 
     def scan(self, robot_pose: Pose, key: Key) -> Scan:
         """`ranges` as a scan in the lidar frame, stamped with the time of sweep `key[2]`."""
+        from semnav_env.features.scan import Scan  # a simulator needs the ranges only
+
         spec = self.spec
         return Scan(
             self.ranges(robot_pose, key),

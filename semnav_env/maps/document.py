@@ -10,6 +10,7 @@ from typing import Any, NoReturn, TypeAlias
 from jsonschema import Draft202012Validator
 from rapidfuzz import process
 
+from semnav_env.features import reading
 from semnav_env.maps.rules import FloorPlanError
 
 Document: TypeAlias = dict[str, Any]
@@ -18,10 +19,6 @@ Document: TypeAlias = dict[str, Any]
 
 SCHEMA_FILE = Path(__file__).with_name("floor_plan.schema.json")
 """The JSON Schema of floor plan files."""
-
-MAX_BYTES = 20_000_000
-"""Size of the largest file that is read, bytes: more than any plan of `MAX_FEATURES` features
-needs."""
 
 MAX_FEATURES = 10_000
 """Largest number of features in a file; checking a plan takes time that grows with it."""
@@ -37,17 +34,10 @@ def read_text(path: Path) -> str:
         FloorPlanError: not a readable file, too large or not UTF-8.
     """
     try:
-        if path.is_dir():
-            raise FloorPlanError(f"{path}: is a folder; give a .geojson file")
-        if not path.is_file():
-            problem = "is not a regular file" if path.exists() else "no such file"
-            raise FloorPlanError(f"{path}: {problem}; give a .geojson file or a bundled name")
-        size = path.stat().st_size
-        if size > MAX_BYTES:
-            raise FloorPlanError(f"{path}: {size:,} bytes; at most {MAX_BYTES:,} are read")
-        return path.read_bytes().decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise FloorPlanError(f"{path}: byte {error.start} is not UTF-8; save it as UTF-8") from None
+        return reading.read_text(path, error=FloorPlanError)
+    except FileNotFoundError:
+        problem = "no such file; give a .geojson file or a bundled name"
+        raise FloorPlanError(f"{path}: {problem}") from None
     except OSError as error:
         raise FloorPlanError(f"{path}: cannot be read: {error.strerror}") from None
 

@@ -15,6 +15,7 @@ from matplotlib.transforms import Bbox, ScaledTranslation
 from shapely import Polygon, union_all
 
 from semnav_env.features.plot import check_suffix
+from semnav_env.features.writing import replacing
 from semnav_env.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.maps.draw_faults import (
     LINE_HEIGHT,
@@ -32,6 +33,7 @@ MATERIAL_COLOURS = {
     Material.GLASS: "deepskyblue",
     Material.LEAF: "saddlebrown",
     Material.FURNITURE: "grey",
+    Material.PERSON: "purple",
 }
 """Colours of surfaces by their material."""
 
@@ -140,7 +142,8 @@ def save_picture(
     if faults:
         widen(ax, MARK_MARGIN / inch)
     leave_out_overlapping(ax)
-    figure.savefig(path, dpi=dpi)
+    with replacing(path) as part:
+        figure.savefig(part, dpi=dpi)
 
 
 def _write_names(plan: FloorPlan, ax: Axes) -> None:

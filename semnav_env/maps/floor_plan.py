@@ -27,6 +27,7 @@ class Material(StrEnum):
     GLASS = "glass"
     LEAF = "leaf"
     FURNITURE = "furniture"
+    PERSON = "person"
 
 
 @dataclass(frozen=True)
@@ -161,11 +162,11 @@ class FloorPlan:
 
     @cached_property
     def furniture(self) -> STRtree:
-        """Spatial index of the areas that closed furniture covers."""
+        """Spatial index of the areas that closed furniture and people on the floor cover."""
         closed = [
             surface.points
             for surface in self.surfaces
-            if surface.material is Material.FURNITURE and surface.is_closed
+            if surface.material in (Material.FURNITURE, Material.PERSON) and surface.is_closed
         ]
         return STRtree([Polygon(points) for points in closed])
 

@@ -24,6 +24,7 @@ BUNDLED_FOLDER = Path(__file__).with_name("bundled")
 """Folder of the floor plans that come with the package."""
 
 
+@cache
 def bundled_names() -> tuple[str, ...]:
     """Names of the floor plans that come with the package, sorted."""
     return tuple(sorted(path.stem for path in BUNDLED_FOLDER.glob("*.geojson")))

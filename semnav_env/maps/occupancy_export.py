@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from semnav_env.features.frames import Point
+from semnav_env.features.writing import replacing, write_file
 from semnav_env.maps.floor_plan import FloorPlan, Material
 from semnav_env.maps.importers.labels import ALL_DOORS, DOORS_FILE, PLACE_KINDS, PLACES_FILE
 from semnav_env.maps.importers.raster import MAX_PIXELS
@@ -103,8 +104,8 @@ def export_map(
         where.with_name(DOORS_FILE),
         where.with_name(PLACES_FILE),
     )
-    where.parent.mkdir(parents=True, exist_ok=True)
-    Image.fromarray(pixels.grey).save(picture)
+    with replacing(picture) as part:
+        Image.fromarray(pixels.grey).save(part)
     _write(doors, _door_rows(plan))
     _write(places, _place_rows(plan, pixels))
     _write(where, _description(picture.name, pixels))
@@ -166,7 +167,7 @@ def _check(where: Path, image: str) -> None:
 
 
 def _write(path: Path, content: Any) -> None:
-    path.write_text(yaml.safe_dump(content, sort_keys=False, allow_unicode=True), "utf-8")
+    write_file(path, yaml.safe_dump(content, sort_keys=False, allow_unicode=True))
 
 
 def _description(image: str, pixels: PixelPlan) -> dict[str, Any]:
@@ -219,6 +220,7 @@ def _left_out(plan: FloorPlan) -> tuple[str, ...]:
         Material.GLASS: "panes of glass",
         Material.LEAF: "leaves of doors",
         Material.FURNITURE: "pieces of furniture",
+        Material.PERSON: "people on the floor",
     }
     return tuple(
         f"{counts[material]} {name}; they are walls in the map"

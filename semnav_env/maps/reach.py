@@ -71,6 +71,7 @@ def reach(
     width: float,
     spacing: float = REACH_SPACING,
     headings: int = HEADING_COUNT,
+    start: Point | None = None,
 ) -> Reach:
     """The cells that a rectangular body reaches from the middle of the largest corridor.
 
@@ -82,6 +83,7 @@ def reach(
         width: width of the body, metres.
         spacing: spacing of the grid, metres; a very large plan gets a coarser one.
         headings: number of headings of the body, evenly spread over half a turn.
+        start: where the body is instead, (x, y) in metres.
     """
     west, south, east, north = plan.boundary.bounds
     spacing = max(spacing, math.sqrt((east - west) * (north - south) / MAX_CELLS))
@@ -91,7 +93,7 @@ def reach(
         math.ceil((east - west) / spacing) + 2 * BORDER_CELLS,
     )
     blocked = _drawn(plan.segments, *origin, spacing, *shape)
-    start = _start(plan)
+    start = start or _start(plan)
     column, row = (round((start[i] - origin[i]) / spacing) for i in (0, 1))
     starts, rows, firsts, lengths = _footprints(length, width, spacing, headings)
     far = math.ceil(math.hypot(length, width) / 2 / spacing) + 1

@@ -9,6 +9,7 @@ from typing import Any
 
 from shapely import Polygon
 
+from semnav_env.features.writing import write_file
 from semnav_env.maps.doorways import door_state
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.reader import parse_plan
@@ -25,7 +26,7 @@ def save_floor_plan(plan: FloorPlan, path: str | Path) -> None:
     check_plan(plan)
     text = to_geojson(plan)
     parse_plan(text, f"floor plan {plan.name!r}", plan.name)
-    Path(path).write_text(text, encoding="utf-8")
+    write_file(path, text)
 
 
 def to_geojson(plan: FloorPlan) -> str:

@@ -16,6 +16,7 @@ from matplotlib.patches import Circle
 
 from semnav_env.dynamics.leaves import swinging_leaves
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.writing import replacing
 from semnav_env.grounding.goal import Goal
 from semnav_env.maps.draw import draw_floor_plan
 from semnav_env.maps.floor_plan import FloorPlan
@@ -95,8 +96,8 @@ def save_episode(
     _name_doors(ax, floor_plan, low, high)
     figure.suptitle("\n".join(textwrap.wrap(title, int(10 * size[0]))), fontsize=10)
     figure.legend(loc="outside lower center", ncols=4, fontsize=9)
-    Path(path).parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=90)
+    with replacing(path) as part:
+        figure.savefig(part, dpi=90)
 
 
 def draw_episode(

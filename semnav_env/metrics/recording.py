@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import os
+from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose, Twist
+from semnav_env.features.readers.log import DamageError
+from semnav_env.features.readers.npz_arrays import NpzArrays
+from semnav_env.features.writing import replacing
 from semnav_env.world import World
 
 REQUIRED_ARRAYS = ("poses", "velocities", "contacts", "impulses")
@@ -49,7 +54,7 @@ class Recording:
     leaves: FloatArray | None = None
 
     def __post_init__(self) -> None:
-        rows = len(self.poses)
+        rows = len(self.poses) if np.ndim(self.poses) else 0
         driven = (rows, 3), (rows, 3), (rows,), (rows,)
         moved = (rows, None, 3), (None, 4)
         for name, shape in zip(
@@ -92,25 +97,41 @@ class Recording:
         return int(touched[0]) + int(np.count_nonzero(touched[1:] & ~touched[:-1]))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write an .npz file."""
+        """Write an .npz file; its suffix is added if the path has another one."""
         arrays = {name: getattr(self, name) for name in REQUIRED_ARRAYS}
         moved = {name: getattr(self, name) for name in OPTIONAL_ARRAYS}
         arrays |= {name: array for name, array in moved.items() if array is not None}
-        np.savez_compressed(path, allow_pickle=False, period=self.period, **arrays)
+        name = os.fspath(path)
+        with replacing(name if name.endswith(".npz") else f"{name}.npz") as part:
+            np.savez_compressed(part, allow_pickle=False, period=self.period, **arrays)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Recording:
         """Read what `save` wrote.
 
         Raises:
-            ValueError: an array is missing or does not fit.
+            ValueError: no archive, or an array is missing or does not fit; names the file.
+            OSError: it cannot be opened.
         """
-        with np.load(path, allow_pickle=False) as file:
-            missing = [name for name in (*REQUIRED_ARRAYS, "period") if name not in file]
-            if missing:
-                raise ValueError(f"{os.fspath(path)!r} is no recording: it lacks {missing[0]!r}")
-            names = [*REQUIRED_ARRAYS, *(name for name in OPTIONAL_ARRAYS if name in file)]
-            return cls(**{name: file[name] for name in names}, period=float(file["period"]))
+        try:
+            return cls(**_arrays(Path(path)))
+        except (TypeError, ValueError, DamageError) as error:
+            said = str(error) or "is truncated or damaged"
+            raise ValueError(f"{os.fspath(path)!r} is no recording: {said}") from None
+
+
+def _arrays(path: Path) -> dict[str, Any]:
+    """The fields of a recording in a file."""
+    with closing(NpzArrays(path)) as file:
+        names = (*REQUIRED_ARRAYS, "period", *OPTIONAL_ARRAYS)
+        arrays: dict[str, Any] = {n: array for n in names if (array := file.whole(n)) is not None}
+    for name in (*REQUIRED_ARRAYS, "period"):
+        if name not in arrays:
+            raise ValueError(f"it lacks {name!r}")
+    if arrays["period"].size != 1:
+        raise ValueError("its period is not one number")
+    numbers = {"contacts": arrays["contacts"].astype(np.int64), "period": arrays["period"].item()}
+    return arrays | numbers
 
 
 def _fits(array: NDArray[Any], shape: tuple[int | None, ...]) -> bool:

@@ -1,6 +1,18 @@
 """What an agent observes: declared once, packed into one row per step, read back by name."""
 
-from semnav_env.observations.layout import ENTRIES, GOAL, MODES, TABLES, UNBOUNDED, Entry
+from typing import TYPE_CHECKING
+
+from semnav_env.lazy_names import lazy_names
+from semnav_env.observations.layout import (
+    ENTRIES,
+    GOAL,
+    MEMORY_ENTRIES,
+    MEMORY_TABLES,
+    MODES,
+    TABLES,
+    UNBOUNDED,
+    Entry,
+)
 from semnav_env.observations.observer import (
     EntryObservation,
     ExtraEntry,
@@ -8,17 +20,25 @@ from semnav_env.observations.observer import (
     ObservationType,
     as_observation,
 )
-from semnav_env.observations.readers import SeenGoal, read_odometry, table
+
+if TYPE_CHECKING:
+    from semnav_env.observations.cloud_entry import CloudEntry
+    from semnav_env.observations.instruction import InstructionEntry
+    from semnav_env.observations.readers import SeenGoal, read_odometry, table
 
 __all__ = [
     "ENTRIES",
     "GOAL",
+    "MEMORY_ENTRIES",
+    "MEMORY_TABLES",
     "MODES",
     "TABLES",
     "UNBOUNDED",
+    "CloudEntry",
     "Entry",
     "EntryObservation",
     "ExtraEntry",
+    "InstructionEntry",
     "Moment",
     "ObservationType",
     "SeenGoal",
@@ -26,3 +46,12 @@ __all__ = [
     "read_odometry",
     "table",
 ]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "cloud_entry": ("CloudEntry",),
+        "instruction": ("InstructionEntry",),
+        "readers": ("SeenGoal", "read_odometry", "table"),
+    },
+)

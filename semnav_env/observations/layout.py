@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from itertools import accumulate
 
 import numpy as np
-from gymnasium.spaces import Box
+from gymnasium.spaces import Box, MultiDiscrete
 
 from semnav_env.belief.bump_limits import MOST_PIECES
+from semnav_env.belief.told_ways import TOLD_DOORS, TOLD_PLACES
 from semnav_env.commands import MAX_CLAUSES, token_space
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.grounding.goal import GoalKind
@@ -29,6 +30,9 @@ WALL_ROWS, DOOR_ROWS, CORNER_ROWS, PROBE_ROWS = 48, 16, 48, 24
 
 REMEMBERED_ROWS, BUMP_ROWS = 16, MOST_PIECES
 """Rows of remembered doors and of walls that were bumped into."""
+
+REMEMBERED_WALL_ROWS, JUNCTION_ROWS = 64, 16
+"""Rows of remembered walls, and of the mouths of arms along a corridor."""
 
 ENDS = ("start_x", "start_y", "end_x", "end_y")
 GOAL_KINDS = tuple(kind.name.lower() for kind in GoalKind)
@@ -101,7 +105,8 @@ TABLES = (
         REMEMBERED_ROWS,
         ENDS,
         UNBOUNDED,
-        "jambs of the remembered doors that count: as a rule from their second sighting",
+        "jambs of the remembered doors that count, as a rule from their second sighting; the "
+        "nearest first",
     ),
     _table(
         "bumps",
@@ -140,29 +145,92 @@ GOAL = Entry(
     "long. The pose of a pass goal lies behind its door and heads away from it",
 )
 
-ENTRIES = (*(part for table in TABLES for part in (table, table.mask)), CLAUSE, ODOMETRY, GOAL)
-"""Everything but the scan and the command's tokens, in the order of the row."""
 
-STARTS = dict(
-    zip(
-        (entry.name for entry in ENTRIES),
-        accumulate((entry.size for entry in ENTRIES), initial=0),
-        strict=False,
-    )
+MEMORY_TABLES = (
+    _table(
+        "remembered_walls",
+        REMEMBERED_WALL_ROWS,
+        ENDS,
+        UNBOUNDED,
+        "remembered walls that count, as a rule from their second sighting; the nearest first",
+    ),
+    _table(
+        "junctions",
+        JUNCTION_ROWS,
+        ("near_x", "near_y", "far_x", "far_y", "side", "goes_on"),
+        UNBOUNDED,
+        "mouths of the arms that leave the hallway: near and far edge; side 1 left, -1 right; "
+        "goes_on 1 if the hallway goes on behind it",
+    ),
+    _table(
+        "told_ways",
+        TOLD_PLACES,
+        ("clause", "x", "y"),
+        UNBOUNDED,
+        "places on the ways to named rooms, 1.5 m apart, as they were told before driving; clause "
+        "is the number, from 0, of the one that names the room",
+    ),
+    _table(
+        "told_doors",
+        TOLD_DOORS,
+        ("clause", *ENDS),
+        UNBOUNDED,
+        "jambs of the doors at the ends of told ways",
+    ),
 )
-"""Where in the row each entry begins."""
+"""What is remembered and was told; a row counts where its mask is 1."""
 
-ROW_SIZE = sum(entry.size for entry in ENTRIES)
-"""Values of the row before the scan."""
+HALLWAY = Entry(
+    "hallway",
+    ("x", "y", "cosine", "sine", "half_width", "end", "ends"),
+    -UNBOUNDED,
+    UNBOUNDED,
+    "m",
+    "the corridor that the robot looks along, in what is remembered: the place on its axis beside "
+    "the robot and the axis's direction, half its width, and where it ends along the axis; ends is "
+    "0 and end 50 where that has not been seen",
+)
+START = Entry(
+    "start",
+    ("x", "y", "cosine", "sine"),
+    -UNBOUNDED,
+    UNBOUNDED,
+    "m",
+    "where the command began, as the robot believes: the origin of odometry and its x axis",
+)
 
-_FEATURES = tuple(part.name for table in TABLES for part in (table, table.mask))
+
+def _with_masks(tables: tuple[Entry, ...]) -> tuple[Entry, ...]:
+    return tuple(part for table in tables for part in (table, table.mask))
+
+
+def _starts(entries: tuple[Entry, ...]) -> dict[str, int]:
+    begins = accumulate((entry.size for entry in entries), initial=0)
+    return dict(zip((entry.name for entry in entries), begins, strict=False))
+
+
+ENTRIES = (*_with_masks(TABLES), CLAUSE, ODOMETRY, GOAL)
+"""What every row begins with, in its order; the scan follows, where there is one."""
+
+MEMORY_ENTRIES = (*_with_masks(MEMORY_TABLES), HALLWAY, START)
+"""What follows the scan in the row of `observation="command"`, in its order."""
+
+STARTS, MEMORY_STARTS = _starts(ENTRIES), _starts(MEMORY_ENTRIES)
+"""Where in the row each entry begins; and where behind the scan."""
+
+ROW_SIZE, MEMORY_SIZE = (sum(each.size for each in part) for part in (ENTRIES, MEMORY_ENTRIES))
+"""Values of the row before the scan, and behind it."""
+
+_FEATURES = tuple(entry.name for entry in _with_masks(TABLES))
 _SEMANTIC = (*_FEATURES, "command", "clause", "odometry", "goal")
+_MEMORY = tuple(entry.name for entry in MEMORY_ENTRIES)
 
 MODES = {
     "semantic": _SEMANTIC,
     "raw": ("scan", "command", "clause", "odometry"),
     "truth": _SEMANTIC,
     "all": ("scan", *_SEMANTIC),
+    "command": ("scan", *_FEATURES, *_MEMORY, "command", "odometry"),
 }
 """The entries of each `observation=`."""
 
@@ -177,7 +245,10 @@ def scan_space(lidar: LidarSpec) -> Box[np.float32]:
     return Box(0.0, lidar.range_max, (lidar.beams,), np.float32)
 
 
-def command_space() -> Box[np.int64]:
-    """The space of the entry "command": the tokens of `commands.encode`, flat."""
-    tokens = token_space()
-    return Box(tokens.low.ravel(), tokens.high.ravel(), dtype=np.int64)
+def command_space() -> MultiDiscrete:
+    """The space of the entry "command": the tokens of `commands.encode`, flat.
+
+    Small integers, so that a flattened observation stays float32.
+    """
+    sizes = token_space().high.ravel().astype(np.int64) + 1
+    return MultiDiscrete(sizes, dtype=np.int16)  # type: ignore[arg-type]

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from operator import itemgetter
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
 
 import gymnasium as gym
 import numpy as np
@@ -16,6 +16,9 @@ from semnav_env.commands import Command
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.observations.layout import (
     ENTRIES,
+    MEMORY_ENTRIES,
+    MEMORY_SIZE,
+    MEMORY_STARTS,
     MODES,
     ROW_SIZE,
     STARTS,
@@ -24,6 +27,10 @@ from semnav_env.observations.layout import (
 )
 from semnav_env.observations.row import write_belief, write_row
 from semnav_env.robots import RobotSpec
+
+if TYPE_CHECKING:
+    from semnav_env.depth import DepthRig
+    from semnav_env.features.clouds import PointCloud
 
 Array = NDArray[Any]
 
@@ -36,12 +43,18 @@ class Moment(NamedTuple):
         tracker: ranges and features of the last scan, lidar frame, among others.
         command: that the robot was told.
         tokens: of the command, shape (8, 5).
+        see: what depth cameras on the robot give now; None if it has none.
+        instruction: the words in which the command was given.
+        payload: that the robot carries, see `SemNavEnv(payload=...)`; None without one.
     """
 
     belief: Belief
     tracker: BeliefTracker
     command: Command
     tokens: NDArray[np.int64]
+    see: Callable[[DepthRig], PointCloud] | None = None
+    instruction: str = ""
+    payload: Any = None
 
 
 @runtime_checkable
@@ -77,12 +90,13 @@ class EntryObservation:
     """A dictionary of the entries of a mode, and of one's own.
 
     Args:
-        mode: "semantic", "raw", "truth" or "all", see `layout.MODES`.
+        mode: "semantic", "raw", "truth", "all" or "command", see `layout.MODES`.
         extra: entries of one's own.
 
     Attributes:
         exact: whether lidar and odometry are to have no errors and the scene is the floor plan's.
-        row_size: how many numbers `write_row` writes; after `space`.
+        remembers: whether the row goes on with `layout.MEMORY_ENTRIES` behind the scan.
+        row_size: how many numbers the kernels write; after `space`.
         places: of the entries in that row, by name; after `space`.
 
     Raises:
@@ -96,30 +110,46 @@ class EntryObservation:
         if taken:
             raise ValueError(f"observation {mode!r} has {sorted(taken)} already; name yours anew")
         self.mode, self.extra, self.exact = mode, tuple(extra), mode == "truth"
+        self.remembers = MEMORY_ENTRIES[0].name in MODES[mode]
+        self._kernels = (write_row, write_belief)
+        if self.remembers:
+            from semnav_env.observations.memory_row import write_command_belief, write_command_row
+
+            self._kernels = (write_command_row, write_command_belief)
         self._names = tuple(name for name in MODES[mode] if name != "command")
 
     def space(self, robot: RobotSpec, lidar: LidarSpec) -> gym.spaces.Dict:
         """The Gymnasium space of what `observe` returns."""
-        places = {e.name: slice(STARTS[e.name], STARTS[e.name] + e.size) for e in ENTRIES}
-        places["scan"] = slice(ROW_SIZE, ROW_SIZE + lidar.beams)
-        self.row_size = ROW_SIZE + (lidar.beams if "scan" in self._names else 0)
+        behind_scan = ROW_SIZE + lidar.beams
+        parts = [(ENTRIES, STARTS, 0), (MEMORY_ENTRIES, MEMORY_STARTS, behind_scan)]
+        places = {
+            entry.name: slice(first + starts[entry.name], first + starts[entry.name] + entry.size)
+            for entries, starts, first in parts
+            for entry in entries
+        }
+        places["scan"] = slice(ROW_SIZE, behind_scan)
+        self.row_size = behind_scan if "scan" in self._names else ROW_SIZE
+        self.row_size += MEMORY_SIZE if self.remembers else 0
         self.places = {name: places[name] for name in self._names}
         self._split = itemgetter(*self.places.values())
-        spaces: dict[str, gym.Space[Any]] = {entry.name: entry.space for entry in ENTRIES}
+        spaces: dict[str, gym.Space[Any]] = {
+            entry.name: entry.space for entries, _, _ in parts for entry in entries
+        }
         spaces |= {"scan": scan_space(lidar), "command": command_space()}
         chosen = {name: spaces[name] for name in MODES[self.mode]}
         return gym.spaces.Dict(chosen | {e.name: e.space(robot, lidar) for e in self.extra})
 
     def observe(self, moment: Moment) -> dict[str, Array]:
         """The entries as fresh arrays."""
-        belief, tracker, _, tokens = moment
+        belief, tracker, tokens = moment.belief, moment.tracker, moment.tokens
+        write_last, write_other = self._kernels
         row = np.empty(self.row_size, np.float32)
         if belief is tracker.belief:
-            write_row(row, tracker.senses)
+            write_last(row, tracker.senses)
         else:
-            write_belief(row, tracker.senses, estimate_of(belief))
+            write_other(row, tracker.senses, estimate_of(belief))
         observation: dict[str, Array] = dict(zip(self._names, self._split(row)))  # noqa: B905, slower
-        observation["command"] = tokens.ravel().copy()
+        observation["command"] = tokens.ravel().astype(np.int16)
         for entry in self.extra:
             observation[entry.name] = entry.observe(moment)
         return observation

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import Pose, Twist
 from semnav_env.grounding.goal import GoalKind
-from semnav_env.observations.layout import GOAL, GOAL_KINDS, ODOMETRY, TABLES
+from semnav_env.observations.layout import GOAL, GOAL_KINDS, MEMORY_TABLES, ODOMETRY, TABLES
 
 
 def table(observation: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
@@ -19,12 +19,13 @@ def table(observation: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
 
     Args:
         observation: of the environment.
-        name: "walls", "doors", "corners", "corridors", "remembered_doors" or "bumps".
+        name: "walls", "doors", "corners", "corridors", "remembered_doors" or "bumps"; and with
+            `observation="command"` "remembered_walls", "junctions", "told_ways" or "told_doors".
 
     Raises:
         ValueError: no such feature.
     """
-    columns = {entry.name: len(entry.columns) for entry in TABLES}
+    columns = {entry.name: len(entry.columns) for entry in (*TABLES, *MEMORY_TABLES)}
     if name not in columns:
         raise ValueError(f"no feature {name!r}; there are: {', '.join(columns)}")
     rows = observation[name].reshape(-1, columns[name])
@@ -62,3 +63,12 @@ class SeenGoal:
         door = (start, end) if value["has_door"] > 0.5 else None
         kind = GoalKind(int(np.argmax(values[: len(GOAL_KINDS)])))
         return cls(kind, (value["x"], value["y"], math.atan2(value["sine"], value["cosine"])), door)
+
+    @property
+    def values(self) -> NDArray[np.float32]:
+        """As the "goal" entry of an observation; the inverse of `read`."""
+        x, y, heading = self.pose
+        kinds = np.arange(len(GOAL_KINDS)) == self.kind
+        door = np.zeros(5) if self.door is None else np.append(np.ravel(self.door), 1.0)
+        values = (*kinds, x, y, math.cos(heading), math.sin(heading), *door)
+        return np.array(values, np.float32)

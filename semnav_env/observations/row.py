@@ -21,12 +21,14 @@ from semnav_env.features.kernels.scratch import Features
 from semnav_env.observations.layout import (
     CORNER_ROWS,
     DOOR_ROWS,
+    FEATURE_BOUND,
     GOAL,
     ODOMETRY,
     PROBE_ROWS,
     REMEMBERED_ROWS,
     ROW_SIZE,
     STARTS,
+    UNBOUNDED,
     WALL_ROWS,
     column,
 )
@@ -70,7 +72,7 @@ def write_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray)
     _write_remembered(row, doors, counters[0].doors, pose)
     _write_bumps(row, senses.bumps, pose)
     limits = senses.limits[0]
-    if len(row) > ROW_SIZE:
+    if len(row) > ROW_SIZE:  # with the scan
         _write_scan(row[ROW_SIZE:], senses.ranges, limits.range_min, limits.range_max)
     row[_CLAUSE:ROW_SIZE] = 0.0
     if believed.clause < MAX_CLAUSES:
@@ -80,6 +82,16 @@ def write_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray)
     for i in range(3):
         row[_TWIST + i] = believed.velocity[i]
     _write_goal(row, believed.target, pose, c, s)
+    _keep_within(row[:_REMEMBERED], FEATURE_BOUND)
+    _keep_within(row[_REMEMBERED:ROW_SIZE], UNBOUNDED)
+
+
+@kernel
+def _keep_within(values: NDArray[np.float32], bound: float) -> None:
+    """Cut values to the bound of their entries: odometry may err by any distance."""
+    limit = np.float32(bound)
+    for i in range(np.uint64(len(values))):
+        values[i] = min(max(values[i], -limit), limit)
 
 
 @kernel
@@ -87,11 +99,11 @@ def _write_goal(row: NDArray[np.float32], goal: Any, pose: Pose, c: float, s: fl
     """Write what to head for, given in the odometry frame, in the robot frame."""
     place, door = goal.pose, goal.door
     row[_KIND + goal.kind] = 1.0
-    row[_PLACE], row[_PLACE + 1] = _local(place[0], place[1], pose, c, s)
+    row[_PLACE], row[_PLACE + 1] = to_robot(place[0], place[1], pose, c, s)
     row[_PLACE + 2], row[_PLACE + 3] = math.cos(place[2] - pose[2]), math.sin(place[2] - pose[2])
     if goal.has_door:
-        row[_JAMBS], row[_JAMBS + 1] = _local(door[0], door[1], pose, c, s)
-        row[_JAMBS + 2], row[_JAMBS + 3] = _local(door[2], door[3], pose, c, s)
+        row[_JAMBS], row[_JAMBS + 1] = to_robot(door[0], door[1], pose, c, s)
+        row[_JAMBS + 2], row[_JAMBS + 3] = to_robot(door[2], door[3], pose, c, s)
         row[_HAS_DOOR] = 1.0
 
 
@@ -103,8 +115,8 @@ def _write_bumps(row: NDArray[np.float32], bumps: Any, pose: Pose) -> None:
     c, s = math.cos(pose[2]), math.sin(pose[2])
     for i in range(used[0]):
         at = _BUMPS + 4 * i
-        row[at], row[at + 1] = _local(ends[i, 0], ends[i, 1], pose, c, s)
-        row[at + 2], row[at + 3] = _local(ends[i, 2], ends[i, 3], pose, c, s)
+        row[at], row[at + 1] = to_robot(ends[i, 0], ends[i, 1], pose, c, s)
+        row[at + 2], row[at + 3] = to_robot(ends[i, 2], ends[i, 3], pose, c, s)
         row[_BUMPS_MASK + i] = 1.0
 
 
@@ -133,18 +145,22 @@ def _write_features(row: NDArray[np.float32], features: Features, mount: Pose) -
         row[_CORRIDORS_MASK + i] = 1.0
 
 
-@kernel
+@kernel(counts_references=True)
 def _write_remembered(row: NDArray[np.float32], doors: np.ndarray, used: int, pose: Pose) -> None:
-    """Write the remembered doors that count, given in the odometry frame, in the robot frame."""
+    """Write the remembered doors that count, odometry frame, in the robot frame, nearest first."""
     row[_REMEMBERED:_BUMPS] = 0.0
+    away = np.empty(used)
+    for i in range(used):
+        dx = 0.5 * (doors[i].start_x + doors[i].end_x) - pose[0]
+        dy = 0.5 * (doors[i].start_y + doors[i].end_y) - pose[1]
+        away[i] = dx * dx + dy * dy if door_counts(doors[:used], i) else np.inf
     c, s = math.cos(pose[2]), -math.sin(pose[2])
     x, y = -(c * pose[0] - s * pose[1]), -(s * pose[0] + c * pose[1])
-    k = 0
-    for i in range(used):
-        if k < REMEMBERED_ROWS and door_counts(doors[:used], i):
-            _write_ends(row, _REMEMBERED + 4 * k, doors[i], x, y, c, s)
+    order = np.argsort(away)
+    for k in range(min(used, REMEMBERED_ROWS)):
+        if away[order[k]] < np.inf:
+            _write_ends(row, _REMEMBERED + 4 * k, doors[order[k]], x, y, c, s)
             row[_REMEMBERED_MASK + k] = 1.0
-            k += 1
 
 
 @kernel
@@ -168,6 +184,7 @@ def _write_ends(
 
 
 @kernel(inline=True)
-def _local(x: float, y: float, pose: Pose, c: float, s: float) -> tuple[float, float]:
+def to_robot(x: float, y: float, pose: Pose, c: float, s: float) -> tuple[float, float]:
+    """A point of the odometry frame in that of a robot; c and s of the robot's heading."""
     dx, dy = x - pose[0], y - pose[1]
     return c * dx + s * dy, c * dy - s * dx

@@ -26,6 +26,25 @@ def load_pygame() -> Any:
     return pygame
 
 
+def open_font(file: Path | None, pixels: int) -> Any:
+    """A font of a size, opened anew if somebody called `pygame.quit()` in between."""
+    pygame = load_pygame()
+    try:
+        font = _opened_font(file, pixels)
+        font.get_height()
+    except pygame.error:
+        _opened_font.cache_clear()
+        pygame.font.quit()
+        pygame.font.init()
+        font = _opened_font(file, pixels)
+    return font
+
+
+@functools.lru_cache(64)
+def _opened_font(file: Path | None, pixels: int) -> Any:
+    return load_pygame().font.Font(file, pixels)
+
+
 def _how_to_install() -> str:
     if _installed("pygame") and _installed("pygame-ce"):
         return (

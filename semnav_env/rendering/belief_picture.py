@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from semnav_env.belief import Belief
+from semnav_env.features.writing import replacing
 
 
 def save_beliefs(path: str | Path, beliefs: Sequence[Belief], title: str = "") -> None:
@@ -39,7 +40,8 @@ def save_beliefs(path: str | Path, beliefs: Sequence[Belief], title: str = "") -
     axes.set_aspect("equal")
     axes.set(xlabel="x, m", ylabel="y, m", title=title)
     axes.legend(loc="best", fontsize=8)
-    figure.savefig(path, dpi=110)
+    with replacing(path) as part:
+        figure.savefig(part, dpi=110)
 
 
 def _last_goals(beliefs: Sequence[Belief]) -> dict[int, tuple[float, float]]:

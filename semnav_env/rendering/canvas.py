@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from semnav_env.features.frames import FloatArray, Point
-from semnav_env.rendering.backend import font_file, load_pygame
+from semnav_env.rendering.backend import font_file, load_pygame, open_font
 from semnav_env.rendering.camera import Viewport
 from semnav_env.rendering.palette import WHITE, Colour
 from semnav_env.rendering.text import harmless
@@ -206,9 +206,8 @@ class Canvas(ShapeCanvas):
         return _font(self._font_pixels(size), bold).render(text, True, colour)
 
 
-@functools.lru_cache(64)
 def _font(pixels: int, bold: bool) -> Any:
-    return load_pygame().font.Font(font_file(bold), pixels)
+    return open_font(font_file(bold), pixels)
 
 
 def image_array(surface: Any) -> NDArray[np.uint8]:

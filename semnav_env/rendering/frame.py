@@ -37,6 +37,10 @@ class Frame:
         status: lines of text below the command, such as "t = 12.4 s".
         people: x, y and radius of everybody, shape (n, 3).
         leaves: hinge and tip of the leaves that can move, shape (m, 4).
+        cloud: points of the depth cameras above the floor, (x, y), shape (n, 2).
+        jambs: door jambs found among them, shape (k, 2).
+        looked: middles of the cells of floor that a payload has looked at, shape (n, 2).
+        flags: places that a payload has reported, shape (k, 2).
         in_contact: the body touches something.
         failed: the active clause has failed.
         skipped: indices of clauses that a condition ruled out; they keep their number.
@@ -63,6 +67,10 @@ class Frame:
     status: tuple[str, ...] = ()
     people: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     leaves: FloatArray = field(default_factory=lambda: np.zeros((0, 4)))
+    cloud: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
+    jambs: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
+    looked: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
+    flags: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     in_contact: bool = False
     failed: bool = False
 

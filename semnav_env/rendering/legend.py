@@ -49,7 +49,9 @@ def legend_entries(frame: Frame) -> tuple[Entry, ...]:
         Material.GLASS in made_of,
         Material.LEAF in made_of or closed or len(frame.leaves) > 0,
         Material.FURNITURE in made_of,
-        len(frame.people) > 0,
+        len(frame.people) > 0 or Material.PERSON in made_of,
+        len(frame.cloud) > 0,
+        len(frame.cloud) > 0,
     )
     return _ENTRIES + tuple(
         entry for entry, is_shown in zip(_OPTIONAL_ENTRIES, shown, strict=True) if is_shown
@@ -94,6 +96,10 @@ def _hits(canvas: Canvas, at: Point) -> None:
     marks.hits(canvas, [(at[0] + 4.0 * k, at[1] + 1.5 * (-1) ** k) for k in (-2, -1, 0, 1, 2)])
 
 
+def _cloud(canvas: Canvas, at: Point) -> None:
+    marks.cloud(canvas, [(at[0] + 2.5 * k, at[1] + (-1) ** k) for k in range(-4, 5)])
+
+
 def _flag(canvas: Canvas, at: Point) -> None:
     marks.flag(canvas, (at[0] - 4.0, at[1] + 6.0), height=15.0)
 
@@ -124,4 +130,6 @@ _OPTIONAL_ENTRIES: tuple[Entry, ...] = (
     ("door leaf", lambda canvas, at: marks.leaf(canvas, _bar(at), 0.0)),
     ("furniture", _furniture),
     ("person", lambda canvas, at: marks.person(canvas, at, 7.0)),
+    ("depth points", _cloud),
+    ("jamb found", lambda canvas, at: marks.jamb(canvas, at)),
 )

@@ -13,6 +13,7 @@ from semnav_env.rendering import marks, palette
 from semnav_env.rendering.body import draw_body
 from semnav_env.rendering.camera import Camera, Viewport
 from semnav_env.rendering.canvas import Canvas
+from semnav_env.rendering.depth_layer import draw_depth
 from semnav_env.rendering.frame import Frame
 
 DRAWN_BEAMS = 90
@@ -26,6 +27,8 @@ DRAWN_HITS = 270
 def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
     """Draw everything but the floor plan, faint things first."""
     with canvas.highlighter():
+        if len(frame.looked):
+            canvas.discs(camera.pixels(frame.looked), 0.055 * camera.scale, palette.LOOKED)
         _draw_beams(canvas, camera, frame)
         for wall in frame.scene.walls:
             marks.wall_seen(canvas, camera.pixels([wall.start, wall.end]))
@@ -38,8 +41,12 @@ def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:
     if frame.hits is not None:
         marks.hits(canvas, camera.pixels(_thinned(frame.hits, DRAWN_HITS)))
     _draw_seen(canvas, camera, frame.scene)
+    if len(frame.cloud):
+        draw_depth(canvas, camera, frame.cloud, frame.jambs)
     for x, y, radius in frame.people:
         marks.person(canvas, camera.pixel((x, y)), radius * camera.scale)
+    for flag in frame.flags:
+        marks.flag(canvas, camera.pixel((float(flag[0]), float(flag[1]))))
     draw_body(canvas, camera, frame.robot, frame.pose, frame.in_contact)
     if frame.goal is not None:
         _draw_goal(canvas, camera, frame.goal, frame.pose[:2])

@@ -100,6 +100,17 @@ def hits(canvas: ShapeCanvas, points: ArrayLike) -> None:
     canvas.discs(points, 1.3, palette.HIT)
 
 
+def cloud(canvas: ShapeCanvas, points: ArrayLike) -> None:
+    """Points that depth cameras saw."""
+    canvas.discs(points, 0.9, palette.CLOUD)
+
+
+def jamb(canvas: ShapeCanvas, at: Point) -> None:
+    """A door jamb that was found in a cloud."""
+    canvas.discs([at], 6.0, palette.WHITE)
+    canvas.discs([at], 4.5, palette.JAMB)
+
+
 def leaf(canvas: ShapeCanvas, line: ArrayLike, scale: float) -> None:
     """The leaf of a door that can swing; `scale` is in units of the page per metre."""
     canvas.stroke(line, palette.LEAF, max(2.2, 0.07 * scale))

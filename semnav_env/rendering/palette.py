@@ -32,7 +32,10 @@ FAN: Final[Colour] = (255, 246, 212)
 BEAM: Final[Colour] = (252, 234, 184)
 HIT: Final[Colour] = (214, 69, 48)
 
+CLOUD: Final[Colour] = (96, 92, 190)
+
 # Features.
+JAMB: Final[Colour] = (222, 30, 140)
 WALL_SEEN: Final[Colour] = (255, 184, 92)
 WALL_REMEMBERED: Final[Colour] = (240, 166, 70)
 DOOR: Final[Colour] = (22, 138, 84)
@@ -56,6 +59,7 @@ TYRE: Final[Colour] = (30, 36, 46)
 CONTACT: Final[Colour] = (216, 32, 40)
 
 # Other people.
+LOOKED: Final[Colour] = (222, 240, 222)
 PERSON: Final[Colour] = (122, 92, 158)
 PERSON_HEAD: Final[Colour] = (226, 206, 186)
 

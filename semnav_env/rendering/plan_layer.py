@@ -122,6 +122,8 @@ def _draw_surface(canvas: ShapeCanvas, camera: Camera, surface: Surface) -> None
             canvas.stroke(line, palette.LEAF, thick)
         case Material.FURNITURE:
             marks.furniture(canvas, line)
+        case Material.PERSON:
+            canvas.polygon(line, palette.PERSON)
 
 
 def _is_solid(surface: Surface) -> bool:

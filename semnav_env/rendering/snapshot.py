@@ -11,17 +11,26 @@ import numpy as np
 from semnav_env.belief import Belief, BeliefTracker
 from semnav_env.commands.command import reference_of
 from semnav_env.commands.references import DoorReference
-from semnav_env.features.extract import to_scene
+from semnav_env.features.clouds import PointCloud
+from semnav_env.features.extraction import to_scene
 from semnav_env.features.frames import Point, Pose, compose, points_to_parent, relative
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.counted_doors import doors_along
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal
+from semnav_env.observations import ObservationType
+from semnav_env.observations.cloud_entry import rig_of
+from semnav_env.payload import Payload, PayloadMarks
+from semnav_env.rendering.depth_layer import cloud_on_the_map, jambs_on_the_map
 from semnav_env.rendering.frame import Frame
 from semnav_env.robots import RobotSpec
+from semnav_env.simulator import Simulator
 from semnav_env.tasks.judge import EpisodeJudge
 from semnav_env.verifier import Verdict
 from semnav_env.world import World
+
+NO_MARKS = PayloadMarks(np.zeros((0, 2)), np.zeros((0, 2)), "")
+"""Of a robot without a payload."""
 
 
 class RenderedEnvironment(Protocol):
@@ -30,7 +39,10 @@ class RenderedEnvironment(Protocol):
     render_mode: str | None
     tracker: BeliefTracker
     judge: EpisodeJudge
+    simulator: Simulator
+    observation_type: ObservationType
     metadata: dict[str, Any]
+    payload: Payload | None
 
     @property
     def belief(self) -> Belief:
@@ -60,6 +72,9 @@ def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
     lidar = compose(pose, tracker.mount)
     remembered = tracker.scene()
     people, leaves = env.world.moving_shapes
+    rig = rig_of(env.observation_type)
+    cloud = PointCloud() if rig is None else env.simulator.see(rig)
+    marks = NO_MARKS if env.payload is None else env.payload.marks()
     return Frame(
         floor_plan=env.world.still,
         robot=env.robot,
@@ -75,9 +90,13 @@ def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
         command=tuple(str(clause) for clause in verifier.mission.command.clauses),
         active_clause=verifier.follower.active,
         skipped=verifier.follower.skipped,
-        status=_status(env.seconds, env.judge),
+        status=(*_status(env.seconds, env.judge), *filter(None, (marks.status,))),
+        looked=marks.floor,
+        flags=marks.flags,
         people=people.copy(),
         leaves=leaves.copy(),
+        cloud=cloud_on_the_map(cloud, pose),
+        jambs=jambs_on_the_map(cloud, tracker, pose),
         in_contact=env.world.in_contact,
         failed=verifier.failure is not None,
     )

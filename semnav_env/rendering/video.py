@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from semnav_env.features.writing import replacing
 from semnav_env.rendering.colours import Palette
 
 Picture = NDArray[np.uint8]
@@ -68,7 +69,8 @@ def check_suffix(path: Path, suffixes: Sequence[str] = (".gif", ".mp4", ".png"))
 def save_png(path: str | Path, frame: Picture, scale: float = 1.0) -> Path:
     """Save one picture; see `save_video`."""
     target = _prepared(path, [frame], 1.0, scale)
-    _image(frame, scale).save(target, optimize=True)
+    with replacing(target) as part:
+        _image(frame, scale).save(part, optimize=True)
     return target
 
 
@@ -83,15 +85,16 @@ def save_gif(path: str | Path, frames: Sequence[Picture], fps: float, scale: flo
     palette = Palette.of([_image(frame, scale) for frame in _sampled(frames)])
     images = (palette.indexed(_image(frame, scale)) for frame in frames)
     first = next(images)
-    first.save(
-        target,
-        save_all=True,
-        append_images=images,
-        duration=_durations(len(frames), fps),
-        loop=0,
-        optimize=True,  # marks what has not changed since the frame before
-        disposal=1,
-    )
+    with replacing(target) as part:
+        first.save(
+            part,
+            save_all=True,
+            append_images=images,
+            duration=_durations(len(frames), fps),
+            loop=0,
+            optimize=True,  # marks what has not changed since the frame before
+            disposal=1,
+        )
     return target
 
 
@@ -105,7 +108,7 @@ def save_mp4(path: str | Path, frames: Sequence[Picture], fps: float, scale: flo
         raise ImportError(
             '.mp4 needs imageio and PyAV: pip install "semnav-env[render]", or save a .gif'
         ) from error
-    with imageio.imopen(target, "w", plugin="pyav") as film:
+    with replacing(target) as part, imageio.imopen(part, "w", plugin="pyav") as film:
         film.init_video_stream("libx264", fps=fps)
         for frame in frames:
             pixels = np.asarray(_image(frame, scale))
@@ -114,7 +117,7 @@ def save_mp4(path: str | Path, frames: Sequence[Picture], fps: float, scale: flo
 
 
 def _prepared(path: str | Path, frames: Sequence[Picture], fps: float, scale: float) -> Path:
-    """Check the arguments of a film and make its folder."""
+    """Check the arguments of a film."""
     if len(frames) == 0:
         raise ValueError(f"there are no frames to save as {path}")
     shapes = {np.shape(frame) for frame in frames}
@@ -124,9 +127,7 @@ def _prepared(path: str | Path, frames: Sequence[Picture], fps: float, scale: fl
         raise ValueError(f"scale is {scale}; it must be above 0 and at most 1")
     if not 0 < fps < float("inf"):
         raise ValueError(f"fps is {fps}; it must be positive")
-    target = Path(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    return target
+    return Path(path)
 
 
 def _image(frame: Picture, scale: float) -> Image.Image:

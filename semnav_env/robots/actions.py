@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from semnav_env.features.frames import Twist
+from semnav_env.features.validation import require
 from semnav_env.robots.spec import RobotSpec
 
 
@@ -31,22 +33,33 @@ class Actions:
         """An action as a velocity: shares of the robot's largest speeds; cut to [-1, 1] first.
 
         Raises:
-            ValueError: it is not finite or has another shape.
+            ValueError: it is not finite, has another shape, or is not made of real numbers.
         """
-        array = np.asarray(action)
-        if array.dtype.kind != "f":
-            array = array.astype(np.float64)
-        if array.shape != self._shape:
-            raise ValueError(f"the action has shape {array.shape}; it must be {self._shape}")
-        values = array.tolist()
+        values = action_array(action, self._shape).tolist()
         forward, turn = values[0], values[-1]
         left = values[1] if self._sideways else 0.0
         if not (-1.0 <= forward <= 1.0 and -1.0 <= left <= 1.0 and -1.0 <= turn <= 1.0):
-            if not all(map(math.isfinite, values)):
-                raise ValueError(f"the action is {values}; it must be finite, in [-1, 1]")
+            require(all(map(math.isfinite, values)), "the action", values, "finite, in [-1, 1]")
             forward, left, turn = _cut(forward), _cut(left), _cut(turn)
         fastest, fastest_left, fastest_turn = self._speeds
         return forward * fastest, left * fastest_left, turn * fastest_turn
+
+
+def action_array(action: ArrayLike, shape: tuple[int, ...]) -> NDArray[Any]:
+    """Actions as an array of real numbers, which may still be infinite or NaN.
+
+    Raises:
+        ValueError: another shape, or dates, complex numbers, texts, objects or masked entries.
+    """
+    try:
+        array = np.asarray(action)
+    except (TypeError, ValueError):  # rows of different lengths
+        array = np.empty(0, object)
+    if array.dtype.kind not in "fiu" or np.ma.is_masked(action):
+        require(False, "the action", action, f"an array of real numbers, shape {shape}")
+    if array.shape != shape:
+        raise ValueError(f"the action has shape {array.shape}; it must be {shape}")
+    return array if array.dtype.kind == "f" else array.astype(np.float64)
 
 
 def _cut(share: float) -> float:

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Annotated, TypeAlias
 
-from semnav_env.features.frames import Pose
+from semnav_env.features.checked_fields import Bounds, check_fields
+from semnav_env.features.validation import require
+
+Extent: TypeAlias = Annotated[float, Bounds(0.02, 5.0, "m")]
+Offset: TypeAlias = Annotated[float, Bounds(-2.5, 2.5, "m")]
 
 
 @dataclass(frozen=True)
@@ -24,20 +30,33 @@ class RobotSpec:
         axle: x of the point that a turn on the spot turns about, metres in the robot frame.
         lidar_mount: pose of the lidar in the robot frame.
         source: where the numbers come from.
+
+    Raises:
+        ValueError: a field of another kind or out of its bounds, or an axle or a lidar that is not
+            on the body; names it.
     """
 
     name: str
-    length: float
-    width: float
-    mass: float
-    max_speed: float
-    max_sideways_speed: float
-    max_turn_rate: float
-    max_acceleration: float
-    max_turn_acceleration: float
-    axle: float
-    lidar_mount: Pose
+    length: Extent
+    width: Extent
+    mass: Annotated[float, Bounds(0.01, 10_000.0, "kg")]
+    max_speed: Annotated[float, Bounds(0.01, 10.0, "m/s")]
+    max_sideways_speed: Annotated[float, Bounds(0.0, 10.0, "m/s")]
+    max_turn_rate: Annotated[float, Bounds(0.01, 20.0, "rad/s")]
+    max_acceleration: Annotated[float, Bounds(0.01, 100.0, "m/s^2")]
+    max_turn_acceleration: Annotated[float, Bounds(0.01, 200.0, "rad/s^2")]
+    axle: Offset
+    lidar_mount: tuple[Offset, Offset, Annotated[float, Bounds(-math.tau, math.tau, "rad")]]
     source: str
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        front, side = self.length / 2, self.width / 2
+        x, y, _ = self.lidar_mount
+        on_body = f"on the body: x from {-front:g} to {front:g} m"
+        require(abs(self.axle) <= front, "axle", self.axle, on_body)
+        on_body += f", y from {-side:g} to {side:g} m"
+        require(abs(x) <= front and abs(y) <= side, "lidar_mount", self.lidar_mount, on_body)
 
     @property
     def holonomic(self) -> bool:

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from semnav_env.features.frames import Pose
 from semnav_env.features.plot import check_suffix
+from semnav_env.features.writing import replacing
 from semnav_env.maps.draw import draw_floor_plan, leave_out_overlapping
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.routes.route import Route
@@ -61,7 +62,8 @@ def save_routes(
     draw_routes(floor_plan, routes, ax, names)
     figure.legend(loc="outside lower center", frameon=False)
     leave_out_overlapping(ax)
-    figure.savefig(path, dpi=100)
+    with replacing(path) as part:
+        figure.savefig(part, dpi=100)
 
 
 def _draw_arrow(ax: Axes, pose: Pose, colour: str) -> None:

@@ -7,7 +7,8 @@ import math
 import numpy as np
 import shapely
 
-from semnav_env.commands import Command, GoToRoom
+from semnav_env.commands import Command
+from semnav_env.commands.command import room_of
 from semnav_env.commands.rooms import plain_name
 from semnav_env.features.frames import FloatArray, Point, Pose, wrap_angle
 from semnav_env.grounding.errors import GroundingError
@@ -57,11 +58,10 @@ class RoomGuide:
             GroundingError: there is no such room, or no way into it.
         """
         named = self._command.clauses[clause]
-        if not isinstance(named, GoToRoom):
+        name = room_of(named)
+        if name is None:
             return None
-        room = next(
-            (room for room in self._plan.rooms if plain_name(room.name) == named.name), None
-        )
+        room = next((room for room in self._plan.rooms if plain_name(room.name) == name), None)
         if room is None:
             there = ", ".join(self._plan.room_names) or "no room with a name"
             raise GroundingError(f"{named}: {self._plan.name} has {there}")

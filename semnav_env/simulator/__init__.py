@@ -1,7 +1,43 @@
 """The simulated robot: world, lidar and odometry behind one object, `step(twist) -> Sensed`."""
 
-from semnav_env.simulator.odometry import EXACT, OdometrySettings
-from semnav_env.simulator.sensed import Motion, Sensed
-from semnav_env.simulator.simulator import RobotSetup, Simulator
+from typing import TYPE_CHECKING
 
-__all__ = ["EXACT", "Motion", "OdometrySettings", "RobotSetup", "Sensed", "Simulator"]
+from semnav_env.lazy_names import lazy_names
+from semnav_env.simulator.sensed import Motion, Sensed
+
+if TYPE_CHECKING:
+    from semnav_env.simulator.odometry import EXACT, OdometrySettings
+    from semnav_env.simulator.odometry_presets import (
+        ODOMETRIES,
+        SPOT_ODOMETRY,
+        WHEELCHAIR_ODOMETRY,
+        odometry_settings,
+    )
+    from semnav_env.simulator.simulator import RobotSetup, Simulator
+
+__all__ = [
+    "EXACT",
+    "ODOMETRIES",
+    "SPOT_ODOMETRY",
+    "WHEELCHAIR_ODOMETRY",
+    "Motion",
+    "OdometrySettings",
+    "RobotSetup",
+    "Sensed",
+    "Simulator",
+    "odometry_settings",
+]
+
+__getattr__ = lazy_names(
+    __name__,  # a judge needs motions only
+    {
+        "odometry": ("EXACT", "OdometrySettings"),
+        "odometry_presets": (
+            "ODOMETRIES",
+            "SPOT_ODOMETRY",
+            "WHEELCHAIR_ODOMETRY",
+            "odometry_settings",
+        ),
+        "simulator": ("RobotSetup", "Simulator"),
+    },
+)

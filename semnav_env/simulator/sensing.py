@@ -18,7 +18,7 @@ from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.lidar.lidar import measure
 from semnav_env.simulator.odometry import advance
-from semnav_env.world.drive import drive
+from semnav_env.world.drive import drive, lost_motion
 from semnav_env.world.drive_record import POSE, TWIST
 
 TOUCHED = 1
@@ -99,7 +99,7 @@ def sense(arrays: SimulatorArrays) -> int:
     """Drive a robot for one control period and sense; returns events, 0 or `TOUCHED`."""
     drive(arrays.drive)
     pose = arrays.drive[0].pose
-    advance(arrays.odometry, pose.x, pose.y, pose.heading)
+    advance(arrays.odometry, pose.x, pose.y, pose.heading, *lost_motion(arrays.drive))
     arrays.sensing[0].step += 1
     return look(arrays)
 

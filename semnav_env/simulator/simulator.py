@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
+from semnav_env.features.checked_fields import check_fields
 from semnav_env.features.frames import Pose, Twist
 from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.lidar.lidar import Lidar
@@ -17,6 +18,10 @@ from semnav_env.simulator.odometry import Odometry, OdometrySettings
 from semnav_env.simulator.sensed import Motion, Sensed
 from semnav_env.simulator.sensing import NUMBERS, SENSING, TOUCHED, join_simulator, look, sense
 from semnav_env.world import World
+
+if TYPE_CHECKING:
+    from semnav_env.depth import DepthRig
+    from semnav_env.features.clouds import PointCloud
 
 
 @dataclass(frozen=True)
@@ -35,10 +40,18 @@ class RobotSetup:
     odometry: OdometrySettings = OdometrySettings()
     exact: bool = False
 
+    def __post_init__(self) -> None:
+        check_fields(self)
+
     @property
     def control_hz(self) -> float:
         """Control periods per second: one scan in each."""
         return self.lidar.rate_hz
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """What `reset` says of body and lidar, for `info`: their fields by name."""
+        return {"robot": vars(self.robot).copy(), "lidar": vars(self.lidar).copy()}
 
     def with_changes(
         self,
@@ -155,6 +168,18 @@ class Simulator:
         """
         self.demand(twist)
         return self.sensed(sense(self.arrays))
+
+    def see(self, rig: DepthRig) -> PointCloud:
+        """What depth cameras on the robot give where it is now; the same when asked again.
+
+        Args:
+            rig: the cameras.
+        """
+        from semnav_env.depth import raise_plan  # seldom asked for
+
+        raised = self.world.still.derived(raise_plan)
+        rng = np.random.default_rng((int(self._record["noise_seed"][0]), self.steps))
+        return rig.see(raised, self.motion.pose, rng, self.world.moving_shapes)
 
     def demand(self, twist: Twist) -> None:
         """Say how the robot shall move in the next control period; raises what `step` does."""

@@ -1,7 +1,9 @@
 """What episodes are about: what is asked for, what is to be done, and what it is worth."""
 
+from typing import TYPE_CHECKING
+
+from semnav_env.lazy_names import lazy_names
 from semnav_env.tasks.episode_source import EpisodeSource
-from semnav_env.tasks.frozen import Episodes, FrozenEpisodes
 from semnav_env.tasks.judge import EpisodeJudge, Judgement
 from semnav_env.tasks.mission_maker import MissionMaker
 from semnav_env.tasks.request import EpisodeRequest
@@ -14,7 +16,10 @@ from semnav_env.tasks.rewards import (
     as_rewards,
 )
 from semnav_env.tasks.task import AdaptiveTask, CommandTask, SampledTask, Task, as_task
-from semnav_env.tasks.wrapping import Curriculum, RandomisedRobot
+
+if TYPE_CHECKING:
+    from semnav_env.tasks.frozen import Episodes, FrozenEpisodes
+    from semnav_env.tasks.wrapping import Curriculum, RandomisedRobot
 
 __all__ = [
     "AdaptiveTask",
@@ -38,3 +43,11 @@ __all__ = [
     "as_rewards",
     "as_task",
 ]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "frozen": ("Episodes", "FrozenEpisodes"),
+        "wrapping": ("Curriculum", "RandomisedRobot"),
+    },
+)

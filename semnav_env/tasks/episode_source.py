@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from semnav_env.tasks.frozen import Episodes, FrozenEpisodes, spelled_out
 from semnav_env.tasks.request import EpisodeRequest
 from semnav_env.tasks.task import AdaptiveTask, Task, as_task
+
+if TYPE_CHECKING:
+    from semnav_env.tasks.frozen import Episodes, FrozenEpisodes
 
 
 class EpisodeSource:
@@ -25,7 +27,7 @@ class EpisodeSource:
     def __init__(self, task: object = None, episodes: Episodes | None = None) -> None:
         if task is not None and episodes is not None:
             raise ValueError("give task= or episodes=, not both")
-        self.episodes = None if episodes is None else FrozenEpisodes(episodes)
+        self.episodes = None if episodes is None else _frozen(episodes)
         self.task: Task = self.episodes or as_task(task)
         self._asked_task = False
 
@@ -41,9 +43,22 @@ class EpisodeSource:
         """
         asked = EpisodeRequest.from_options(options)
         self._asked_task = asked is None
-        return spelled_out(self.task.request(rng) if asked is None else asked, self.episodes)
+        request = self.task.request(rng) if asked is None else asked
+        if not isinstance(request, EpisodeRequest):
+            raise ValueError(f"a task asks for an EpisodeRequest, not for {request!r:.80}")
+        if request.episode is None:
+            return request
+        from semnav_env.tasks.frozen import spelled_out  # most environments need none
+
+        return spelled_out(request, self.episodes)
 
     def note(self, success: bool) -> None:
         """Tell a task that learns how an episode ended that it asked for."""
         if self._asked_task and isinstance(self.task, AdaptiveTask):
             self.task.note(success)
+
+
+def _frozen(episodes: Episodes) -> FrozenEpisodes:
+    from semnav_env.tasks.frozen import FrozenEpisodes  # most environments need none
+
+    return FrozenEpisodes(episodes)

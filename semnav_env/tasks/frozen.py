@@ -9,7 +9,6 @@ from typing import TypeAlias
 
 import numpy as np
 
-from semnav_env.commands import parse
 from semnav_env.episodes.episode import Episode, Expected
 from semnav_env.features.validation import check_kind
 from semnav_env.tasks.request import EpisodeRequest
@@ -51,18 +50,14 @@ def spelled_out(request: EpisodeRequest, episodes: FrozenEpisodes | None) -> Epi
     """A request with command, pose and floor plan in place of the episode that it names.
 
     Args:
-        request: as `reset` or a task gives it.
+        request: for an episode.
         episodes: in which an id is looked up.
 
     Raises:
-        ValueError: no request, an unknown episode, or one that nobody can carry out.
+        ValueError: an unknown episode, or one that nobody can carry out.
         StaleEpisodeError: the floor plan has changed since the episode was made.
     """
-    if not isinstance(request, EpisodeRequest):
-        raise ValueError(f"a task asks for an EpisodeRequest, not for {request!r:.80}")
     wanted = request.episode
-    if wanted is None:
-        return request
     if isinstance(wanted, Episode):
         episode = _drivable(wanted)
     elif episodes is not None:
@@ -74,7 +69,9 @@ def spelled_out(request: EpisodeRequest, episodes: FrozenEpisodes | None) -> Epi
         request,
         episode=None,
         episode_id=episode.id,
-        command=parse(episode.command, episode.language, plan.room_names),
+        words=episode.command,
+        command=episode.command_in(plan.room_names),
+        language=episode.language,
         implicit_steps=False,  # all that is to be done has been said
         pose=episode.start,
         floor_plan=episode.floor_plan,

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from semnav_env.commands import SearchHouse
 from semnav_env.simulator.sensed import Motion
 from semnav_env.verifier import Mission, Verifier, place
 from semnav_env.verifier.judge_record import NO_DISTANCES, judge_motion
+
+if TYPE_CHECKING:
+    from semnav_env.payload import Payload
 
 
 class Judgement(NamedTuple):
@@ -24,14 +28,20 @@ class EpisodeJudge:
 
     Args:
         mission: what is to be done.
+        payload: by which some clauses are judged.
 
     Attributes:
         verifier: says what became of each clause.
         outcome: what the verifier's record said after the last control period.
     """
 
-    def __init__(self, mission: Mission) -> None:
-        self.verifier = Verifier(mission)
+    def __init__(self, mission: Mission, payload: Payload | None = None) -> None:
+        if payload is None and SearchHouse() in mission.command.clauses:
+            raise ValueError(
+                '"search the house" needs a person detector: make "semnav_env:SearchAndRescue-v0", '
+                "or give payload=PersonSearch() of semnav_env.rescue"
+            )
+        self.verifier = Verifier(mission, None if payload is None else payload.fulfils)
         self.outcome = self.verifier.read()
         self._motion: Motion | None = None
         self._measure_way()

@@ -16,7 +16,6 @@ from semnav_env.maps.placement import placement_error
 from semnav_env.robots import RobotSpec
 from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.rules import Rules
-from semnav_env.tasks.implicit import with_implicit_steps
 from semnav_env.tasks.request import EpisodeRequest
 from semnav_env.tasks.sampling import sample_feasible, sample_start
 from semnav_env.verifier import Mission, plan_goals, plan_mission
@@ -86,6 +85,8 @@ class MissionMaker:
         raise ValueError(f"no command found that can be carried out in {name} from {pose or 'it'}")
 
     def _with_implicit_steps(self, command: Command, start: Pose) -> Command:
+        from semnav_env.tasks.implicit import with_implicit_steps  # only for commands that are told
+
         here = shapely.Point(start[:2])
         in_room = any(room.polygon.contains(here) for room in self.floor_plan.rooms)
         return with_implicit_steps(

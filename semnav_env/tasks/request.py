@@ -5,16 +5,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from semnav_env.commands import Command, parse
+from semnav_env import commands
+from semnav_env.commands import Command
 from semnav_env.commands.languages import language_of
-from semnav_env.episodes.episode import Episode
 from semnav_env.features.frames import Pose
 from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.features.validation import finite_floats, shown
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 from semnav_env.simulator.odometry import OdometrySettings
+
+if TYPE_CHECKING:
+    from semnav_env.episodes.episode import Episode
 
 LARGEST_HEADING = 2.0 * math.tau
 """A larger heading must be degrees, not radians that nobody wrapped; radians."""
@@ -37,6 +41,7 @@ class EpisodeRequest:
         odometry: how dead reckoning errs in this episode.
         feasible: whether the command must be one that can be carried out.
         episode_id: of the episode that all this was taken from; empty if there is none.
+        words: in which the command of that episode was said; empty if there is none.
     """
 
     command: str | Command | None = None
@@ -50,6 +55,7 @@ class EpisodeRequest:
     odometry: OdometrySettings | None = None
     feasible: bool = True
     episode_id: str = ""
+    words: str = ""
 
     @classmethod
     def from_options(cls, options: dict[str, Any] | None) -> EpisodeRequest | None:
@@ -60,10 +66,10 @@ class EpisodeRequest:
                 its own.
         """
         if not isinstance(options, dict | None):
-            raise ValueError(f"options are a dict with {', '.join(OPTIONS)}, not {options!r}")
+            raise ValueError(f"options are a dict with {', '.join(OPTIONS)}, not {shown(options)}")
         given = options or {}
         for unknown in given.keys() - set(OPTIONS):
-            raise ValueError(f"no option {unknown!r}; there are: {', '.join(OPTIONS)}")
+            raise ValueError(f"no option {shown(unknown)}; there are: {', '.join(OPTIONS)}")
         if given.get("episode") is not None:
             for part in given.keys() - {"episode"}:
                 raise ValueError(f"an episode has its own {part}; leave {part!r} out")
@@ -73,7 +79,15 @@ class EpisodeRequest:
     @property
     def info(self) -> dict[str, Any]:
         """What `reset` says of the request, for `info`."""
-        return {"episode_id": self.episode_id} if self.episode_id else {}
+        told = {"episode_id": self.episode_id, "instruction": self.instruction}
+        return {name: value for name, value in told.items() if value}
+
+    @property
+    def instruction(self) -> str:
+        """The command in the words in which it was said; empty if none is asked for."""
+        if isinstance(self.command, Command):
+            return self.words or self.command.say(self.language)
+        return self.command or ""
 
     def checked_command(self, rooms: tuple[str, ...]) -> Command | None:
         """The command, if one is asked for.
@@ -89,7 +103,7 @@ class EpisodeRequest:
         if given is None or isinstance(given, Command):
             return given
         if isinstance(given, str):
-            return parse(given, language, rooms)
+            return commands.parse(given, language, rooms)
         raise ValueError(f"a command is text or a Command, not {type(given).__name__}")
 
     def checked_pose(self) -> Pose | None:
@@ -100,12 +114,12 @@ class EpisodeRequest:
         """
         if self.pose is None:
             return None
-        try:
-            x, y, heading = (float(value) for value in self.pose)
-        except (TypeError, ValueError):
+        numbers = finite_floats(self.pose)
+        if numbers is None or len(numbers) != 3:
             raise ValueError(
-                f"a pose is (x, y, heading) in metres and radians, not {self.pose!r}"
-            ) from None
+                f"a pose is (x, y, heading), finite, metres and radians, not {shown(self.pose)}"
+            )
+        x, y, heading = numbers
         if abs(heading) > LARGEST_HEADING:
             raise ValueError(
                 f"the heading {heading:g} is more than two turns; give it in radians, not degrees "
@@ -114,6 +128,6 @@ class EpisodeRequest:
         return x, y, heading
 
 
-_INTERNAL = ("robot", "lidar", "odometry", "feasible", "episode_id")
+_INTERNAL = ("robot", "lidar", "odometry", "feasible", "episode_id", "words")
 OPTIONS = tuple(each.name for each in fields(EpisodeRequest) if each.name not in _INTERNAL)
 """Options of `reset`."""

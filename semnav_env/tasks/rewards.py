@@ -5,13 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Annotated, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.belief import Belief
+from semnav_env.features.checked_fields import Bounds, check_fields
+from semnav_env.payload import Payload
 from semnav_env.simulator.sensed import Motion
+
+if TYPE_CHECKING:
+    from semnav_env.payload import Payload
 
 
 class Tick(NamedTuple):
@@ -25,6 +30,7 @@ class Tick(NamedTuple):
         motion: true pose, speed and contact.
         belief: what the robot believes now.
         action: that the agent gave, as it gave it.
+        payload: that the robot carries; None without one.
     """
 
     progress: float
@@ -34,6 +40,7 @@ class Tick(NamedTuple):
     motion: Motion
     belief: Belief
     action: NDArray[np.floating]
+    payload: Payload | None = None
 
 
 @runtime_checkable
@@ -44,6 +51,8 @@ class Rewards(Protocol):
         """The terms of a step by name; their sum is the reward."""
         ...
 
+
+Weight: TypeAlias = Annotated[float, Bounds(-1e6, 1e6)]
 
 RewardTerm = Callable[[Tick], float]
 """One term of a reward."""
@@ -60,18 +69,24 @@ class RewardWeights:
         failure: once, for a wrong door, a wrong turn or stopping short.
         contact: per step in contact.
         time: per step.
+
+    Raises:
+        ValueError: a weight is no number, not finite or too large; names it.
     """
 
-    progress: float = 1.0
-    clause: float = 2.0
-    success: float = 10.0
-    failure: float = -5.0
-    contact: float = -0.1
-    time: float = -0.01
+    progress: Weight = 1.0
+    clause: Weight = 2.0
+    success: Weight = 10.0
+    failure: Weight = -5.0
+    contact: Weight = -0.1
+    time: Weight = -0.01
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
     def terms(self, tick: Tick) -> dict[str, float]:
         """The terms of a step by name, each times its weight."""
-        progress, clause, success, failure, motion, _, _ = tick
+        progress, clause, success, failure, motion = tick[:5]
         if not (clause or success or failure or motion.in_contact):
             return self._uneventful | {"progress": self.progress * progress}
         return {

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.validation import require
+from semnav_env.robots.actions import action_array
 
 
 class TeamActions:
@@ -35,13 +37,10 @@ class TeamActions:
         """Actions as velocities, shape (n, 3).
 
         Raises:
-            ValueError: they are not finite or have another shape.
+            ValueError: they are not finite, have another shape, or are not made of real numbers.
         """
-        shares = np.asarray(actions, dtype=np.float64)
-        if shares.shape != self._shape:
-            raise ValueError(f"the actions have shape {shares.shape}; it must be {self._shape}")
-        if not np.isfinite(shares).all():
-            raise ValueError("the actions must be finite, in [-1, 1]")
+        shares = action_array(actions, self._shape).astype(np.float64)
+        require(np.isfinite(shares).all(), "the action", shares, "finite, in [-1, 1]")
         twists = np.zeros((len(shares), 3))
         twists[:, self._columns] = np.clip(shares, -1.0, 1.0)
         twists *= self._speeds

@@ -59,7 +59,8 @@ def judge(envs: Sequence[SemNavEnv], periods: np.ndarray, driven: Mask) -> Judge
     progress = np.where(driven, periods["progress"], 0.0)
     clause, success, failure, terminated = np.zeros((4, len(envs)), dtype=bool)
     events = periods["understood"] | periods["judged"]
-    thought = driven & (events != 0)
+    carries = np.array([env.payload is not None for env in envs])
+    thought = driven & ((events != 0) | carries)
     for k in np.flatnonzero(thought).tolist():
         progress[k], clause[k], success[k], failure[k] = _think(envs[k], periods[k])
         terminated[k] = envs[k].judge.verifier.over
@@ -75,4 +76,6 @@ def _think(env: SemNavEnv, period: Any) -> Judgement:
     understood = int(period["understood"])
     if understood:
         env.tracker.think(understood)
+    if env.payload is not None:
+        env.payload.update(env.simulator.motion, env.tracker)
     return env.judge.think(int(period["judged"]))

@@ -29,7 +29,7 @@ class EntryRows:
 
     def __init__(self, envs: Sequence[SemNavEnv], kind: EntryObservation) -> None:
         self._kind, self._count = kind, len(envs)
-        self._tokens = np.stack([env.tokens.ravel() for env in envs])
+        self._tokens = np.stack([env.tokens.ravel() for env in envs]).astype(np.int16)
 
     def renew(self, index: int, env: SemNavEnv) -> None:
         """Take in the command of a robot that has been reset."""
@@ -38,7 +38,7 @@ class EntryRows:
     def observe(self, team: Team) -> dict[str, Any]:
         """Entries of shape (n, size)."""
         rows = np.empty((self._count, self._kind.row_size), np.float32)
-        team.write_rows(rows)
+        team.write_rows(rows, self._kind.remembers)
         entries: dict[str, Any] = {
             name: rows[:, place] for name, place in self._kind.places.items()
         }

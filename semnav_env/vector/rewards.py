@@ -60,7 +60,7 @@ class EachTerms:
         terms: Terms = {}
         for k in np.flatnonzero(judged.driven).tolist():
             env, action = self._envs[k], np.asarray(actions[k])
-            tick = Tick(*judged.judgement(k), env.simulator.motion, env.belief, action)
+            tick = Tick(*judged.judgement(k), env.simulator.motion, env.belief, action, env.payload)
             for name, value in env.rewards.terms(tick).items():
                 terms.setdefault(name, np.ma.masked_all(len(self._envs)))[k] = value
         return terms

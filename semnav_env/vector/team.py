@@ -15,7 +15,7 @@ from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.scratch import Scratch, allocate_scratch
 from semnav_env.vector.robot_arrays import RobotArrays, join_robot, list_of, put
-from semnav_env.vector.tick import PERIOD, tick, write_rows
+from semnav_env.vector.tick import PERIOD, tick, write_command_rows, write_rows
 
 LEAST_SHARE = 8
 """A thread is not worth starting for fewer robots."""
@@ -83,9 +83,14 @@ class Team:
         for k in np.flatnonzero(by_python).tolist():
             self._envs[k].world.arrive()
 
-    def write_rows(self, rows: NDArray[np.float32]) -> None:
-        """Write what each robot observes, shape (n, columns), see `write_row`."""
-        self._in_parts(write_rows, rows)
+    def write_rows(self, rows: NDArray[np.float32], with_memory: bool = False) -> None:
+        """Write what each robot observes, shape (n, columns), see `write_row`.
+
+        Args:
+            rows: to write.
+            with_memory: what is remembered and was told as well, see `write_command_row`.
+        """
+        self._in_parts(write_command_rows if with_memory else write_rows, rows)
 
     def hand_over_log(self) -> None:
         """Give the worlds the commands that were carried out without them."""

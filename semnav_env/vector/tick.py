@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from semnav_env.belief.understand import understand
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.observations.memory_row import write_command_row
 from semnav_env.observations.row import write_row
 from semnav_env.simulator.sensing import TOUCHED, sense
 from semnav_env.vector.robot_arrays import RobotArrays
@@ -62,6 +63,13 @@ def write_rows(robots: Any, first: int, last: int, rows: NDArray[np.float32]) ->
     """Write the observations of some of the robots, see `write_row`; rows has one for each."""
     for k in range(first, last):
         write_row(rows[k], robots[k].senses)
+
+
+@kernel(counts_references=True)
+def write_command_rows(robots: Any, first: int, last: int, rows: NDArray[np.float32]) -> None:
+    """As `write_rows`, with what is remembered and was told, see `write_command_row`."""
+    for k in range(first, last):
+        write_command_row(rows[k], robots[k].senses)
 
 
 @kernel(counts_references=True)

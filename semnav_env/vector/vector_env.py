@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from gymnasium.error import ClosedEnvironmentError
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from semnav_env.env import SemNavEnv
 from semnav_env.features.validation import check_count
 from semnav_env.vector.actions import TeamActions
+from semnav_env.vector.arguments import joined, made, naming_robot, one_each, one_seed_each
 from semnav_env.vector.held_action import HeldAction
 from semnav_env.vector.infos import Infos, info_of, step_infos, without
 from semnav_env.vector.judgements import Mask, judge
@@ -67,10 +68,9 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         check_count("threads", 1 if threads is None else threads)
         check_count("repeat", repeat)
         self.num_envs, self._threads, self._repeat = num_envs, threads, repeat
-        each = self._one_each("each", [{}] * num_envs if each is None else each)
-        self.envs = [SemNavEnv(**{**options, **own}) for own in each]
+        each = one_each("each", [{}] * num_envs if each is None else each, num_envs)
+        self.envs = made(each, options)
         first = self.envs[0]
-        _check_alike(self.envs)
         self._mode = AutoresetMode(autoreset_mode)
         self.metadata = first.metadata | {"autoreset_mode": self._mode}
         self.render_mode = first.render_mode
@@ -100,20 +100,23 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
                 each robot, and "reset_mask", which of them are to begin anew.
 
         Raises:
-            ValueError: as `SemNavEnv.reset`; or lists of another length.
+            ValueError: as `SemNavEnv.reset`, and says which robot is meant; or lists of another
+                length.
+            gymnasium.error.ClosedEnvironmentError: after `close`.
         """
-        seeds = self._one_each("seed", _seeds(seed, self.num_envs))
+        self._check_open()
+        seeds = one_each("seed", one_seed_each(seed, self.num_envs), self.num_envs)
         common = dict(options or {})
         mask = np.asarray(common.pop("reset_mask", np.ones(self.num_envs, dtype=bool)))
         if mask.shape != (self.num_envs,) or mask.dtype != bool or not mask.any():
             raise ValueError(f"reset_mask must be {self.num_envs} booleans, not all False")
-        own = self._one_each("each", common.pop("each", [None] * self.num_envs))
+        own = one_each("each", common.pop("each", [None] * self.num_envs), self.num_envs)
         if self._team is None and not mask.all():
             raise ValueError("the first reset must be of all robots: leave reset_mask away")
         infos: Infos = {}
         self._refused = True  # until all have begun
         for k in _indices(mask):
-            infos = self._begin(infos, k, seeds[k], {**common, **(own[k] or {})} or None)
+            infos = self._begin(infos, k, seeds[k], joined(k, common, own[k]))
         self._refused = False
         if self._team is None:
             self._gather()
@@ -125,7 +128,9 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         Raises:
             ValueError: the actions are not finite or have another shape.
             RuntimeError: before the first `reset`.
+            gymnasium.error.ClosedEnvironmentError: after `close`.
         """
+        self._check_open()
         if self._team is None or self._refused:
             raise RuntimeError("call reset() before step()")
         driven = ~self._over
@@ -160,7 +165,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
     def set_attr(self, name: str, values: Any) -> None:
         """Set an attribute of the single environments: a list with one for each, or one value."""
         values = values if isinstance(values, list | tuple) else [values] * self.num_envs
-        for env, value in zip(self.envs, self._one_each("values", values), strict=True):
+        for env, value in zip(self.envs, one_each("values", values, self.num_envs), strict=True):
             env.set_wrapper_attr(name, value)
 
     def close_extras(self, **_: Any) -> None:
@@ -220,7 +225,8 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
     ) -> Infos:
         """Reset one robot; returns the infos with its own."""
         env = self.envs[index]
-        _, info = env.reset(seed=seed, options=options)
+        with naming_robot(index):
+            info = env.begin(seed, options)
         self._over[index] = False
         self._verdicts[index] = env.judge.verifier.verdicts
         self._actions.renew(index, env)
@@ -245,34 +251,11 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         for k in _indices(driven):
             self.envs[k].renderer.note(self.envs[k], self.envs[k].world.pose)
 
-    def _one_each(self, name: str, values: Sequence[Any]) -> Sequence[Any]:
-        if isinstance(values, Mapping | str) or len(values) != self.num_envs:
-            raise ValueError(
-                f"{name} has {len(values)} entries for {self.num_envs} robots; give a list with "
-                "one for each"
-            )
-        return values
+    def _check_open(self) -> None:
+        if self.closed:
+            raise ClosedEnvironmentError("the environment has been closed; make another one")
 
 
 def _indices(mask: Mask) -> list[int]:
     indices: list[int] = np.flatnonzero(mask).tolist()
     return indices
-
-
-def _seeds(seed: int | Sequence[int | None] | None, count: int) -> Sequence[int | None]:
-    if seed is None:
-        return [None] * count
-    return [seed + k for k in range(count)] if isinstance(seed, int) else seed
-
-
-def _check_alike(envs: Sequence[SemNavEnv]) -> None:
-    """Refuse environments that cannot be stepped together."""
-    first = envs[0]
-    for k, env in enumerate(envs):
-        for name, own, usual in (
-            ("action space", env.action_space, first.action_space),
-            ("observation space", env.observation_space, first.observation_space),
-            ("control rate", env.setup.control_hz, first.setup.control_hz),
-        ):
-            if own != usual:
-                raise ValueError(f"robot {k} has the {name} {own}; robot 0 has {usual}")

@@ -65,8 +65,8 @@ class Mission:
     @property
     def info(self) -> dict[str, Any]:
         """What `reset` says of the mission, for `info`: small plain values."""
-        plan = self.floor_plan.name
-        return {"command": str(self.command), "floor_plan": plan, "pose": self.start}
+        said, plan = str(self.command), self.floor_plan.name
+        return {"command": said, "instruction": said, "floor_plan": plan, "pose": self.start}
 
     def ways_seen_from(self, frame: Pose) -> dict[int, Way]:
         """The ways to named rooms in the frame of a robot, by the number of the clause."""

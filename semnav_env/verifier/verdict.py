@@ -18,10 +18,14 @@ class Verdict(StrEnum):
     WRONG_DOOR = "wrong door"
     WRONG_TURN = "wrong turn"
     STOPPED_SHORT = "stopped short"
+    INCOMPLETE = "incomplete"
     OUT_OF_TIME = "out of time"
 
 
-FAILURES = (Verdict.WRONG_DOOR, Verdict.WRONG_TURN, Verdict.STOPPED_SHORT, Verdict.OUT_OF_TIME)
+FAILURES = (
+    *(Verdict.WRONG_DOOR, Verdict.WRONG_TURN, Verdict.STOPPED_SHORT),
+    *(Verdict.INCOMPLETE, Verdict.OUT_OF_TIME),
+)
 
 
 @lru_cache(maxsize=256)

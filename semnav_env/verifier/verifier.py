@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from semnav_env.commands.clauses import Clause
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.rules import DoorRules
 from semnav_env.features.scene import Scene
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal import Goal, PassGoal
+from semnav_env.grounding.goal import Goal, PassGoal, StopGoal
 from semnav_env.grounding.ways import KnownWays
 from semnav_env.maps.floor_plan import PlanDoor
 from semnav_env.simulator.sensed import Motion
@@ -42,6 +44,8 @@ class Verifier:
 
     Args:
         mission: what is to be done.
+        fulfils: says of a clause whose goal was reached whether it has been carried out in full,
+            for clauses that are judged by more than where the robot is.
 
     Attributes:
         mission: likewise.
@@ -51,8 +55,8 @@ class Verifier:
         crossed: names of the doors that were crossed, in order.
     """
 
-    def __init__(self, mission: Mission) -> None:
-        self.mission = mission
+    def __init__(self, mission: Mission, fulfils: Callable[[Clause], bool] | None = None) -> None:
+        self.mission, self._fulfils = mission, fulfils
         self.follower = Follower(
             mission.command, complete=True, guide=KnownWays(mission.ways), rules=mission.rules
         )
@@ -91,6 +95,7 @@ class Verifier:
         """Do what the events of `judge_motion` call for; returns whether a clause was completed."""
         if not events:
             return False
+        clause = self.follower.active
         completed = self.follower.think(events, self._scene, self._pose())
         goal, crossed = self._goal, None
         if events & DOOR_CROSSED:
@@ -104,9 +109,11 @@ class Verifier:
                 self.failure = Verdict.WRONG_DOOR
             elif not completed and events & ASTRAY:
                 self.failure = Verdict.WRONG_TURN
+            elif completed and not self._carried_out(clause):
+                self.failure = Verdict.INCOMPLETE
             elif not self.follower.done and events & TOO_STILL:
                 self.failure = Verdict.STOPPED_SHORT
-        return completed
+        return completed and self.failure is not Verdict.INCOMPLETE
 
     def head_along(self, distances: FloatArray) -> None:
         """Measure the way to the goal in a field of distances, see `WaysTo.distances`."""
@@ -159,6 +166,10 @@ class Verifier:
         follower, clauses = self.follower, len(self.mission.command.clauses)
         return verdicts(clauses, follower.active, self.failure, follower.skipped)
 
+    def _carried_out(self, clause: int) -> bool:
+        """Whether the clause of that index, whose goal was reached, is carried out in full."""
+        return self._fulfils is None or self._fulfils(self.mission.command.clauses[clause])
+
     def _pose(self) -> Pose:
         x, y, heading = self._state[["x", "y", "heading"]][0].item()
         return x, y, heading
@@ -177,11 +188,11 @@ class Verifier:
 
 
 def _may_cross(goal: Goal, crossed: PlanDoor, rules: DoorRules) -> bool:
-    """Whether a goal is to pass that very door, or lies beyond it on the way that is known.
+    """Whether a goal is to pass that very door, lies beyond it on the known way, or lets roam.
 
     What is too wide to count as a door may be crossed anyway.
     """
-    if crossed.is_opening(rules):
+    if crossed.is_opening(rules) or (isinstance(goal, StopGoal) and goal.roams):
         return True
     if isinstance(goal, PassGoal) and goal.door.name == crossed.name:
         return True

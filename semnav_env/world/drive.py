@@ -86,3 +86,19 @@ def _take_contacts_into_robot_frame(r: Any) -> None:
         contact = r.contacts[k]
         x, y, heading = relative(pose, (contact[0], contact[1], contact[2]))
         contact[0], contact[1], contact[2] = x, y, heading
+
+
+@kernel
+def lost_motion(record: np.ndarray) -> tuple[float, float, float]:
+    """What the drive demanded in this period and contacts kept the body from, footprint's centre.
+
+    Metres forward, metres to the left, radians; zeros where the robot touches nothing.
+    """
+    r = record[0]
+    if r.touches == 0:
+        return 0.0, 0.0, 0.0
+    c, s = math.cos(r.motion.angle), math.sin(r.motion.angle)
+    forward = c * r.demand.vx + s * r.demand.vy - r.axle_velocity.forward
+    left = c * r.demand.vy - s * r.demand.vx - r.axle_velocity.left
+    turn = r.demand.turn - r.axle_velocity.turn
+    return forward * r.period, (left - r.axle * turn) * r.period, turn * r.period

@@ -11,6 +11,7 @@ import pymunk
 
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.features.frames import Contact, FloatArray, Pose, Twist
+from semnav_env.features.validation import finite_floats, shown
 from semnav_env.lidar.moving import NO_MOVING_THINGS
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
@@ -24,7 +25,6 @@ from semnav_env.world.chipmunk_functions import address
 from semnav_env.world.contacts import Contacts, note_contacts
 from semnav_env.world.drive import demand_velocity, drive, settle
 from semnav_env.world.drive_record import drive_record
-from semnav_env.world.movers import Movers
 from semnav_env.world.standing import clearance, standing_error
 
 if TYPE_CHECKING:
@@ -240,6 +240,8 @@ class World:
         note_contacts(self._space, self.record, self._compiled)
         if self.moving is not None:
             self.moving.begin(start, self._seed)
+            from semnav_env.world.movers import Movers  # in most worlds nothing moves
+
             self._movers = Movers(self._space, self.moving, self._period)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -266,11 +268,7 @@ class World:
 
 
 def _finite(values: Any, name: str, parts: str) -> tuple[float, float, float]:
-    try:
-        first, second, third = values
-        first, second, third = float(first), float(second), float(third)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} is {values!r}; it must be three numbers: {parts}") from None
-    if not (math.isfinite(first) and math.isfinite(second) and math.isfinite(third)):
-        raise ValueError(f"{name} is {(first, second, third)}; it must be finite: {parts}")
-    return first, second, third
+    numbers = finite_floats(values)
+    if numbers is None or len(numbers) != 3:
+        raise ValueError(f"{name} is {shown(values)}; it must be three finite numbers: {parts}")
+    return numbers[0], numbers[1], numbers[2]

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from semnav_env.features import ExtractorSettings, Scan
-from semnav_env.features.extract import beam_directions
+from semnav_env.features.extraction import beam_directions
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.evidence_layout import EVIDENCE_NAMES

@@ -3,10 +3,13 @@
 import tyro
 
 from studies.figures import (
+    approach,
     architecture,
     arcs,
     buildings,
+    clouds,
     drift,
+    drift_success,
     features_tables,
     language,
     lines,
@@ -20,11 +23,25 @@ from studies.figures import (
     rules_table,
     situations,
     speed,
+    tour,
 )
 
 FIGURES = (
-    *(architecture, arcs, buildings, drift, features_tables, language, lines, logs, mapping),
-    *(observation_table, offices, real_floor, routes, rules, rules_table, situations, speed),
+    *(
+        approach,
+        architecture,
+        arcs,
+        buildings,
+        clouds,
+        drift,
+        drift_success,
+        features_tables,
+        language,
+        lines,
+        logs,
+        mapping,
+    ),
+    *(observation_table, offices, real_floor, routes, rules, rules_table, situations, speed, tour),
 )
 
 if __name__ == "__main__":

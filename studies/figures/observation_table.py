@@ -6,8 +6,11 @@ from semnav_env.features.lidar_spec import TIM561
 from semnav_env.observations.layout import (
     CLAUSE,
     GOAL,
+    HALLWAY,
+    MEMORY_TABLES,
     MODES,
     ODOMETRY,
+    START,
     TABLES,
     Entry,
     command_space,
@@ -29,21 +32,69 @@ and the kernels' offsets.
 |---|---|---|---|---|---|
 """
 
+MODES_TITLE = """## Which mode has which entry
+
+`observation="semantic"` is the default. `"truth"` has the entries of `"semantic"` without errors.
+`"command"` is for who is to hear the command: see [below](#hearing-the-command).
+"""
+
+TEXT = """## Hearing the command
+
+In the other modes the environment has grounded the command already: `goal` says what the words
+refer to, and `clause` how far they have been carried out. `observation="command"` has neither,
+nor anything that depends on them: two robots that drove alike observe the same, whatever they
+were told, but for the tokens in `command` and for `told_ways` (a test). In their place it has
+what a learner would otherwise have to rebuild from scan after scan: remembered walls, the
+hallway's axis, the arms that leave it. Where a *clause* began is not among them, for that place
+moves at the moment at which the grounding takes the clause before for done; `start` is where the
+command began.
+
+A named room is out of sight. Whoever knows the building says beforehand how to get there, as
+places 1.5 m apart and the door at the end: `told_ways` and `told_doors`. They are told at the
+start and do not change; on a robot they are the `ways=` of `BeliefTracker.begin`.
+
+`command` holds tokens, a `MultiDiscrete` of 16-bit integers: Gymnasium flattens it to one-hot,
+and stable-baselines3 does the same. The words themselves are in `info["instruction"]` of `reset`,
+as they were said; `info["command"]` is the same in canonical English. They can be an entry as
+well, like `mission` in MiniGrid:
+
+```python
+from semnav_env.env import SemNavEnv
+from semnav_env.observations import EntryObservation, InstructionEntry
+
+env = SemNavEnv(observation=EntryObservation("command", [InstructionEntry()]))
+observation, info = env.reset(seed=0)
+assert observation["instruction"] == info["instruction"]
+```
+
+The hallway is surveyed anew for each observation. That costs more than all else: see the
+measurement in [speed](speed.md#observations-that-hear-the-command).
+"""
+
 
 def page() -> str:
     """The page, made of the declared entries."""
-    entries = (*TABLES, CLAUSE, ODOMETRY, GOAL)
+    entries = (*TABLES, CLAUSE, ODOMETRY, GOAL, *MEMORY_TABLES, HALLWAY, START)
     scan, tokens = scan_space(TIM561), command_space()
     rows = [
         *map(_row, entries),
         f"| `scan` | beams (TiM561: {scan.shape[0]}) | range | 0 to the lidar's range | m | "
         "one range a beam; no return reads as the lidar's range |",
         f"| `command` | {tokens.shape[0]} | 8 clauses of 5 tokens | "
-        f"{tokens.low.min()} to {tokens.high.max()} | | the command, see "
+        f"0 to {tokens.nvec.max() - 1} | | the command, see "
         "[as numbers](language.md#as-numbers) |",
     ]
-    modes = [f'- `observation="{mode}"`: {", ".join(_plain(mode))}' for mode in MODES]
-    return TITLE + "\n".join([*rows, "", "## What each mode has", "", *modes, ""])
+    return TITLE + "\n".join([*rows, "", MODES_TITLE, *_mode_rows(), "", TEXT])
+
+
+def _mode_rows() -> list[str]:
+    """A table of entries and modes."""
+    names = dict.fromkeys(name for mode in MODES for name in _plain(mode))
+    rows = [f"| entry | {' | '.join(f'`{mode}`' for mode in MODES)} |", "|---" * 6 + "|"]
+    for name in names:
+        marks = ("x" if name in MODES[mode] else "" for mode in MODES)
+        rows.append(f"| `{name}` | {' | '.join(marks)} |")
+    return rows
 
 
 def _row(entry: Entry) -> str:

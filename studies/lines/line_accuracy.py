@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features import Door, ExtractorSettings, Scan, Wall, extract
-from semnav_env.features.extract import beam_directions
+from semnav_env.features.extraction import beam_directions
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.extract import beam_directions
+from semnav_env.features.extraction import beam_directions
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.layout import WALLS

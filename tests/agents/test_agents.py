@@ -40,6 +40,15 @@ def test_the_scripted_agent_finds_its_way_around_a_bend(trial: Trial) -> None:
     assert result.success
 
 
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_a_room_is_left_through_the_door_on_the_named_side(robot: str) -> None:
+    """The robot looks along the wall that the door is in, so it must turn to it first."""
+    said = "leave the room through the left door"
+    trial = Trial("office_cross", said, (3.8, 12.2, np.pi), scatter=(0.1, 0.1, 0.1))
+    [result] = run_suite([trial], "scripted", robot, seeds=[0])
+    assert result.success
+
+
 def test_scripted_agent_never_cuts_through_a_neighbouring_room() -> None:
     """The half-open leaf of that door makes the way through the room before it the wider one."""
     [trial] = [
@@ -93,7 +102,9 @@ def test_an_episode_begins_where_no_added_box_stands() -> None:
 
 
 def test_an_unknown_agent_is_an_error_that_lists_the_known_ones() -> None:
-    with pytest.raises(ValueError, match="scripted, oracle, office, quick"):
+    with pytest.raises(
+        ValueError, match="scripted, oracle, blind, random, searcher, explorer, office, quick"
+    ):
         make_agent("psychic")
 
 

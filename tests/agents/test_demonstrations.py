@@ -5,19 +5,25 @@ from __future__ import annotations
 import json
 import os
 import signal
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+import gymnasium as gym
 import numpy as np
 import pytest
 
-from semnav_env.agents import demonstrations
-from semnav_env.agents.demonstrations import Demonstration, DemonstrationFile, demonstrate
+from semnav_env.agents import demonstration_file
+from semnav_env.agents.demonstration_file import DemonstrationFile
+from semnav_env.agents.demonstrations import Demonstration, demonstrate
+from semnav_env.agents.expert import Expert
 from semnav_env.agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import evenly, load_episodes
+from semnav_env.observations import MODES, EntryObservation
 from semnav_env.scripts import demonstrate as script
 from semnav_env.scripts.main import main
+from semnav_env.tasks import RewardWeights
 
 minari = pytest.importorskip("minari", reason="the extra 'data' is not installed")
 
@@ -71,7 +77,7 @@ def test_what_was_driven_before_an_interruption_is_kept(
 ) -> None:
     calls: list[str] = []
 
-    def interrupted(env: Any, agent: Any, episode: Any) -> Demonstration:
+    def interrupted(env: Any, agent: Any, episode: Any, *_: Any) -> Demonstration:
         calls.append(episode.id)
         if len(calls) == 3:
             raise KeyboardInterrupt
@@ -88,7 +94,7 @@ def test_an_interruption_waits_until_the_episode_is_written() -> None:
     written: list[int] = []
 
     def write() -> None:
-        with demonstrations._uninterrupted():
+        with demonstration_file._uninterrupted():
             os.kill(os.getpid(), signal.SIGINT)
             written.append(1)
 
@@ -131,3 +137,65 @@ def test_what_cannot_be_demonstrated_is_refused(
     assert "no split 'moon'" in refused("moon")
     assert "at least 1" in refused("test_real", "--episodes", "0")
     assert not (tmp_path / "none").exists()
+
+
+def test_any_observation_is_recorded_while_any_agent_drives(tmp_path: Path) -> None:
+    """Case 13: the oracle drives by the truth, and what a learner would have seen is kept."""
+    episode, oracle, expert = load_episodes("test_real")[0], make_agent("oracle"), Expert()
+    shown = SemNavEnv(observation="command", max_seconds=300.0)
+    told = demonstrate(SemNavEnv(observation="truth", max_seconds=300.0), oracle, episode, shown)
+    alone = demonstrate(SemNavEnv(observation="truth", max_seconds=300.0), oracle, episode)
+    np.testing.assert_array_equal(told.actions, alone.actions)
+    np.testing.assert_array_equal(told.infos["pose"], alone.infos["pose"])
+    assert told.success
+    assert set(told.observations) == set(MODES["command"])
+    labelled = demonstrate(shown, make_agent("blind"), episode, shown, expert)
+    assert labelled.infos["expert_action"].shape == (len(labelled.actions) + 1, 2)
+
+
+def test_a_dataset_has_a_specification_and_infos(tmp_path: Path) -> None:
+    """Case 13: `recover_environment` makes the environment that was shown."""
+    words = ["test_real", "--agent", "oracle", "--observation", "command", "--episodes", "2"]
+    out = tmp_path / "d"
+    assert main(["demonstrate", *words, "--labels", "--rounds", "--out", str(out)]) == 0
+    dataset = minari.MinariDataset(out / "data")
+    env = dataset.recover_environment()
+    assert env.unwrapped.observation_type.mode == "command"
+    assert env.observation_space == dataset.observation_space
+    assert env.reset(seed=1)[1]["episode_id"].startswith("test_real-")
+    for driven, episode in zip(dataset, evenly(load_episodes("test_real"), 2), strict=True):
+        steps = len(driven.actions)
+        shapes = {"pose": (3,), "goal": (13,), "clause": (), "expert_action": (2,)}
+        for name, shape in shapes.items():
+            assert driven.infos[name].shape == (steps + 1, *shape)
+        assert set(driven.infos["reward_terms"]) == {each.name for each in fields(RewardWeights)}
+        total = sum(driven.infos["reward_terms"].values())[1:]
+        np.testing.assert_allclose(total, driven.rewards, atol=1e-9)
+        first = driven.infos["pose"][0]
+        assert tuple(first) == pytest.approx(episode.start)
+        [metadata] = dataset.storage.get_episode_metadata([driven.id])
+        assert metadata["options"]["instruction"] == episode.command
+
+
+@pytest.mark.parametrize(("rounds", "most"), [(False, 4500), (True, 3000)])
+def test_a_step_takes_far_less_than_seven_kilobytes(
+    rounds: bool, most: int, driven: tuple[SemNavEnv, Demonstration], tmp_path: Path
+) -> None:
+    """Case 13: of an observation with the scan, compressed; and what is rounded is near."""
+    env = SemNavEnv(observation="all")
+    shown = demonstrate(driven[0], make_agent("oracle"), driven[1].episode, env)
+    file = DemonstrationFile(str(tmp_path / "d"), env, "oracle", rounds)
+    file.add(shown)
+    size = (file.folder / "data" / "main_data.hdf5").stat().st_size
+    assert size / len(shown.actions) < most
+    again = minari.MinariDataset(file.folder / "data")[0].observations
+    for name, values in shown.observations.items():
+        assert again[name].dtype == env.observation_space[name].dtype
+        np.testing.assert_allclose(again[name], values, atol=2.0**-11 if rounds else 0.0)
+
+
+def test_an_observation_of_ones_own_leaves_the_specification_out(tmp_path: Path) -> None:
+    env = gym.make("semnav_env:SemNav-v0", observation=EntryObservation("raw")).unwrapped
+    assert isinstance(env, SemNavEnv)
+    file = DemonstrationFile(str(tmp_path / "d"), env, "oracle")
+    assert "env_spec" not in file._storage.metadata

@@ -191,14 +191,16 @@ def test_standing_still_is_no_answer_unless_the_robot_says_why(
     [
         (TWENTIETH, "no twentieth door: .* after [0-9]+", 1),
         (TWENTIETH, "no twentieth door: .* after [0-9]+", 2),
-        ({"readings": ("sing a song",)}, '"sing" is not understood .*', 1),
+        ({"readings": ("sing a song",)}, '"sing a song" is not understood .*', 1),
     ],
 )
 def test_an_episode_that_cannot_be_begun_is_named(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, changed: Any, why: str, workers: int
 ) -> None:
     file = tmp_path / "wrong.jsonl"
-    write_episodes([replace(load_episodes("test_real")[7], **changed)], file)
+    write_episodes(
+        [replace(load_episodes("test_real")[7], programs=(), token_rows=(), **changed)], file
+    )
     words = ["evaluate", str(file), "--agent", "oracle", "--workers", str(workers)]
     assert main(words) == 2
     last = capsys.readouterr().err.splitlines()[-1]
@@ -219,8 +221,10 @@ def test_an_ambiguous_command_needs_all_its_readings(
     assert "20 of 20 understood" in capsys.readouterr().out
     episode = load_episodes("test_ambiguous")[0]
     assert misreading(episode) == ""
-    assert "taken for" in misreading(replace(episode, readings=episode.readings[:1] * 2))
-    assert "not understood" in misreading(replace(episode, command="fly to the moon"))
+    assert "taken for" in misreading(
+        replace(episode, readings=episode.readings[:1] * 2, programs=())
+    )
+    assert "not understood" in misreading(replace(episode, command="fly to the moon", programs=()))
 
 
 def test_the_same_command_on_two_plans_is_counted_apart() -> None:

@@ -17,7 +17,6 @@ from semnav_env.agents.learning.files import (
     AGENT_FILE,
     POLICY_FILE,
     AgentDescription,
-    replace_file,
     save_tensors,
 )
 from semnav_env.agents.learning.policy import Policy
@@ -254,16 +253,3 @@ def test_a_file_cut_short_is_refused(tmp_path_factory, cut):
     (folder / POLICY_FILE).write_bytes(whole[: len(whole) * cut // 401])
     with pytest.raises(ValueError, match="is not a safetensors file"):
         LearnedAgent.load(folder)
-
-
-def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
-    path = tmp_path / "file"
-    replace_file(path, b"old")
-
-    def broken(_):
-        raise OSError("disk full")
-
-    monkeypatch.setattr("os.fsync", broken)
-    with pytest.raises(OSError, match="disk full"):
-        replace_file(path, b"new")
-    assert path.read_bytes() == b"old"

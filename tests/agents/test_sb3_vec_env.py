@@ -1,5 +1,7 @@
 """Many robots as stable-baselines3 takes them, and the environments of a preset."""
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import gymnasium as gym
@@ -166,3 +168,12 @@ def test_the_environments_of_a_preset_give_compact_observations(preset):
         for k in np.flatnonzero(over):
             final = compact(same_infos[k]["terminal_observation"])
             assert (infos[k]["terminal_observation"] == final).all()
+
+
+def test_without_stable_baselines3_the_extra_is_named():
+    program = (
+        "import sys; sys.modules['stable_baselines3'] = None;"
+        "from semnav_env.agents.learning.sb3_vec_env import as_sb3_vec_env"
+    )
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert run.stderr.splitlines()[-1].endswith('pip install "semnav-env[rl]"')

@@ -3,7 +3,7 @@
 import pickle
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from semnav_env.commands import Command, CommandError, parse
@@ -20,34 +20,20 @@ def error_of(text: object) -> CommandError:
 
 
 def test_the_caret_stands_under_the_word() -> None:
-    error = error_of("go down the hallway and go through the second dor on the right")
-    _, text, caret = str(error).splitlines()
-    assert text[caret.index("^") : caret.rindex("^") + 1] == "dor"
-    assert error.position == len("go down the hallway and go through the second ")
-    assert error.length == len("dor")
-    assert "door" in error.expected
-    assert error.suggestion == "door"
-    assert 'did you mean "door"?' in error.summary
+    error = error_of("go down the hallway and hug the bumblebee")
+    assert "^" in str(error).splitlines()[2]
+    assert error.text[error.position : error.position + error.length].endswith("bumblebee")
 
 
-def test_the_expected_words_are_listed_plainly() -> None:
-    assert "expected one of: to, through, by, left, right" in str(error_of("turn xyz"))
-    assert "expected: hallway" in str(error_of("go down the window"))
-    expected = error_of("go to the").expected
-    assert {"door", "room", "intersection", "corner", "T-junction", "end"} <= set(expected)
-    assert "next, first, second ... twentieth" in expected
-
-
-def test_a_command_that_ends_too_early_says_what_is_missing() -> None:
-    error = error_of("turn ")
-    assert error.problem == "the command ends too early"
-    assert {"left", "right", "around"} <= set(error.expected)
-    assert str(error).splitlines()[2].index("^") == len("  turn")
+def test_what_was_understood_is_said_in_the_first_line() -> None:
+    error = error_of("turn left and climb the mast")
+    assert 'understood: "turn left"' in error.summary
+    assert "is not understood" in error.summary
 
 
 def test_the_place_is_that_of_the_text_as_given() -> None:
-    error = error_of("  ＴＵＲＮ \u200b  ﬁrst")
-    assert error.text[error.position :] == "ﬁrst"
+    error = error_of("  ＴＵＲＮ \u200b  ﬁrebird")
+    assert error.text[error.position :] == "ﬁrebird"
     caret = str(error).splitlines()[2]
     assert caret.index("^") == 2 + len("  ") + 2 * len("TURN") + len(" \u200b  ")
 
@@ -88,16 +74,6 @@ def test_a_word_closer_to_left_is_never_answered_with_right(word: str, other: st
         assert nearest(word, ("left",)) is None
     if nearest(word, known) == "left":
         assert nearest(word, ("right",)) is None
-
-
-@pytest.mark.parametrize("side", ["left", "right"])
-@pytest.mark.parametrize(
-    "text", ["go to the second {}", "stop at {}", "go to the {} window", "stop {}", "go down {}"]
-)
-def test_a_misplaced_side_never_suggests_the_other_side(text: str, side: str) -> None:
-    error = error_of(text.format(side))
-    assert error.suggestion is None
-    assert {"left": "right", "right": "left"}[side] not in error.summary
 
 
 @pytest.mark.parametrize("word", ["don't", "don’t", "do not", "never", "not"])
@@ -157,7 +133,7 @@ def test_a_megabyte_is_refused_by_its_length_alone(unit: str) -> None:
 
 def test_too_many_words_are_refused() -> None:
     assert str(error_of("go " * (MAX_WORDS + 1))).startswith(
-        "the command has 2001 words; at most 2000"
+        "the command has 301 words; at most 300"
     )
 
 
@@ -227,6 +203,7 @@ def test_a_changed_character_is_understood_or_refused(
 def test_one_lost_letter_never_turns_left_into_right(command: Command, data: st.DataObject) -> None:
     text = str(command)
     at = data.draw(st.integers(0, len(text) - 1))
+    assume(text[at].isalpha())  # a lost digit makes another number
     try:
         slipped = parse(text[:at] + text[at + 1 :])
     except CommandError:

@@ -28,7 +28,8 @@ from semnav_env.commands import (
     token_mask,
     token_space,
 )
-from semnav_env.commands.tokens import COLUMN_SIZES, TokenVerb
+from semnav_env.commands.command import room_of
+from semnav_env.commands.tokens import COLUMN_SIZES, ROOM, TOKEN_REFERENTS
 from tests.support.command_strategies import commands, without_rooms
 
 SHAPE = (MAX_CLAUSES, CLAUSE_FEATURES)
@@ -111,12 +112,14 @@ ROOMS = ("kitchen", "3.508", "left")
 
 @given(commands)
 def test_rooms_are_numbered_by_their_place_among_the_names(command: Command) -> None:
-    names = [clause.name for clause in command.clauses if isinstance(clause, GoToRoom)]
+    names = [name for clause in command.clauses if (name := room_of(clause))]
     rooms = sorted({*names, *ROOMS})
     tokens = encode(command, rooms)
     assert token_space().contains(tokens)
     assert decode(tokens, rooms) == command
-    assert [rooms[n - 1] for v, _, _, n, _ in tokens.tolist() if v == TokenVerb.GO_TO_ROOM] == names
+    named = TOKEN_REFERENTS.index(ROOM)
+    numbers = [n for _, _, kind, n, _ in tokens.tolist() if kind == named and n]
+    assert [rooms[n - 1] for n in numbers] == names
 
 
 def test_a_room_that_is_not_there_has_no_number() -> None:

@@ -6,7 +6,7 @@ import re
 
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import MODES
-from studies.figures import architecture, observation_table
+from studies.figures import approach, architecture, observation_table
 
 
 def test_the_page_of_entries_is_what_the_layout_declares() -> None:
@@ -18,6 +18,12 @@ def test_the_page_of_folders_shows_their_imports() -> None:
     """The counts of lines may differ. If this fails: `python -m studies.figures architecture`."""
     shown = architecture.PAGE.read_text(encoding="utf-8")
     assert _without_numbers(shown) == _without_numbers(architecture.page())
+
+
+def test_the_page_of_approaches_has_the_tables_as_computed() -> None:
+    """If this fails: `python -m studies.figures approach`."""
+    shown = approach.PAGE.read_text(encoding="utf-8")
+    assert shown == approach.page(shown)
 
 
 def test_the_files_of_the_three_walks_exist() -> None:

@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from semnav_env.features import ExtractorSettings, Scan, extract
-from semnav_env.features.extract import beam_directions
+from semnav_env.features.extraction import beam_directions
 from semnav_env.features.kernels.scratch import allocate_scratch
 from semnav_env.features.kernels.segmentation import group_points
 from semnav_env.features.strategies import BreakpointRule, strategy_names

@@ -132,7 +132,7 @@ def test_the_records_of_an_own_reader_are_extracted_and_followed(tmp_path: Path)
 
 
 def test_the_files_that_the_page_names_are_there() -> None:
-    named = set(re.findall(r"`([\w/]+\.(?:py|json|lark))`", PAGE))
+    named = set(re.findall(r"`([\w/]+\.(?:py|json))`", PAGE))
     assert len(named) > 15
     for name in named:
         assert (ROOT / name).exists() or (ROOT / "semnav_env" / name).exists(), name

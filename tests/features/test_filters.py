@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from semnav_env.features import ExtractorSettings, Scan, Scene, extract
-from semnav_env.features.extract import beam_directions
+from semnav_env.features.extraction import beam_directions
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.filters import filter_ranges
 from semnav_env.features.kernels.full_circle import count_beams_per_turn

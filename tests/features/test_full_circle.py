@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.features import CornerKind, Scan, Scene, extract
-from semnav_env.features.extract import beam_directions
+from semnav_env.features.extraction import beam_directions
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.chain import extract_arrays
 from semnav_env.features.kernels.layout import WALLS

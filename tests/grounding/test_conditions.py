@@ -20,7 +20,7 @@ from semnav_env.commands import (
     parse,
     token_mask,
 )
-from semnav_env.commands.command import Link, links_of
+from semnav_env.commands.command import Link, links_of, room_of
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose
 from semnav_env.features.scene import Scene
@@ -146,7 +146,7 @@ def test_after_what_hangs_on_a_condition_comes_what_does_not(command: Command) -
 
 
 def _rooms(command: Command) -> list[str]:
-    return [clause.name for clause in command.clauses if hasattr(clause, "name")]
+    return [name for clause in command.clauses if (name := room_of(clause))]
 
 
 @pytest.mark.parametrize(
@@ -157,10 +157,8 @@ def _rooms(command: Command) -> list[str]:
         ("if there is a corner, stop, otherwise wait, otherwise stop", "otherwise than what"),
         ("in any case stop", "there is no condition"),
         ("if the second door is closed, take the next one", "closed doors look like walls"),
-        ("no, the second one on the left", "name the door"),
-        ("no, left", "nothing before it"),
-        ("stop, no, left", "no door or turn before it has a side"),
-        ("stop, no, the second", "nothing before it has a number"),
+        ("no, the second one on the left", "say which"),
+        ("stop, no, the second", "the second what"),
     ],
 )
 def test_clauses_without_what_they_refer_to_are_refused(text: str, error: str) -> None:

@@ -69,9 +69,9 @@ def test_every_plain_name_is_one_that_a_command_can_hold(name: str) -> None:
 
 
 def test_an_unknown_room_is_answered_with_known_ones() -> None:
-    with pytest.raises(CommandError, match="the rooms here are: kitchen, lab 2; expected"):
+    with pytest.raises(CommandError, match="the rooms here are: kitchen, lab 2"):
         parse("go to the ballroom", rooms=("kitchen", "lab 2"))
-    with pytest.raises(CommandError, match=r"are: 1\.00, .*, 1\.11, \.\.\.; expected"):
+    with pytest.raises(CommandError, match=r"are: 1\.00, .*, 1\.11, \.\.\."):
         parse("go to the ballroom", rooms=[f"1.{k:02}" for k in range(99)])
     with pytest.raises(CommandError) as nowhere:
         parse("go to the ballroom")

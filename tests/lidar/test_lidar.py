@@ -53,7 +53,7 @@ def test_a_spec_is_found_by_name_or_is_itself() -> None:
     ],
 )
 def test_a_spec_with_an_impossible_number_names_it(name: str, value: float) -> None:
-    with pytest.raises(ValueError, match=f"lidar 'tim561': {name} is .*; it must be"):
+    with pytest.raises(ValueError, match=f"{name} is .*; it must be"):
         replace(TIM561, **{name: value})
 
 

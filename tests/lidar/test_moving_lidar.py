@@ -25,7 +25,14 @@ from tests.world.test_one_geometry import physics_ranges, without_glass
 AROUND = LidarSpec("around", 360, -math.pi, math.tau / 360)
 AHEAD = 180
 PROBE = replace(
-    SPOT, name="probe", length=0.04, width=0.04, mass=1.0, max_speed=0.9, max_acceleration=100.0
+    SPOT,
+    name="probe",
+    lidar_mount=(0.0, 0.0, 0.0),
+    length=0.04,
+    width=0.04,
+    mass=1.0,
+    max_speed=0.9,
+    max_acceleration=100.0,
 )
 numbers = st.floats(-8.0, 8.0)
 discs_drawn = st.lists(st.tuples(numbers, numbers, st.floats(0.1, 0.5)), max_size=4)

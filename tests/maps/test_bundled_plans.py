@@ -131,7 +131,8 @@ def test_pictures_name_all_rooms_and_doors_without_overlap(
 ) -> None:
     """No name lies on another one."""
     drawn: list[Figure] = []
-    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: drawn.append(figure))
+    save = Figure.savefig
+    monkeypatch.setattr(Figure, "savefig", lambda f, *a, **k: (drawn.append(f), save(f, *a, **k)))
     plan = load_floor_plan(name)
     save_picture(plan, tmp_path / "plan.png")
     (ax,) = drawn[0].axes

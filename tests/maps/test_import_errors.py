@@ -24,7 +24,11 @@ GOOD = "image: floor.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n"
         ("a.yaml", GOOD.replace("floor.pgm", "none.pgm"), ("none.pgm", "cannot be read")),
         ("a.yaml", GOOD.replace("floor.pgm", "a.yaml"), ("a.yaml", "PNG")),
         ("a.yaml", GOOD + "mode: raw", ("raw", "trinary")),
-        ("a.yaml", GOOD + "occupied_thresh: 0.1", ("occupied_thresh is 0.1",)),
+        (
+            "a.yaml",
+            GOOD + "occupied_thresh: 0.1",
+            ("free_thresh", "occupied_thresh, which is 0.1"),
+        ),
         ("a.yaml", GOOD + "occupied_thresh: 1.0", ("no pixel is darker", "negate")),
         ("a.yaml", "[" * 5000, ("a.yaml", "not YAML")),
         ("a.yaml", "a: [", ("a.yaml", "not YAML")),
@@ -78,7 +82,7 @@ def test_labels_that_cannot_be_read_are_refused_in_one_line(tmp_path, name, text
 
 @pytest.mark.parametrize("limit", [{"mend": -1}, {"mend": 11}, {"simplify": math.nan}])
 def test_how_walls_are_traced_is_checked(limit):
-    with pytest.raises(FloorPlanError, match=f"{next(iter(limit))} is .* it must be 0 to"):
+    with pytest.raises(ValueError, match=f"{next(iter(limit))} is .* it must be .* from 0 to"):
         Tracing(**limit)
 
 

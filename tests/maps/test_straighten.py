@@ -209,7 +209,7 @@ def test_straightening_is_reported_and_can_be_switched_off(
     assert cli.main([*words, "--tracing.straighten", "0"]) == 0
     assert "straightened" not in capsys.readouterr().out
     assert cli.main([*words, "--tracing.straighten", "6"]) == 2
-    assert "straighten is 6.0; it must be 0 to 5 pixels" in capsys.readouterr().err
+    assert "straighten is 6.0; it must be a number from 0 to 5 pixels" in capsys.readouterr().err
 
 
 def test_walls_are_straight_however_the_map_is_turned(tmp_path: Path) -> None:

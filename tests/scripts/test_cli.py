@@ -16,6 +16,7 @@ from semnav_env.scripts import progress
 from semnav_env.scripts.arguments import parse
 from semnav_env.scripts.checks import InstallationCheck
 from semnav_env.scripts.doctor import Arguments as Doctor
+from semnav_env.scripts.map import COMMANDS as MAP
 from tests.support.command_line import run
 
 COMMANDS = cli.SEMNAV.commands
@@ -60,8 +61,8 @@ def test_a_demo_says_why_the_robot_gave_up(capsys, monkeypatch):
         (["extract", "a.log", "--plot", "page.doc"], "page.doc", ".png"),
         (["extract", "a.log", "--out", "a.log"], "a.log", "another file"),
         (["extract", "a.log", "--settings.sigma", "-1"], "sigma", "from 0"),
-        (["extract", "a.log", "--range-max", "nan"], "range_max", "positive"),
-        (["extract", "a.log", "--beam-spacing", "0"], "beam_spacing", "positive"),
+        (["extract", "a.log", "--range-max", "nan"], "range_max", "from 0.01"),
+        (["extract", "a.log", "--beam-spacing", "0"], "beam_spacing", "from 0.001"),
         (["map"], "list", "show"),
         (["map", "show", "vila_hall"], "vila_hall", "villa_hall"),
         (["map", "show", "none.geojson"], "none.geojson", ""),
@@ -107,13 +108,27 @@ def test_the_help_names_every_command(capsys):
         assert help_text in out
 
 
-def test_starting_loads_no_sub_command():
+def loaded_by(*words):
+    """The modules of a process in which `semnav` was called with these words."""
     program = (
-        "import sys; from semnav_env.scripts.main import main; main(['--help']);"
-        "print([m for m in ('tyro', 'numba', 'matplotlib', 'shapely') if m in sys.modules])"
+        f"import sys; from semnav_env.scripts.main import main; main({list(words)});"
+        "print(*sys.modules)"
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert run.stdout.splitlines()[-1] == "[]"
+    return set(run.stdout.splitlines()[-1].split())
+
+
+KERNELS = {"numba", "scipy", "matplotlib", "pymunk", "semnav_env.features.kernels"}
+
+
+@pytest.mark.parametrize("words", [("--help",), ("map", "--help")])
+def test_starting_loads_no_sub_command(words):
+    assert not loaded_by(*words) & {"tyro", "shapely", *KERNELS}
+
+
+@pytest.mark.parametrize("words", [("map", "list"), ("map", "show", "office_cross")])
+def test_looking_at_floor_plans_loads_no_kernel(words):
+    assert not loaded_by(*words) & KERNELS
 
 
 def test_map_list_and_show_agree(capsys, tmp_path):
@@ -129,13 +144,14 @@ def test_map_list_and_show_agree(capsys, tmp_path):
         assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize("name", ["map", "episodes"])
-def test_the_help_names_every_sub_command(capsys, name):
-    text = run(capsys, name, "--help")[1]
-    words = text[text.index("{") + 1 : text.index("}")].split(",")
-    assert len(words) > 3
-    line = next(line for line in run(capsys, "--help")[1].splitlines() if f"  {name} " in line)
-    assert set(words) <= set(line.replace(",", "").split())
+def test_the_help_names_every_sub_command(capsys):
+    text = run(capsys, "episodes", "--help")[1]
+    words = {"map": set(MAP.commands)}
+    words["episodes"] = set(text[text.index("{") + 1 : text.index("}")].split(","))
+    for name, sub_commands in words.items():
+        assert len(sub_commands) > 3
+        line = next(line for line in run(capsys, "--help")[1].splitlines() if f"  {name} " in line)
+        assert sub_commands <= set(line.replace(",", "").split())
 
 
 def test_what_is_grounded_stands_under_headings_with_units(capsys):

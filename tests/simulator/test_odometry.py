@@ -9,8 +9,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import Pose, compose, relative
+from semnav_env.robots import SPOT, WHEELCHAIR, RobotSpec
+from semnav_env.simulator import (
+    ODOMETRIES,
+    SPOT_ODOMETRY,
+    WHEELCHAIR_ODOMETRY,
+    RobotSetup,
+    Simulator,
+)
 from semnav_env.simulator.odometry import EXACT, Odometry, OdometrySettings
+from tests.support.small_plans import empty_hall
 
 START: Pose = (3.0, -2.0, 0.7)
 moves = st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2), st.floats(-0.3, 0.3))
@@ -118,10 +128,50 @@ def test_a_pickled_copy_goes_on_as_the_original_does() -> None:
 @pytest.mark.parametrize("value", [-0.1, math.nan, math.inf])
 @pytest.mark.parametrize("name", ["distance_bias", "turn_bias", "turn_noise", "veer_noise"])
 def test_impossible_settings_are_named(name: str, value: float) -> None:
-    with pytest.raises(ValueError, match=f"{name} is .*; it must be finite and not negative"):
+    with pytest.raises(ValueError, match=f"{name} is .*; it must be a number from 0 to"):
         OdometrySettings(**{name: value})
 
 
 def test_updating_before_a_reset_is_an_error() -> None:
     with pytest.raises(RuntimeError, match="reset"):
         Odometry().update(START)
+
+
+def test_a_veer_bias_turns_by_the_distance() -> None:
+    found = ends(replace(EXACT, veer_bias=0.01), [(0.1, 0.0, 0.0)] * 90)[:, 2]
+    assert found.std() == pytest.approx(0.09, rel=0.1)
+
+
+def test_scaled_settings_keep_their_slip() -> None:
+    assert SPOT_ODOMETRY.scaled(0.0) == replace(EXACT, slip=SPOT_ODOMETRY.slip)
+    assert WHEELCHAIR_ODOMETRY.scaled(2.0).veer_bias == 2.0 * WHEELCHAIR_ODOMETRY.veer_bias
+
+
+def test_slip_is_a_share() -> None:
+    with pytest.raises(ValueError, match=r"slip is 1.5; it must be a number from 0 to 1"):
+        OdometrySettings(slip=1.5)
+
+
+@pytest.mark.parametrize("body", [WHEELCHAIR, SPOT], ids=lambda robot: robot.name)
+def test_only_a_blocked_robot_slips(body: RobotSpec) -> None:
+    """Driven at the wall of a room for three seconds, odometry goes on into the wall."""
+    start, travelled = (8.0, 3.0, 0.0), {}
+    for slip in (0.0, 1.0):
+        simulator = Simulator(empty_hall(), RobotSetup(body, odometry=replace(EXACT, slip=slip)))
+        simulator.reset(start, np.random.default_rng(0))
+        for _ in range(90):
+            sensed = simulator.step((1.0, 0.0, 0.0))
+        assert sensed.motion.in_contact
+        travelled[slip] = sensed.odometry[0] - relative(start, sensed.motion.pose)[0]
+    assert travelled[0.0] == pytest.approx(0.0, abs=1e-9)
+    assert 0.05 < travelled[1.0] < 1.0
+
+
+@pytest.mark.parametrize("name", list(ODOMETRIES))
+def test_odometry_has_names(name: str) -> None:
+    assert SemNavEnv(odometry=name).usual.odometry == ODOMETRIES[name]
+
+
+def test_an_unknown_odometry_is_named() -> None:
+    with pytest.raises(ValueError, match="no odometry named 'spott'; there are: usual, exact"):
+        SemNavEnv(odometry="spott")

@@ -97,7 +97,7 @@ def test_a_copy_goes_on_as_the_original_and_apart_from_it(
 
 def test_a_twist_that_is_refused_changes_nothing() -> None:
     refused, untouched = started(), started()
-    with pytest.raises(ValueError, match="must be finite"):
+    with pytest.raises(ValueError, match="three finite numbers"):
         refused.step((0.0, float("nan"), 0.0))
     assert refused.steps == 0
     assert driven(refused, COMMANDS[:20]) == driven(untouched, COMMANDS[:20])

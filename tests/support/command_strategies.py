@@ -13,6 +13,7 @@ from semnav_env.commands import (
     Command,
     Distance,
     DoorReference,
+    Face,
     Follow,
     GoBack,
     GoToDoor,
@@ -21,12 +22,15 @@ from semnav_env.commands import (
     Leave,
     Place,
     PlaceReference,
+    RoomReference,
+    SearchHouse,
     Side,
     Stop,
     Turn,
     Turning,
     Unit,
 )
+from semnav_env.commands.command import room_of
 
 ordinals = st.integers(-MAX_FROM_END, MAX_ORDINAL).filter(lambda ordinal: ordinal != OTHER)
 doors = st.builds(
@@ -46,11 +50,16 @@ turns_by = st.builds(
     degrees=st.integers(1, 72).map(lambda fives: 5 * fives),
 )
 rooms = st.sampled_from(("kitchen", "printer room", "3.508", "room_west_1", "left", "12 b", "e-1"))
+room_references = st.builds(RoomReference, rooms)
+turned_sides = (Side.LEFT, Side.RIGHT)
 clauses = st.one_of(
     st.builds(Stop, st.integers(0, 100)),
     st.just(Leave()),
+    st.just(SearchHouse()),
     st.just(GoBack()),
-    st.builds(GoToRoom, rooms),
+    st.builds(GoToRoom, rooms, st.sampled_from((Approach.TO, Approach.THROUGH))),
+    st.builds(Face, st.one_of(doors, places, room_references, st.sampled_from(turned_sides))),
+    st.builds(Follow, room_references, st.booleans()),
     turns_by,
     st.builds(Turn, st.sampled_from(Turning), st.one_of(st.none(), places)),
     st.builds(GoToDoor, doors, st.sampled_from(Approach)),
@@ -70,4 +79,4 @@ commands = (
     .filter(lambda found: len(found) <= MAX_CLAUSES)
     .map(Command)
 )
-without_rooms = commands.filter(lambda c: not any(isinstance(x, GoToRoom) for x in c.clauses))
+without_rooms = commands.filter(lambda c: not any(map(room_of, c.clauses)))

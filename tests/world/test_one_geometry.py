@@ -21,7 +21,14 @@ AROUND = LidarSpec("around", 720, -math.pi, math.tau / 720)
 SIDE = 0.04
 AHEAD = 360
 PROBE = replace(
-    SPOT, name="probe", length=SIDE, width=SIDE, mass=1.0, max_speed=0.9, max_acceleration=100.0
+    SPOT,
+    name="probe",
+    length=SIDE,
+    width=SIDE,
+    mass=1.0,
+    max_speed=0.9,
+    max_acceleration=100.0,
+    lidar_mount=(0.0, 0.0, 0.0),
 )
 REACH = SIDE / math.sqrt(2) + 0.003
 """From the probe's centre to its farthest corner, and how deep it may sink in."""

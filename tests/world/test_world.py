@@ -193,9 +193,9 @@ def test_a_robot_fits_where_it_touches_nothing_and_not_outside() -> None:
         ((0.56, 2.0, 0.3), "outside the boundary of small"),
         ((30.0, 2.0, 0.0), "outside the boundary of small"),
         ((5.2, 2.3, 0.0), "at the pose .5.2, 2.3, 0.0. the wheelchair would stand in"),
-        ((math.nan, 2.0, 0.0), "pose is .*nan.* must be finite"),
-        ((1.0, 2.0), "pose is .* must be three numbers"),
-        ("here", "pose is 'here'; it must be three numbers"),
+        ((math.nan, 2.0, 0.0), "pose is .*nan.* must be three finite numbers"),
+        ((1.0, 2.0), "pose is .* must be three finite numbers"),
+        ("here", "pose is 'here'; it must be three finite numbers"),
     ],
 )
 def test_a_start_pose_that_is_not_free_is_refused(pose: Pose, message: str) -> None:

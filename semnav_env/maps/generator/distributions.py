@@ -44,5 +44,30 @@ HARD = OfficeSettings(
 )
 """As many rooms as medium, but narrow doors and corridors, leaves and things in the way, glass."""
 
+HOUSE = OfficeSettings(
+    rooms=(4, 9),
+    crossings=((1, 1), (1, 1)),
+    wings=0.3,
+    wing=(4.0, 6.0),
+    bay=(6.0, 9.0),
+    corridor_width=(1.5, 2.0),
+    room_depth=(3.2, 4.8),
+    room_width=(2.8, 5.0),
+    loops=0.0,
+    single_loaded=0.2,
+    open_areas=0.15,
+    door_width=(0.85, 1.0),
+    closed=0.0,
+    half_open=0.1,
+    inner_doors=0.25,
+    columns=0.0,
+    furniture=0.6,
+    glass=0.0,
+)
+"""The storey of a house: four to nine rooms at a hall, all doors open, furniture."""
+
 DISTRIBUTIONS = {"small": SMALL, "medium": MEDIUM, "large": LARGE, "hard": HARD}
 """The distributions of offices by their names."""
+
+NAMED_SETTINGS = DISTRIBUTIONS | {"house": HOUSE}
+"""Everything that a plan can be named after, as "office:house:17": the offices, and houses."""

@@ -12,7 +12,7 @@ from numbers import Integral
 from rapidfuzz import process
 
 from semnav_env.maps.floor_plan import OFFICE_PREFIX, FloorPlan
-from semnav_env.maps.generator.distributions import DISTRIBUTIONS
+from semnav_env.maps.generator.distributions import NAMED_SETTINGS
 from semnav_env.maps.generator.settings import OfficeSettings
 
 CUSTOM_DISTRIBUTION = "custom"
@@ -31,7 +31,8 @@ def generate_office(seed: int, settings: str | OfficeSettings = "medium") -> Flo
 
     Args:
         seed: 0 or more.
-        settings: the name of a distribution (small, medium, large, hard), or ranges of one's own.
+        settings: the name of a distribution (small, medium, large, hard, house), or ranges of
+            one's own.
 
     Raises:
         ValueError: no such distribution, a seed that is none, or settings that no office meets.
@@ -41,7 +42,7 @@ def generate_office(seed: int, settings: str | OfficeSettings = "medium") -> Flo
     from semnav_env.maps.generator.office import draw_office  # most environments need no office
 
     ranges = distribution(settings) if isinstance(settings, str) else settings
-    names = [name for name, fixed in DISTRIBUTIONS.items() if fixed == ranges]
+    names = [name for name, fixed in NAMED_SETTINGS.items() if fixed == ranges]
     return draw_office(
         int(seed), ranges, office_name(names[0] if names else CUSTOM_DISTRIBUTION, seed)
     )
@@ -73,9 +74,9 @@ def distribution(name: str) -> OfficeSettings:
     Raises:
         ValueError: no such distribution; lists those there are.
     """
-    if name in DISTRIBUTIONS:
-        return DISTRIBUTIONS[name]
-    near = process.extractOne(name[:80], list(DISTRIBUTIONS), score_cutoff=60)
+    if name in NAMED_SETTINGS:
+        return NAMED_SETTINGS[name]
+    near = process.extractOne(name[:80], list(NAMED_SETTINGS), score_cutoff=60)
     hint = f"; did you mean {near[0]}?" if near else ""
-    known = ", ".join(DISTRIBUTIONS)
+    known = ", ".join(NAMED_SETTINGS)
     raise ValueError(f"no distribution of offices named {name[:80]!r}; there are: {known}{hint}")

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, fields
-from typing import TypeAlias
+from dataclasses import dataclass
+from typing import Annotated, TypeAlias
+
+from semnav_env.features.checked_fields import Bounds, Share, check_fields, require_span
+
+MAX_CROSSINGS = 8
+"""Largest number of parallel lines of corridors."""
 
 Range: TypeAlias = tuple[float, float]
 """Least and most."""
@@ -37,66 +41,40 @@ class OfficeSettings:
             nor where the door is; otherwise it is a row of windows.
     """
 
-    rooms: tuple[int, int] = (16, 34)
-    crossings: tuple[tuple[int, int], tuple[int, int]] = ((1, 3), (1, 3))
-    bay: Range = (11.0, 17.0)
-    wings: float = 0.35
-    wing: Range = (6.0, 11.0)
-    corridor_width: Range = (1.7, 2.4)
-    room_depth: Range = (4.0, 5.6)
-    room_width: Range = (2.6, 5.0)
-    loops: float = 0.4
-    single_loaded: float = 0.15
-    open_areas: float = 0.15
-    door_width: Range = (0.85, 1.2)
-    closed: float = 0.12
-    half_open: float = 0.12
-    inner_doors: float = 0.06
-    columns: float = 0.15
-    furniture: float = 0.55
-    glass: float = 0.08
-    frameless: float = 0.0
+    rooms: Annotated[tuple[int, int], Bounds(2, 100)] = (16, 34)
+    crossings: Annotated[tuple[tuple[int, int], tuple[int, int]], Bounds(1, MAX_CROSSINGS)] = (
+        (1, 3),
+        (1, 3),
+    )
+    bay: Annotated[Range, Bounds(6.0, 40.0, "m")] = (11.0, 17.0)
+    wings: Share = 0.35
+    wing: Annotated[Range, Bounds(4.0, 40.0, "m")] = (6.0, 11.0)
+    corridor_width: Annotated[Range, Bounds(1.5, 4.0, "m")] = (1.7, 2.4)
+    room_depth: Annotated[Range, Bounds(3.0, 9.0, "m")] = (4.0, 5.6)
+    room_width: Annotated[Range, Bounds(2.4, 9.0, "m")] = (2.6, 5.0)
+    loops: Share = 0.4
+    single_loaded: Share = 0.15
+    open_areas: Share = 0.15
+    door_width: Annotated[Range, Bounds(0.8, 1.2, "m")] = (0.85, 1.2)
+    closed: Share = 0.12
+    half_open: Share = 0.12
+    inner_doors: Share = 0.06
+    columns: Share = 0.15
+    furniture: Share = 0.55
+    glass: Share = 0.08
+    frameless: Share = 0.0
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, float | int):
-                _check_chance(field.name, value)
-            elif field.name != "crossings":
-                _check_range(field.name, value)
-        for fewest, many in self.crossings:
-            if not 1 <= fewest <= many <= MAX_CROSSINGS:
-                raise ValueError(
-                    f"crossings are {self.crossings}; each must lie within 1 and {MAX_CROSSINGS}"
-                )
-        for name, least, most in SETTING_LIMITS:
-            low, high = getattr(self, name)
-            if not least <= low <= high <= most:
-                raise ValueError(f"{name} is {(low, high)}; it must lie within {least} and {most}")
-
-
-MAX_CROSSINGS = 8
-"""Largest number of parallel lines of corridors."""
-
-SETTING_LIMITS: tuple[tuple[str, float, float], ...] = (
-    ("rooms", 2, 100),
-    ("bay", 6.0, 40.0),
-    ("wing", 4.0, 40.0),
-    ("corridor_width", 1.5, 4.0),
-    ("room_depth", 3.0, 9.0),
-    ("room_width", 2.4, 9.0),
-    ("door_width", 0.8, 1.2),
-)
-"""Least and largest value of each setting: narrower corridors and doors would not let every robot
-through."""
-
-
-def _check_chance(name: str, value: float) -> None:
-    if not 0.0 <= value <= 1.0:
-        raise ValueError(f"{name} is {value}; it is a chance, between 0 and 1")
-
-
-def _check_range(name: str, value: Range) -> None:
-    low, high = value
-    if not (math.isfinite(low) and math.isfinite(high) and 0 < low <= high):
-        raise ValueError(f"{name} is {value}; give the least and the most, both positive")
+        check_fields(self)
+        for name in (
+            "rooms",
+            "bay",
+            "wing",
+            "corridor_width",
+            "room_depth",
+            "room_width",
+            "door_width",
+        ):
+            require_span(name, getattr(self, name))
+        for span in self.crossings:
+            require_span("crossings", span)

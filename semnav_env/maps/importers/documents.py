@@ -8,30 +8,34 @@ from typing import Any
 
 import yaml
 
+from semnav_env.features import reading
+from semnav_env.features.validation import clipped, shown
 from semnav_env.maps.rules import FloorPlanError
 
 MAX_YAML_BYTES = 200_000
 """Size of the largest YAML file that is read, bytes."""
 
-MAX_BYTES = 20_000_000
-"""Size of the largest other document that is read, bytes."""
 
-
-def read_text(path: Path, most: int = MAX_BYTES) -> str:
+def read_text(path: Path, most: int = reading.WHOLE_FILE) -> str:
     """Read a text file of limited size.
 
     Raises:
         FloorPlanError: no such file, too large, or not UTF-8.
     """
     try:
-        size = path.stat().st_size
-        if size > most:
-            raise FloorPlanError(f"{path}: {size:,} bytes; at most {most:,} are read")
-        return path.read_text("utf-8-sig")
+        return reading.read_text(path, most, FloorPlanError)
     except OSError as error:
         raise FloorPlanError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise FloorPlanError(f"{path}: not UTF-8 text; is it the right file?") from None
+
+
+class PlainLoader(yaml.SafeLoader):  # type: ignore[misc]
+    """YAML without aliases: a few hundred bytes of them can stand for gigabytes of text."""
+
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        """The next node, which may not refer to another one."""
+        if self.check_event(yaml.AliasEvent):
+            raise yaml.YAMLError("it has aliases (*name); write out what they stand for")
+        return super().compose_node(parent, index)
 
 
 def read_yaml(path: Path) -> Any:
@@ -40,13 +44,12 @@ def read_yaml(path: Path) -> Any:
     Raises:
         FloorPlanError: no such file, too large, or no YAML.
     """
+    text = read_text(path, MAX_YAML_BYTES)
     try:
-        return yaml.safe_load(read_text(path, MAX_YAML_BYTES))
+        return yaml.load(text, PlainLoader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        if isinstance(error, FloorPlanError):
-            raise
         said = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise FloorPlanError(f"{path}: not YAML: {said}") from None
+        raise FloorPlanError(f"{path}: not YAML: {clipped(said)}") from None
 
 
 def finite(value: Any) -> float:
@@ -56,7 +59,12 @@ def finite(value: Any) -> float:
         TypeError: not a number at all.
         ValueError: not a finite one.
     """
-    number = float(value)
+    try:
+        number = float(value)
+    except ValueError:
+        raise ValueError(f"{shown(value)} is no number") from None
+    except OverflowError:
+        number = math.inf
     if not math.isfinite(number):
-        raise ValueError(f"{value} is not finite")
+        raise ValueError(f"{shown(value)} is not finite")
     return number

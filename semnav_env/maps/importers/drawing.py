@@ -8,10 +8,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 from shapely import STRtree
 
+from semnav_env.features.checked_fields import Bounds, check_fields
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.importers.building_doors import with_doors
 from semnav_env.maps.importers.fitting import fit_door
@@ -43,16 +45,15 @@ class Drawing:
         doors: layers with doors: arcs that leaves swing along, or lines from jamb to jamb.
 
     Raises:
-        FloorPlanError: a scale out of range.
+        ValueError: a scale out of range, or layers that are no texts; names it.
     """
 
-    scale: float | None = None
+    scale: Annotated[float | None, Bounds(1e-6, 1e3, "metres a unit")] = None
     walls: tuple[str, ...] = ()
     doors: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        if self.scale is not None and not 1e-6 <= self.scale <= 1e3:
-            raise FloorPlanError(f"scale is {self.scale}; it must be 1e-6 to 1000 metres a unit")
+        check_fields(self)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +79,8 @@ def plan_of_strokes(
     Raises:
         FloorPlanError: no such layer, no wall on it, or a drawing that is too large.
     """
+    if not all(np.isfinite(stroke.points).all() for stroke in strokes):
+        raise FloorPlanError(f"{path}: has coordinates that are not finite")
     layers = Counter(stroke.layer for stroke in strokes)
     there = ", ".join(f"{name or '(none)'} ({count})" for name, count in sorted(layers.items()))
     for name in (*drawing.walls, *drawing.doors):
@@ -138,8 +141,6 @@ def _is_open(door: DoorLabel, walls: STRtree) -> bool:
 def _corner(strokes: Sequence[Stroke], path: Path) -> FloatArray:
     points = np.concatenate([stroke.points for stroke in strokes])
     low, high = points.min(axis=0), points.max(axis=0)
-    if not np.isfinite(points).all():
-        raise FloorPlanError(f"{path}: has coordinates that are not finite")
     if (high - low).max() > MAX_DRAWING_EXTENT:
         width, height = high - low
         raise FloorPlanError(

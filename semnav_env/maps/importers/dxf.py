@@ -9,8 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.maps.importers.documents import MAX_BYTES
-from semnav_env.maps.importers.drawing import CURVE_TOLERANCE, Drawing, Stroke, plan_of_strokes
+from semnav_env.features.reading import check_file
+from semnav_env.features.validation import clipped
+from semnav_env.maps.importers.drawing import (
+    CURVE_TOLERANCE,
+    MAX_DRAWING_EXTENT,
+    Drawing,
+    Stroke,
+    plan_of_strokes,
+)
 from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.rules import FloorPlanError
 
@@ -18,11 +25,14 @@ CURVE_TYPES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SP
 """Types of DXF entities that are read as lines and curves."""
 
 
+FARTHEST = 1000.0 * MAX_DRAWING_EXTENT
+"""Distance from the origin beyond which nothing is read, metres; coordinates of maps are nearer."""
+
 MAX_BLOCK_DEPTH = 8
 """Depth of blocks within blocks beyond which a drawing is refused."""
 
-MAX_ENTITIES = 60_000
-"""Number of entities beyond which a drawing is refused."""
+MAX_ENTITIES, MAX_BLOCKS = 60_000, 20_000
+"""Numbers of entities and of inserted blocks beyond which a drawing is refused."""
 
 
 def load_dxf(path: str | Path, drawing: Drawing | None = None) -> ImportedPlan:
@@ -57,16 +67,12 @@ def _strokes(
     off = {each.dxf.name for each in document.layers if each.is_off() or each.is_frozen()}
     strokes: list[Stroke] = []
     left: Counter[str] = Counter()
-    for count, (layer, entity) in enumerate(_entities(document.modelspace(), None, path)):
-        if count >= MAX_ENTITIES:
-            raise FloorPlanError(
-                f"{path}: more than {MAX_ENTITIES:,} entities; export the walls alone"
-            )
+    for layer, entity in _within_budget(_entities(document.modelspace(), None, path), path):
         if layer in off.difference(named):
             left[f"lines on layer {layer}, which is off"] += 1
         elif entity.dxftype() in CURVE_TYPES and (stroke := _stroke(entity, layer, scale)):
             strokes.append(stroke)
-        else:
+        elif entity.dxftype() != "INSERT":
             left[entity.dxftype()] += 1
     return strokes, left
 
@@ -79,11 +85,9 @@ def _read(path: Path) -> tuple[Any, int]:
     except ImportError:
         raise FloorPlanError("DXF needs ezdxf: pip install 'semnav-env[import]'") from None
     try:
-        size = path.stat().st_size
-        if size == 0:
+        check_file(path, error=FloorPlanError)
+        if path.stat().st_size == 0:
             raise FloorPlanError(f"{path}: is empty; give a DXF drawing")
-        if size > MAX_BYTES:
-            raise FloorPlanError(f"{path}: {size:,} bytes; at most {MAX_BYTES:,} are read")
         document, audit = recover.readfile(path)
     except OSError as error:
         raise FloorPlanError(f"{path}: cannot be read: {error.strerror or error}") from None
@@ -91,7 +95,7 @@ def _read(path: Path) -> tuple[Any, int]:
         if isinstance(error, FloorPlanError):
             raise
         said = (str(error) or type(error).__name__).splitlines()[0]
-        raise FloorPlanError(f"{path}: no DXF drawing: {said}") from None
+        raise FloorPlanError(f"{path}: no DXF drawing: {clipped(said)}") from None
     return document, len(audit.errors) + len(audit.fixes)
 
 
@@ -109,10 +113,27 @@ def _metres(document: Any, path: Path) -> float:
     return float(conversion_factor(InsertUnits(unit), InsertUnits.Meters))
 
 
+def _within_budget(entities: Iterator[tuple[str, Any]], path: Path) -> Iterator[tuple[str, Any]]:
+    """The entities, as long as there are not too many; inserted blocks count, if empty, too."""
+    blocks = 0
+    for count, (layer, entity) in enumerate(entities):
+        blocks += entity.dxftype() == "INSERT"
+        if count >= MAX_ENTITIES or blocks > MAX_BLOCKS:
+            raise _too_many(path)
+        yield layer, entity
+
+
+def _too_many(path: Path) -> FloorPlanError:
+    return FloorPlanError(
+        f"{path}: more than {MAX_ENTITIES:,} entities or {MAX_BLOCKS:,} blocks; export the walls "
+        "alone"
+    )
+
+
 def _entities(
     layout: Iterable[Any], within: str | None, path: Path, depth: int = 0
 ) -> Iterator[tuple[str, Any]]:
-    """Every entity with its layer, those within blocks included."""
+    """Every entity with its layer, inserted blocks before what is in them."""
     if depth > MAX_BLOCK_DEPTH:
         raise FloorPlanError(
             f"{path}: blocks within blocks more than {MAX_BLOCK_DEPTH} deep; explode them"
@@ -120,19 +141,25 @@ def _entities(
     for entity in layout:
         own = entity.dxf.get("layer", "0")
         layer = within if own == "0" and within is not None else own
+        yield layer, entity
         if entity.dxftype() != "INSERT":
-            yield layer, entity
             continue
+        if entity.mcount > MAX_ENTITIES:
+            raise _too_many(path)
         for insert in entity.multi_insert() if entity.mcount > 1 else (entity,):
             yield from _entities(insert.virtual_entities(), layer, path, depth + 1)
 
 
 def _stroke(entity: Any, layer: str, scale: float) -> Stroke | None:
-    """The entity as points; None if it is no curve, such as a mesh."""
+    """The entity as points; None if it is no curve, such as a mesh, or far too large."""
     from ezdxf.path import make_path
 
     try:
-        corners = [(v.x, v.y) for v in make_path(entity).flattening(CURVE_TOLERANCE / scale)]
+        path = make_path(entity)
+        far = max((abs(x) for vertex in path.control_vertices() for x in vertex), default=0.0)
+        if not far * scale <= FARTHEST:
+            return None
+        corners = [(v.x, v.y) for v in path.flattening(CURVE_TOLERANCE / scale)]
     except TypeError:
         return None
     if len(corners) < 2:

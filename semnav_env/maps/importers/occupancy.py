@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.features.checked_fields import Bounds, Share, check_fields, require_order
 from semnav_env.features.frames import FloatArray, Point, Pose, points_to_parent, to_local
+from semnav_env.features.validation import shown
 from semnav_env.maps.importers.documents import finite, read_yaml
 from semnav_env.maps.importers.raster import free_pixels, read_grey, solid_pixels
 from semnav_env.maps.rules import FloorPlanError
@@ -32,30 +34,19 @@ class OccupancySpec:
         negate: light pixels are solid.
 
     Raises:
-        FloorPlanError: a value out of its range.
+        ValueError: a value of another kind or out of its range; names it.
     """
 
     image: Path
-    resolution: float
+    resolution: Annotated[float, Bounds(0.001, 10.0, "metres a pixel")]
     origin: Pose = (0.0, 0.0, 0.0)
-    occupied_thresh: float = 0.65
-    free_thresh: float = 0.196
+    occupied_thresh: Share = 0.65
+    free_thresh: Share = 0.196
     negate: bool = False
 
     def __post_init__(self) -> None:
-        rules = (
-            (0.001 <= self.resolution <= 10.0, "resolution", "0.001 to 10 metres a pixel"),
-            (all(map(math.isfinite, self.origin)), "origin", "finite: x, y, heading"),
-            (0.0 <= self.free_thresh <= 1.0, "free_thresh", "from 0 to 1"),
-            (
-                self.free_thresh <= self.occupied_thresh <= 1.0,
-                "occupied_thresh",
-                "from free_thresh to 1",
-            ),
-        )
-        for holds, name, right in rules:
-            if not holds:
-                raise FloorPlanError(f"{name} is {getattr(self, name)}; it must be {right}")
+        check_fields(self)
+        require_order(self, ("free_thresh", "occupied_thresh"))
 
     def to_world(self, pixels: FloatArray, rows: int) -> FloatArray:
         """Metres of points (column, row) in an image of so many rows; row 0 is at the top."""
@@ -129,11 +120,14 @@ def read_spec(path: Path) -> OccupancySpec:
     if fields.get("mode", "trinary") == "raw":
         raise FloorPlanError(f"{path}: mode raw is not read; save the map as trinary or scale")
     try:
-        image = fields["image"]
+        image = path.parent / str(fields["image"])
+        if not _is_file(image):
+            shown_name = shown(str(fields["image"]))
+            raise FloorPlanError(f"its image {shown_name} cannot be read: there is no such file")
         origin = [finite(value) for value in fields["origin"]]
         x, y, heading = origin if len(origin) == 3 else (*origin, 0.0)
         return OccupancySpec(
-            path.parent / str(image),
+            image,
             finite(fields["resolution"]),
             (x, y, heading),
             finite(fields.get("occupied_thresh", 0.65)),
@@ -150,6 +144,13 @@ def read_spec(path: Path) -> OccupancySpec:
         raise FloorPlanError(
             f"{path}: {error}; resolution is a number, origin is [x, y, heading]"
         ) from None
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a name that is too long, or holds a null
+        return False
 
 
 def _spec(path: Path, resolution: float | None) -> OccupancySpec:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
 
+from semnav_env.features.validation import clipped
 from semnav_env.maps.importers.building import load_building
 from semnav_env.maps.importers.documents import read_text
 from semnav_env.maps.importers.drawing import Drawing
@@ -81,6 +82,22 @@ def import_map(
     suffix = where.suffix.lower()
     if suffix in _registered:
         return _registered[suffix](where)
+    try:
+        return _imported(where, suffix, resolution, tracing, drawing)
+    except (FloorPlanError, OSError, ImportError):
+        raise
+    except Exception as error:  # foreign bytes raise whatever a parser stumbles over
+        said = (str(error) or type(error).__name__).splitlines()[0]
+        raise FloorPlanError(f"{where}: cannot be read: {clipped(said)}") from error
+
+
+def _imported(
+    where: Path,
+    suffix: str,
+    resolution: float | None,
+    tracing: Tracing | None,
+    drawing: Drawing | None,
+) -> ImportedPlan:
     if suffix in IMAGE_SUFFIXES:
         return trace(read_occupancy(where, resolution), tracing)
     if resolution is not None:

@@ -11,10 +11,14 @@ from PIL import Image, UnidentifiedImageError
 from scipy.ndimage import binary_closing
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.reading import check_file
 from semnav_env.maps.rules import FloorPlanError
 
 MAX_PIXELS = 25_000_000
 """Number of pixels beyond which an image is refused before it is decoded."""
+
+MAX_IMAGE_BYTES = 200_000_000
+"""Size of the largest image file that is read, bytes: `MAX_PIXELS` of eight bytes."""
 
 IMAGE_FORMATS = ("PPM", "PNG", "BMP", "TIFF", "GIF")
 """Formats of images that Pillow may read."""
@@ -29,6 +33,7 @@ def read_grey(path: Path) -> FloatArray:
         FloorPlanError: no such file, no image, or too many pixels.
     """
     try:
+        check_file(path, MAX_IMAGE_BYTES, FloorPlanError)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
             with Image.open(path, formats=IMAGE_FORMATS) as image:
@@ -69,9 +74,11 @@ def _brightness(image: Image.Image) -> FloatArray:
         return values / 257.0 if values.max(initial=0.0) > 255.0 else values
     if image.mode in ("1", "L"):
         return np.asarray(image.convert("L"), dtype=np.float64)
-    rgba = np.asarray(image.convert("RGBA"), dtype=np.float64)
-    grey: FloatArray = rgba[:, :, :3].mean(axis=2)
-    grey[rgba[:, :, 3] == 0.0] = UNKNOWN_GREY
+    rgba = np.asarray(image.convert("RGBA"))
+    grey = np.empty(rgba.shape[:2])
+    for row, pixels in enumerate(rgba):  # all at once would take eight times the memory
+        grey[row] = pixels[:, :3].mean(axis=1)
+        grey[row][pixels[:, 3] == 0] = UNKNOWN_GREY
     return grey
 
 

@@ -6,9 +6,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, TypeAlias
 
 import numpy as np
 
+from semnav_env.features.checked_fields import Bounds, check_fields
 from semnav_env.features.frames import FloatArray
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.importers.imported import ImportedPlan, ImportReport, boundary_of
@@ -17,6 +19,8 @@ from semnav_env.maps.importers.outlines import outlines
 from semnav_env.maps.importers.raster import mended
 from semnav_env.maps.importers.straighten import Straightened, straighten
 from semnav_env.maps.rules import LEAST_SEGMENT_LENGTH, FloorPlanError
+
+Pixels: TypeAlias = Annotated[float, Bounds(0.0, 5.0, "pixels")]
 
 
 @dataclass(frozen=True)
@@ -32,20 +36,15 @@ class Tracing:
             and in `simplify`, the walls are exactly the pixels' edges.
 
     Raises:
-        FloorPlanError: a value out of its range.
+        ValueError: a value of another kind or out of its range; names it.
     """
 
-    mend: int = 2
-    simplify: float = 0.5
-    straighten: float = 1.5
+    mend: Annotated[int, Bounds(0, 10, "pixels")] = 2
+    simplify: Pixels = 0.5
+    straighten: Pixels = 1.5
 
     def __post_init__(self) -> None:
-        if not 0 <= self.mend <= 10:
-            raise FloorPlanError(f"mend is {self.mend}; it must be 0 to 10 pixels")
-        if not 0.0 <= self.simplify <= 5.0:
-            raise FloorPlanError(f"simplify is {self.simplify}; it must be 0 to 5 pixels")
-        if not 0.0 <= self.straighten <= 5.0:
-            raise FloorPlanError(f"straighten is {self.straighten}; it must be 0 to 5 pixels")
+        check_fields(self)
 
 
 def trace(pixels: OccupancyMap, tracing: Tracing | None = None) -> ImportedPlan:

@@ -1,0 +1,1 @@
+"""Searching a house: a map of what was looked at, places to look from, and people to go to."""

@@ -1,0 +1,95 @@
+"""Whole files read within a budget of bytes, and never from what does not end."""
+
+from __future__ import annotations
+
+import os
+import stat
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Protocol, cast
+
+WHOLE_FILE = 20_000_000
+"""Size of the largest document that is read as a whole, bytes."""
+
+
+def check_file(
+    path: str | os.PathLike[str], most: int = WHOLE_FILE, error: type[ValueError] = ValueError
+) -> None:
+    """Refuse what is no regular file, such as a pipe that never ends, or a file that is too large.
+
+    Args:
+        path: of the file.
+        most: size of the largest file that is read, bytes.
+        error: kind of the error.
+
+    Raises:
+        ValueError: of the kind `error`; names the file and what would be right.
+        OSError: there is no such file, or it may not be looked at.
+    """
+    status = os.stat(path)
+    if stat.S_ISDIR(status.st_mode):
+        raise error(f"{path}: is a folder; give a file")
+    if not stat.S_ISREG(status.st_mode):
+        raise error(f"{path}: is not a regular file; give a file")
+    if status.st_size > most:
+        raise error(f"{path}: {status.st_size:,} bytes; at most {most:,} are read")
+
+
+def read_bytes(
+    path: str | os.PathLike[str], most: int = WHOLE_FILE, error: type[ValueError] = ValueError
+) -> bytes:
+    """The content of a file; raises what `check_file` does."""
+    check_file(path, most, error)
+    return Path(path).read_bytes()
+
+
+def read_text(
+    path: str | os.PathLike[str], most: int = WHOLE_FILE, error: type[ValueError] = ValueError
+) -> str:
+    """The content of a file in UTF-8; raises what `check_file` does, and `error` if it is none."""
+    try:
+        return read_bytes(path, most, error).decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        raise error(f"{path}: byte {fault.start} is not UTF-8; is it the right file?") from None
+
+
+class Decompressor(Protocol):
+    """What zlib, bz2, lz4 and zstd have for data that come in parts."""
+
+    eof: bool
+    unused_data: bytes | None
+
+    def decompress(self, data: bytes, max_length: int, /) -> bytes:
+        """At most so many bytes of the content of data."""
+        ...
+
+
+def gzip_decompressor() -> Decompressor:
+    """A decompressor of gzip."""
+    made: Any = zlib.decompressobj(wbits=16 + zlib.MAX_WBITS)
+    return cast(Decompressor, made)
+
+
+def decompressed(
+    data: bytes, most: int, decompressor: Callable[[], Decompressor] = gzip_decompressor
+) -> bytes:
+    """The content of compressed data, of as many parts as there are.
+
+    Raises:
+        ValueError: it has more than `most` bytes.
+        EOFError: the data end too early.
+        Exception: that of the decompressor, if the data are damaged.
+    """
+    content: list[bytes] = []
+    left = most
+    while data:
+        stream = decompressor()
+        content.append(stream.decompress(data, left + 1))
+        left -= len(content[-1])
+        if left < 0:
+            raise ValueError(f"more than {most:,} bytes when decompressed")
+        if not stream.eof:
+            raise EOFError
+        data = (stream.unused_data or b"").lstrip(b"\0")
+    return b"".join(content)

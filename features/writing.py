@@ -1,0 +1,94 @@
+"""The one way in which files are written: at any moment there is the old one or the whole new one.
+
+What is written goes to a part beside the file, which takes its place when it is complete and on the
+disk. A full disk, an error, an interruption or a kill leaves the old file as it was.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+
+@contextmanager
+def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Where to write what is to replace a file, of the same suffix; put in place at the end.
+
+        with replacing("plan.png") as part:
+            figure.savefig(part)
+
+    Missing folders are made. What is no regular file, such as a pipe, is written directly.
+
+    Raises:
+        OSError: it cannot be written; names the file.
+    """
+    target = Path(path).resolve() if Path(path).is_symlink() else Path(path)
+    part = part_of(target)
+    try:
+        with naming(target):
+            yield part
+            put_in_place(part, target)
+    except BaseException:
+        discard(part, target)
+        raise
+
+
+def write_file(path: str | os.PathLike[str], content: bytes | str) -> None:
+    """Write a whole file, text as UTF-8; see `replacing`."""
+    with replacing(path) as part:
+        part.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+def part_of(target: Path, name: str | None = None) -> Path:
+    """The place of a new part beside a file, or the file itself if that is no regular one.
+
+    Args:
+        target: the file.
+        name: of the part; a name that nobody else takes if None.
+
+    Raises:
+        OSError: its folder cannot be made, or it is a folder itself.
+    """
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "it is a folder; give a file", str(target))
+    if target.exists() and not target.is_file():
+        return target
+    return target.with_name(
+        name or f".{target.stem[:100]}-{uuid.uuid4().hex[:12]}.part{target.suffix}"
+    )
+
+
+def put_in_place(part: Path, target: Path) -> None:
+    """Let a complete part replace a file."""
+    if part == target:
+        return
+    with open(part, "rb") as file:
+        os.fsync(file.fileno())
+    if target.exists():
+        os.chmod(part, target.stat().st_mode)
+    os.replace(part, target)
+
+
+def discard(part: Path, target: Path) -> None:
+    """Remove a part that is not complete."""
+    if part != target:
+        with suppress(OSError):
+            part.unlink()
+
+
+@contextmanager
+def naming(target: Path) -> Iterator[None]:
+    """Let an error of the operating system name the file that is written, not a part of it."""
+    try:
+        yield
+    except OSError as error:
+        named = str(error.filename or "")
+        if named and ".part" not in Path(named).name:
+            raise
+        said = error.strerror or str(error)
+        raise OSError(error.errno or errno.EIO, said, str(target)) from error

@@ -1,0 +1,73 @@
+"""How long starting takes, in processes of their own."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+from semnav_env.bench.timing import Part
+
+_SEMNAV = ("-m", "semnav_env.scripts.main")
+_EVERYTHING = """
+import gymnasium
+import numpy as np
+name = "semnav_env:SemNav-v0"
+envs = gymnasium.make_vec(name, num_envs=2, vectorization_mode="vector_entry_point")
+envs.reset(seed=0), envs.step(np.zeros((2, 2)))
+env = gymnasium.make(name)
+env.reset(seed=0)
+for _ in range(100):
+    env.step(np.array((0.5, 0.1)))
+"""
+
+STARTS: dict[str, tuple[str, ...]] = {
+    "import semnav_env": ("-c", "import semnav_env"),
+    "semnav --help": (*_SEMNAV, "--help"),
+    "semnav map list": (*_SEMNAV, "map", "list"),
+    "semnav ground": (
+        *_SEMNAV,
+        "ground",
+        "the second door on the right",
+        "--pose=-2.5,-0.3,0.24",
+    ),
+    "an environment's first reset": (
+        "-c",
+        "import gymnasium; gymnasium.make('semnav_env:SemNav-v0').reset(seed=0)",
+    ),
+}
+"""What Python is called with, by name."""
+
+
+def start_parts() -> list[Part]:
+    """Processes from their start to their end, with kernels that have been compiled."""
+    return [
+        Part(name, lambda words=words: _seconds(words))  # type: ignore[misc]
+        for name, words in STARTS.items()
+    ]
+
+
+def compile_seconds() -> float:
+    """Processor time, seconds, of a process that compiles what single and vector environments need.
+
+    It uses an empty folder in place of the user's.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        before = os.times()
+        _seconds(("-c", _EVERYTHING), {"SEMNAV_CACHE_DIR": folder})
+        after = os.times()
+    return sum(after[2:4]) - sum(before[2:4])
+
+
+def _seconds(words: tuple[str, ...], variables: dict[str, str] | None = None) -> float:
+    """How long a call of Python takes, seconds."""
+    begin = time.perf_counter()
+    subprocess.run(
+        [sys.executable, *words],
+        env={**os.environ, **(variables or {})},
+        check=True,
+        capture_output=True,
+    )
+    return time.perf_counter() - begin

@@ -1,0 +1,100 @@
+"""Says why a text is refused: what was understood, what was not, and what can be said instead."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from semnav_env.commands.errors import CommandError, listed
+from semnav_env.commands.languages import languages
+from semnav_env.commands.normalise import NormalisedText
+from semnav_env.commands.speech.items import Item, ItemKind
+from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.commands.speech.recognition import votes
+from semnav_env.commands.speech.typos import nearest_word
+from semnav_env.commands.speech.understanding import Understanding
+from semnav_env.commands.words import TextPiece
+
+
+def refusal(
+    found: Understanding,
+    said: Sequence[TextPiece],
+    normalised: NormalisedText,
+    lexicon: SpeechLexicon,
+    rooms: Sequence[str],
+    *,
+    forced: bool,
+) -> CommandError:
+    """The error for a text that has no meaning.
+
+    Args:
+        found: how far it was understood.
+        said: its words.
+        normalised: the text.
+        lexicon: of its language.
+        rooms: names of the rooms that there are.
+        forced: whether the language was given and not recognised.
+    """
+    start, stop = _fault(found, len(said))
+    place = normalised.span(said[start].start, said[max(start, stop - 1)].stop)
+    words = normalised.text[said[start].start : said[max(start, stop - 1)].stop]
+    foreign = _other_language([piece.text for piece in said], lexicon) if forced else None
+    hint = foreign or _hint(found, words, lexicon, rooms)
+    nearest = nearest_word(words, lexicon.words)
+    suggestion = None if hint or nearest == words else nearest
+    return CommandError(_problem(found, words), normalised.original, *place, (), suggestion, hint)
+
+
+def _problem(found: Understanding, words: str) -> str:
+    if found.problem is not None:
+        return found.problem[0]
+    return f'"{words}" is not understood'
+
+
+def _hint(
+    found: Understanding, words: str, lexicon: SpeechLexicon, rooms: Sequence[str]
+) -> str | None:
+    """Advice for what was not understood, after what was."""
+    language = lexicon.language
+    said = "; ".join(command.say(language) for command in found.part)
+    understood = f'understood: "{said}"' if said else ""
+    if found.problem is not None:
+        return understood or None
+    advice = language.hint(words) or language.hint(words.split(" ")[0])
+    kinds = [item.kind for item in found.items]
+    if advice is None and ItemKind.NOT in kinds:
+        advice = language.hint("not") or language.hint("nicht")
+    elif advice is None and ItemKind.OR in kinds:
+        advice = language.hint("or") or language.hint("oder")
+    if advice is None and rooms and nearest_word(words, lexicon.words) is None:
+        advice = f"the rooms here are: {listed(tuple(rooms))}"
+    return "; ".join(part for part in (understood, advice) if part) or None
+
+
+def _fault(found: Understanding, count: int) -> tuple[int, int]:
+    """Numbers of the first word that was not understood and of the one behind the last such."""
+    if found.problem is not None:
+        return min(found.problem[1], count - 1), found.problem[2]
+    unread = [item for item in found.items if item.kind is ItemKind.UNKNOWN]
+    if unread:
+        last = unread[0]
+        for item in unread[1:]:
+            last = item if item.start == last.stop else last
+        return unread[0].start, last.stop
+    at: Item | None = found.items[found.reached] if found.reached < len(found.items) else None
+    return (at.start, at.stop) if at is not None else (max(0, count - 1), count)
+
+
+def _other_language(words: Sequence[str], lexicon: SpeechLexicon) -> str | None:
+    """A hint to the language to which most words of a text belong."""
+    mine = votes(words, lexicon.language)
+    for language in languages().values():
+        theirs = votes(words, language)
+        if language.code == lexicon.language.code:
+            continue
+        if theirs > mine or theirs == len(words):
+            name = language.name
+            return f'this is {name.capitalize()}: say language="{name}", or --language {name}'
+    return None
+
+
+__all__ = ["lexicon_of", "refusal"]

@@ -1,0 +1,96 @@
+"""Reads conditions: "if there is no door on the left", "falls die Tür links offen ist"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from semnav_env.commands.references import Side
+from semnav_env.commands.speech.items import Item, ItemKind, Noun
+from semnav_env.commands.speech.lexicon import SpeechLexicon
+from semnav_env.commands.speech.nouns import NounReader
+
+
+@dataclass(frozen=True, slots=True)
+class Premise:
+    """What a condition asks for.
+
+    Attributes:
+        noun: a door or a place; None for the door that was named before ("if it is closed").
+        absent: it asks for something that is not there, or for a closed door.
+        state: "open", "closed" or "".
+    """
+
+    noun: Noun | None
+    absent: bool
+    state: str = ""
+
+
+def read_condition(
+    words: Sequence[str], at: int, lexicon: SpeechLexicon, nouns: NounReader
+) -> Item | None:
+    """The condition that begins at a word; None if none does."""
+    unless = lexicon.find(words, at, "unless")
+    begin = unless or lexicon.find(words, at, "if")
+    inverted = None
+    if begin is None and (at == 0 or not words[at - 1][0].isalpha()):
+        begin = inverted = lexicon.find(words, at, "if start")
+    if begin is None:
+        return None
+    here, noun, side = begin[1], None, None
+    absent, state, exists, pronoun = unless is not None, "", False, False
+    stop = here
+    while here < len(words):
+        found = _longest(words, here, lexicon)
+        read = nouns.read(here) if noun is None else None
+        if (
+            read
+            and read[1] >= (found[1] if found else 0)
+            and read[0].kind not in ("it", "one", "wall", "start")
+        ):
+            noun, here = read
+            stop = here
+            continue
+        if found is None:
+            break
+        kind, end, value = found
+        if kind == "absent":
+            absent = not absent
+        elif kind in ("is open", "is closed"):
+            state = kind[3:]
+        elif kind == "exists":
+            exists = True
+        elif kind == "pronoun":
+            pronoun = True
+        elif kind == "side" and noun is None:
+            side = Side(value)
+        elif kind != "filler" and kind != "here":
+            break
+        here = end
+        if kind != "filler":
+            stop = here
+        if state and (noun or pronoun):
+            break
+    if noun is None and not (pronoun and state):
+        return None
+    if inverted and not state:
+        return None
+    if not (exists or state or absent):
+        return None
+    if noun is not None and side is not None and noun.side is None:
+        noun = Noun(noun.kind, noun.ordinal, side, noun.name)
+    closed = state == "closed"
+    return Item(ItemKind.IF, at, stop, Premise(noun, absent is not closed, state))
+
+
+CLASSES = ("absent", "is open", "is closed", "exists", "here", "pronoun", "side", "filler")
+
+
+def _longest(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> tuple[str, int, str] | None:
+    """The class, end and value of the longest phrase that a condition may have at a word."""
+    found = [
+        (kind, stop, value) for kind, value, stop in lexicon.matches(words, at) if kind in CLASSES
+    ]
+    if side := next((f for f in found if f[0] == "side"), None):
+        return side
+    return min(found, key=lambda each: (-each[1], CLASSES.index(each[0])), default=None)

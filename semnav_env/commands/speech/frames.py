@@ -1,0 +1,159 @@
+"""What the items of one clause mean together.
+
+People say the parts of a clause in any order, and languages differ in theirs: "turn left at the
+corner", "at the corner left", "an der Ecke links abbiegen". So a clause is read as a frame: its
+verbs, its sides and what it names, each with its preposition.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from semnav_env.commands.clause_readings import (
+    Readings,
+    Steps,
+)
+from semnav_env.commands.clauses import (
+    Approach,
+    Face,
+    GoToDoor,
+    SearchHouse,
+    Turn,
+    Turning,
+)
+from semnav_env.commands.references import (
+    DoorReference,
+    PlaceReference,
+    Side,
+)
+from semnav_env.commands.speech.doorplaces import with_places_of_doors
+from semnav_env.commands.speech.frame import (
+    KNOWN_VERBS,
+    ClauseFrame,
+    contexts_of,
+    distances_of,
+    goes_around,
+)
+from semnav_env.commands.speech.going import read_go
+from semnav_env.commands.speech.items import Item, ItemKind, Noun
+from semnav_env.commands.speech.leaving import read_back, read_in, read_leave
+from semnav_env.commands.speech.moves import (
+    NoMeaningError,
+    is_door,
+    landmark,
+    moves,
+    with_side,
+)
+from semnav_env.commands.speech.stopping import read_stop, read_wait
+from semnav_env.commands.speech.turning import read_degrees, read_turn
+
+
+def readings_of(frame: ClauseFrame) -> Readings:
+    """The readings of a clause.
+
+    Raises:
+        NoMeaningError: its items have no meaning together.
+        ValueError: they have one that no robot can carry out; the message says why.
+    """
+    if frame.verbs - KNOWN_VERBS:
+        raise NoMeaningError("verb")
+    if frame.has(ItemKind.SLIGHT) and frame.sides and not frame.has(ItemKind.DEGREES):
+        raise ValueError('by how much? say "turn left by 30 degrees"')
+    frame = with_places_of_doors(frame)
+    for read in (
+        _search,
+        read_degrees,
+        read_wait,
+        read_stop,
+        _face,
+        _around,
+        read_back,
+        read_leave,
+        read_in,
+        read_turn,
+        read_go,
+    ):
+        found = read(frame)
+        if found is not None:
+            return found
+    raise NoMeaningError("nothing")
+
+
+def _search(frame: ClauseFrame) -> Readings | None:
+    """The verb "search the house" holds its object."""
+    if "search" not in frame.verbs:
+        return None
+    if len(frame.items) > 1:
+        raise NoMeaningError("search and something else")
+    return ((SearchHouse(),),)
+
+
+def _face(frame: ClauseFrame) -> Readings | None:
+    if "wall" in frame.verbs:
+        if len(frame.sides) != 1 or frame.refs:
+            raise NoMeaningError("the wall on which side")
+        return ((Face(Side(frame.sides[0].value)),),)
+    if "away" in frame.verbs:
+        return _turned_away(frame)
+    turns_to = (
+        frame.verbs == {"turn"}
+        and not frame.sides
+        and len(frame.refs) == 1
+        and bool(frame.roles(frame.refs[0]) & {"to", "toward"})
+        and (is_door(frame.refs[0].value) or frame.refs[0].value.kind in ("named", "wall"))
+    )
+    if "face" not in frame.verbs and not turns_to:
+        return None
+    if len(frame.refs) != 1:
+        raise NoMeaningError("face")
+    noun = frame.refs[0].value
+    if noun.kind in ("it", "hall", "start"):
+        raise NoMeaningError("face")
+    what = landmark(noun)
+    if isinstance(what, DoorReference) and frame.sides:
+        what = with_side(what, Side(frame.sides[0].value))
+    return ((Face(what),),)
+
+
+def _turned_away(frame: ClauseFrame) -> Readings:
+    """Of "With your back to the door, go straight": face it, and turn around."""
+    noun = frame.refs[0].value if frame.refs else Noun("it")
+    if noun.side is Side.AHEAD and noun.kind == "door":  # "zur Tür geradeaus fahren"
+        noun = replace(noun, side=None)
+        straight = Item(ItemKind.STRAIGHT, frame.refs[0].start, frame.refs[0].stop)
+        frame = ClauseFrame((*frame.items, straight))
+    first: Steps = (Face(landmark(noun)), Turn(Turning.AROUND))
+    rest = tuple(item for item in frame.items if item is not frame.refs[0] and item.value != "away")
+    plain = ClauseFrame(
+        tuple(
+            item for item in rest if item.kind is not ItemKind.VERB or item.value not in ("stop",)
+        )
+    )
+    more = (
+        readings_of(plain) if any(item.kind is not ItemKind.VERB for item in plain.items) else ((),)
+    )
+    return tuple((*first, *each) for each in more)
+
+
+def _around(frame: ClauseFrame) -> Readings | None:
+    if not (items := frame.of(ItemKind.AROUND)) or goes_around(frame):
+        return None
+    alone = any(item.value for item in items)
+    if not alone and not frame.verbs & {"turn", "make", "take", "face"}:
+        raise NoMeaningError("around")
+    if frame.sides or frame.verbs - {"turn", "make", "take", "go", "continue", "face"}:
+        raise NoMeaningError("around and a side")
+    contexts, rest = contexts_of(frame)
+    steps: Steps = (*contexts, *distances_of(frame), Turn(Turning.AROUND))
+    for item in rest:
+        roles = frame.roles(item)
+        if roles & {"at", "in"} and not is_door(item.value) and item.value.kind != "it":
+            place = landmark(item.value)
+            if isinstance(place, PlaceReference):
+                return ((*contexts, Turn(Turning.AROUND, place)),)
+        if roles & {"in", "at"} and is_door(item.value) and item.value.doorway:
+            door = landmark(item.value)
+            assert isinstance(door, DoorReference)
+            return ((GoToDoor(door, Approach.IN), Turn(Turning.AROUND)),)
+        steps = (*steps, *moves(item.value, roles, frame.verbs - {"turn"}))
+    return (steps,)

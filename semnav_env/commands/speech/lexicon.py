@@ -1,0 +1,164 @@
+"""The words of a language for its speech parser: which phrases may mean what.
+
+A phrase may have several meanings; `semnav_env.commands.speech.phrases` decides by what stands
+around it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from importlib.resources import files
+from typing import TypeAlias
+
+from semnav_env.commands.language import Language
+from semnav_env.commands.words import TextPiece, pieces
+
+Match: TypeAlias = tuple[str, int]
+"""The value of a phrase, and the number of the first word behind it."""
+
+LONGEST_PHRASE = 12
+"""The most words of a phrase."""
+
+
+@dataclass(frozen=True, eq=False)
+class SpeechLexicon:
+    """The phrases of a language.
+
+    Attributes:
+        by_first: for the first word of a phrase, the phrases with their class and value, longest
+            first.
+        words: every word of every phrase.
+        language: of the phrases.
+    """
+
+    by_first: dict[str, tuple[tuple[tuple[str, ...], str, str], ...]]
+    words: frozenset[str]
+    language: Language
+
+    def matches(self, words: Sequence[str], at: int) -> Iterator[tuple[str, str, int]]:
+        """Class, value and end of every phrase that begins at a word, longest first."""
+        window = tuple(words[at : at + LONGEST_PHRASE])
+        return ((kind, value, at + length) for kind, value, length in self._matches(window))
+
+    @lru_cache(maxsize=20_000)  # noqa: B019 - the few lexicons live as long as the process
+    def _matches(self, window: tuple[str, ...]) -> tuple[tuple[str, str, int], ...]:
+        """Class, value and length of every phrase with which some words begin, longest first."""
+        phrases = self.by_first.get(window[0], ()) if window else ()
+        return tuple(
+            (kind, value, len(phrase))
+            for phrase, kind, value in phrases
+            if window[: len(phrase)] == phrase
+        )
+
+    def find(self, words: Sequence[str], at: int, kind: str) -> Match | None:
+        """Value and end of the longest phrase of a class at a word; None if there is none."""
+        if at >= len(words):
+            return None
+        found = ((value, stop) for k, value, stop in self.matches(words, at) if k == kind)
+        return next(found, None)
+
+
+@cache
+def lexicon_of(language: Language) -> SpeechLexicon:
+    """The lexicon of a language, read at the first call."""
+    file = files("semnav_env.commands.speech") / f"{language.name}.json"
+    table: dict[str, str] = json.loads(file.read_text("utf-8"))
+    phrases = [
+        (phrase, *_class_and_value(key)) for key, row in table.items() for phrase in row.split("|")
+    ]
+    phrases += [(word, "ordinal", str(n)) for word, n in _ordinals(language)]
+    phrases += [(word, "number", str(n)) for word, n in _numbers(language)]
+    return SpeechLexicon(*_indexed(language, phrases), language)
+
+
+def _class_and_value(key: str) -> tuple[str, str]:
+    kind, _, value = key.partition(" ")
+    return (kind, value) if kind in VALUED else (key, "")
+
+
+VALUED = ("number", "verb", "prep", "adj", "noun", "side", "where", "particle")
+"""Classes whose keys have a value behind them."""
+
+
+def _ordinals(language: Language) -> Iterator[tuple[str, int]]:
+    for n, words in enumerate(language.ordinals, 1):
+        yield from ((word, n) for word in words)
+    for n, words in enumerate(language.from_end, 1):
+        yield from ((word, -n) for word in words)
+
+
+def _numbers(language: Language) -> Iterator[tuple[str, float]]:
+    yield from language.numbers.items()
+    yield from compound_numbers(language)
+
+
+def compound_numbers(language: Language) -> Iterator[tuple[str, float]]:
+    """Number words from 21 to 99 that are made of a ten and a one."""
+    pattern = language.phrases.get("tens_and_ones", "{tens}-{ones}")
+    spoken = {v: w for w, v in reversed(language.numbers.items()) if v == int(v)}
+    for tens in range(20, 100, 10):
+        for ones in range(1, 10):
+            if tens in spoken and ones in spoken:
+                yield pattern.format(tens=spoken[tens], ones=spoken[ones]), tens + ones
+
+
+def _indexed(
+    language: Language, phrases: Iterable[tuple[str, str, str]]
+) -> tuple[dict[str, tuple[tuple[tuple[str, ...], str, str], ...]], frozenset[str]]:
+    by_first: dict[str, dict[tuple[tuple[str, ...], str, str], None]] = {}
+    known: set[str] = set()
+    for phrase, kind, value in phrases:
+        words = plain_words(phrase, language)
+        known.update(words)
+        by_first.setdefault(words[0], {})[words, kind, value] = None
+    ordered = {
+        first: tuple(sorted(found, key=lambda entry: -len(entry[0])))
+        for first, found in by_first.items()
+    }
+    return ordered, frozenset(known)
+
+
+def plain_words(phrase: str, language: Language) -> tuple[str, ...]:
+    """The words of a phrase as they stand in a normalised text."""
+    folded = language.folded(phrase.casefold()).replace("ß", "ss")
+    return tuple(piece.text for piece in _pieces(folded))
+
+
+def _pieces(text: str) -> list[TextPiece]:
+    return pieces(text)
+
+
+@cache
+def mixed(main: SpeechLexicon, other: SpeechLexicon) -> SpeechLexicon:
+    """A lexicon with the phrases of another language that begin with a word that it has not."""
+    borrowed = {
+        first: found for first, found in other.by_first.items() if first not in main.by_first
+    }
+    return SpeechLexicon({**borrowed, **main.by_first}, main.words | other.words, main.language)
+
+
+def spoken_pieces(found: Sequence[TextPiece], lexicon: SpeechLexicon) -> list[TextPiece]:
+    """The words of a text without hesitations, and with "the door's" read as "the door is"."""
+    spoken: list[TextPiece] = []
+    for piece in found:
+        base = piece.text.removesuffix("'s")
+        if base != piece.text and piece.text not in lexicon.words and base in lexicon.words:
+            spoken += [piece._replace(text=base), piece._replace(text="is")]
+        elif piece.text != "'":
+            spoken.append(piece)
+    return without(spoken, lexicon, "hesitation")
+
+
+def without(found: Sequence[TextPiece], lexicon: SpeechLexicon, kind: str) -> list[TextPiece]:
+    """The words of a text without those of a class, unless nothing would be left."""
+    words = [piece.text for piece in found]
+    kept, at = [], 0
+    while at < len(words):
+        match = lexicon.find(words, at, kind)
+        if match is None:
+            kept.append(found[at])
+        at = match[1] if match else at + 1
+    return kept or list(found)

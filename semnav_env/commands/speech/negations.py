@@ -1,0 +1,148 @@
+"""Negations, and what a correction puts in the place of what: "not the first but the second"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from semnav_env.commands.speech.items import Item, ItemKind, Noun
+from semnav_env.commands.speech.moves import is_door
+
+SOFT = (ItemKind.SIGN, ItemKind.AND, ItemKind.THEN)
+
+
+CLAUSE_KINDS = (
+    *(ItemKind.VERB, ItemKind.REF, ItemKind.SIDE, ItemKind.STRAIGHT, ItemKind.AROUND),
+    *(ItemKind.BACK, ItemKind.IN, ItemKind.OUT, ItemKind.TO_END, ItemKind.DISTANCE),
+)
+
+
+def end_of_clause(items: Sequence[Item], at: int) -> int:
+    """The end of the clause at an item."""
+    while at < len(items) and items[at].kind in CLAUSE_KINDS:
+        at += 1
+    return at
+
+
+def corrects(item: Item, by: Item) -> bool:
+    """Whether an item can take the place of another one."""
+    if by.kind is ItemKind.DISTANCE:
+        amounts = (ItemKind.DISTANCE, ItemKind.SECONDS, ItemKind.DEGREES)
+        return item.kind in amounts if isinstance(by.value, float) else item.kind is by.kind
+    if by.kind is ItemKind.SIDE:
+        return item.kind is ItemKind.SIDE or (
+            item.kind is ItemKind.REF and item.value.side is not None
+        )
+    if item.kind is ItemKind.SIDE:
+        return by.value.side is not None and by.value.ordinal is None
+    if item.kind is not ItemKind.REF:
+        return False
+    return (
+        item.value.kind == by.value.kind
+        or (not is_door(item.value) and not is_door(by.value))
+        or "one" in (by.value.kind, item.value.kind)
+    )
+
+
+def merged_items(item: Item, by: Item) -> Item:
+    """An item as it is corrected."""
+    if isinstance(by.value, float):
+        of_distance = item.kind is ItemKind.DISTANCE
+        return replace(
+            item, value=replace(item.value, amount=by.value) if of_distance else by.value
+        )
+    if item.kind is ItemKind.SIDE or by.kind is ItemKind.DISTANCE:
+        side = by.value if by.kind is not ItemKind.REF else by.value.side
+        return replace(item, value=side)
+    old: Noun = item.value
+    if by.kind is ItemKind.SIDE:
+        return replace(item, value=replace(old, side=by.value))
+    new: Noun = by.value
+    noun = replace(new, ordinal=old.ordinal if new.ordinal is None else new.ordinal)
+    if new.side is None and is_door(old):
+        noun = replace(noun, side=old.side)
+    if old.kind == "named" or new.kind == "named" or old.kind != new.kind:
+        noun = new
+    return Item(item.kind, item.start, by.stop, noun, by.roles or item.roles)
+
+
+def without_negated(items: list[Item]) -> list[Item]:
+    """Drop "not the first door but", "don't turn left,", "instead of the left one"."""
+    at = 0
+    while at < len(items):
+        if items[at].kind is ItemKind.INSTEAD_OF:
+            stop = end_of_clause(items, at + 1)
+            items = [*items[:at], *items[min(stop, at + 2) :]]
+        elif items[at].kind is ItemKind.NOT:
+            items = _without(items, at)
+        else:
+            at += 1
+            continue
+        if at < len(items) and items[at].kind is ItemKind.NOT:
+            at += 1
+    return items
+
+
+def _without(items: list[Item], at: int) -> list[Item]:
+    """The items without the negated clause that begins at an item."""
+    stop = end_of_clause(items, at + 1)
+    named = [i for i in range(at + 1, stop) if items[i].kind is ItemKind.REF]
+    if len(named) > 1 and not any(items[i].kind is ItemKind.VERB for i in range(at + 1, stop)):
+        stop = named[0] + 1  # "not this door the next one"
+    negated = items[at + 1 : stop]
+    following = stop
+    while following < len(items) and items[following].kind in (*SOFT, ItemKind.BUT, ItemKind.NO):
+        following += 1
+    rest = items[following:]
+    verbs = [item for item in negated if item.kind is ItemKind.VERB]
+    before = items[:at]
+    if not rest or not negated:
+        if len(negated) == len(verbs) == 1 and verbs[0].value in ("go", "turn"):
+            return [*before, replace(verbs[0], value="stop")]
+        if before and len(negated) == 1 and not verbs and _is_contrast(before, negated[0]):
+            return [*items[: cut_before(items, at)], *rest]
+        return items
+    if any(item.kind in (ItemKind.IF, ItemKind.OTHERWISE) for item in rest[:1]):
+        return items
+    place = next((i for i in negated if i.kind is ItemKind.REF and "at" in i.roles), None)
+    if place is not None and not is_door(place.value) and verbs:
+        return [*before, place, *rest]
+    refs = [item for item in negated if item.kind is ItemKind.REF]
+    if refs and rest[0].kind is ItemKind.REF and not verbs:
+        merged = merged_items(refs[-1], rest[0]) if corrects(refs[-1], rest[0]) else rest[0]
+        rest = [_next_of(refs[-1].value, merged), *rest[1:]]
+    elif refs and is_door(refs[-1].value):
+        rest = [_next_of(refs[-1].value, item) for item in rest]
+        rest = [_named_again(item, refs[-1].value) for item in rest]
+    if before and before[-1].kind is ItemKind.VERB and rest[0].kind is ItemKind.VERB:
+        before = before[:-1]
+    return [*before, *rest]
+
+
+def _is_contrast(before: Sequence[Item], negated: Item) -> bool:
+    """Of "The second door, not the first": what is negated is of the kind that was named before."""
+    named = [item for item in before if item.kind not in SOFT]
+    return bool(named) and corrects(named[-1], negated) and "until" not in negated.roles
+
+
+def _next_of(noun: Noun, item: Item) -> Item:
+    """Of "The next" after a door that is not meant: one farther than that."""
+    if item.kind is not ItemKind.REF or not item.value.is_next or not is_door(item.value):
+        return item
+    ordinal = (noun.ordinal or 1) + 1
+    return replace(item, value=replace(item.value, ordinal=ordinal, is_next=False))
+
+
+def _named_again(item: Item, noun: Noun) -> Item:
+    """An item with "it" replaced by a noun that is not named elsewhere."""
+    if item.kind is ItemKind.BEFORE_IT:
+        return Item(ItemKind.REF, item.start, item.stop, noun, ("before",))
+    is_it = item.kind is ItemKind.REF and item.value.kind == "it"
+    return replace(item, value=noun) if is_it else item
+
+
+def cut_before(items: Sequence[Item], at: int) -> int:
+    """The end of what stands before a correction, without its comma."""
+    while at > 0 and items[at - 1].kind in SOFT:
+        at -= 1
+    return at

@@ -1,0 +1,280 @@
+"""Reads nouns with what stands around them: "the second door on the left-hand side"."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from semnav_env.commands.references import LAST, OTHER, Side
+from semnav_env.commands.speech.items import Noun
+from semnav_env.commands.speech.lexicon import SpeechLexicon
+from semnav_env.commands.speech.noun_words import NounWords
+from semnav_env.commands.speech.numerals import read_number
+
+COUNTABLE = ("door", "room", "intersection", "corner", "t_junction", "turning")
+"""Kinds of nouns that "the second" can stand for."""
+
+DOORLIKE = ("door", "room", "one")
+"""Kinds of nouns that have a side."""
+
+CHOOSING = ("open", "closed", "nearest", "any", "other", "next", "after next", "last")
+"""Adjectives that say which one is meant."""
+
+
+@dataclass
+class NounReader(NounWords):
+    """Reads nouns of a text, and remembers what was named last.
+
+    Attributes:
+        words: of the text.
+        lexicon: of its language.
+        names: the spoken words of each room's name, and the name.
+        last: the noun that was named last; None at the beginning.
+    """
+
+    words: Sequence[str]
+    lexicon: SpeechLexicon
+    names: Mapping[tuple[str, ...], str]
+    last: Noun | None = None
+
+    def read(self, at: int) -> tuple[Noun, int] | None:
+        """The noun that begins at a word and the word behind it; None if none does."""
+        noun, here = Noun(""), at
+        said_which = determined = False
+        while here < len(self.words):
+            rank, name = self.find(here, "ordinal"), self._name(here)
+            plain = rank is None or (name is not None and name[1] > rank[1])
+            if plain and (head := self._head(here, noun)):
+                if not determined and (self._is_verb(here) or self._is_lone_letter(here)):
+                    return None  # "turn left" is no turning on the left
+                if self._is_elliptic_turn(here, noun):
+                    break  # "at the second turn left", of intersections
+                noun, here = head
+                if noun.side is Side.OPPOSITE and noun.kind not in DOORLIKE:
+                    return None  # "across the crossing" is no crossing opposite
+                return self._behind(noun, here)
+            adjective = self.find(here, "adj")
+            longest = adjective[1] if adjective else 0
+            if (found := self.find(here, "det")) and found[1] >= longest:
+                determined = True
+            elif (found := self.find(here, "a")) and found[1] >= longest:
+                noun, determined = replace(noun, definite=False), True
+            elif modified := self._modifier(here, noun):
+                noun, here = modified
+                said_which = True
+                continue
+            elif found := self.find(here, "adj"):
+                if self.find(found[1], "det"):
+                    return None  # "open the door" is no open door
+                if found[0] in CHOOSING:
+                    said_which = True
+                    ordinal = _adjective_ordinal(found[0], noun)
+                    noun = replace(noun, ordinal=ordinal, closed=found[0] == "closed")
+            elif not (here > at and (found := self.find(here, "filler"))):
+                break
+            here = found[1]
+        told = self._without_head(noun, here) if said_which else None
+        bare = told is not None and not determined and told[0].side is None
+        return None if bare else told
+
+    def _is_elliptic_turn(self, at: int, noun: Noun) -> bool:
+        places = ("intersection", "corner", "t_junction")
+        named = self.last is not None and self.last.kind in places
+        return (
+            named
+            and noun.ordinal is not None
+            and self.words[at] == "turn"
+            and self._plain_side(at + 1) is not None
+        )
+
+    def _modifier(self, at: int, noun: Noun) -> tuple[Noun, int] | None:
+        """An ordinal, a number or a side before a noun."""
+        if noun.ordinal is None and (found := self.find(at, "ordinal")):
+            is_next = self.words[at].startswith(("next", "naechst"))
+            return replace(noun, ordinal=int(found[0]), is_next=is_next), found[1]
+        if noun.ordinal is not None and noun.ordinal < 0 and (found := self.find(at, "from end")):
+            return noun, found[1]
+        number = read_number(self.words, at, self.lexicon)
+        if number and number[0] == int(number[0]) and number[0] > 0 and noun.ordinal in (None, 1):
+            return replace(noun, ordinal=int(number[0]), counted=True), number[1]
+        if noun.side is None and (found := self._plain_side(at)):
+            return replace(noun, side=found[0]), found[1]
+        if noun.side is None and (where := self.find(at, "where")) and where[0] == "opposite":
+            return replace(noun, side=Side.OPPOSITE), where[1]
+        return None
+
+    def _head(self, at: int, noun: Noun) -> tuple[Noun, int] | None:
+        """The noun itself."""
+        if named := self._name(at):
+            return replace(noun, kind="named", name=named[0]), named[1]
+        if found := self.find(at, "noun"):
+            kind, stop = found
+            numbered = None if noun.counted else self._numbered(stop)
+            if kind == "room" and (named := self._name(stop) or numbered):
+                return replace(noun, kind="named", name=named[0]), named[1]
+            if kind == "doorway":
+                return replace(noun, kind="door", doorway=True), stop
+            return replace(noun, kind=kind), stop
+        if (found := self.find(at, "one")) and found[1] <= len(self.words):
+            plain = noun.ordinal is None and noun.side is None and not self._is_after_article(at)
+            if plain and not self._side_behind(replace(noun, kind="one"), found[1]):
+                return None
+            after = self.find(at, "after that") is not None
+            return replace(noun, kind="one", relative=after), found[1]
+        return None
+
+    def _behind(self, noun: Noun, at: int) -> tuple[Noun, int]:
+        """What stands behind a noun and belongs to it."""
+        while at < len(self.words):
+            if numbered := self._numeral(noun, at):
+                noun, at = numbered
+            elif (
+                noun.kind in (*DOORLIKE, "hall", "turning")
+                and noun.side is None
+                and (side := self._side_behind(noun, at))
+            ):
+                noun, at = replace(noun, side=side[0]), side[1]
+            elif noun.ordinal and noun.ordinal > 0 and (found := self.find(at, "from end")):
+                noun, at = replace(noun, ordinal=-noun.ordinal), found[1]
+            elif noun.kind == "one" and (found := self.find(at, "after that")):
+                noun, at = replace(noun, relative=True), found[1]
+            elif is_doorlike(noun) and (end := self.find(at, "at end")):
+                noun, at = replace(noun, at_end=True), end[1]
+            elif is_doorlike(noun) and (state := self._state(at)):
+                at = state
+            elif noun.counted and noun.kind == "door" and (on := self.find(at, "further")):
+                noun, at = replace(noun, counted=False), on[1]
+            elif noun.doorway and (door := self._of_door(at)):
+                noun, at = replace(door[0], doorway=True, kind="door"), door[1]
+            elif hall := self._of_hall(at):
+                at = hall
+            else:
+                break
+        return self._resolved(noun), at
+
+    def _of_door(self, at: int) -> tuple[Noun, int] | None:
+        """The door of a doorway: "of the second room", "der zweiten Tür"."""
+        start = self._preposition(at, "of") or at
+        noun = self.read(start) if start < len(self.words) else None
+        return noun if noun is not None and noun[0].kind in ("door", "room") else None
+
+    def _numeral(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
+        if noun.ordinal is None and (found := self.find(at, "numeral word")):
+            number = read_number(self.words, found[1], self.lexicon)
+            if number:
+                return replace(noun, ordinal=int(number[0])), number[1]
+        return None
+
+    def _side_behind(self, noun: Noun, at: int) -> tuple[Side, int] | None:
+        """A side behind a noun: "on your left", "left", "in front of you"."""
+        relative = self.find(at, "relative")
+        for start in (at, relative[1] if relative else at):
+            where = self.find(start, "where") if noun.kind in DOORLIKE else None
+            if where and not self._names_more(start, where[1]):
+                return Side(where[0]), where[1]
+        here = at
+        for kind in ("prep", "det", "det"):
+            if kind == "prep" and (preposition := self._preposition(at, "on")):
+                here = preposition
+            elif kind == "det" and (found := self.find(here, "det")):
+                here = found[1]
+        if here == at and (noun.kind not in DOORLIKE or self._is_exactly(at)):
+            return None
+        return self._plain_side(here)
+
+    def _names_more(self, start: int, stop: int) -> bool:
+        """Whether "opposite" and the like go on: "opposite the kitchen"."""
+        preps = [
+            end
+            for kind, value, end in self.lexicon.matches(self.words, start)
+            if kind == "prep" and value in ("opposite", "after")
+        ]
+        return any(end >= stop and self._is_noun(end) for end in preps)
+
+    def _is_noun(self, at: int) -> bool:
+        remembered = self.last
+        noun = self.read(at) if at < len(self.words) else None
+        self.last = remembered
+        return noun is not None and noun[0].kind not in ("it", "one", "hall")
+
+    def _of_hall(self, at: int) -> int | None:
+        """The word behind "of the hallway"."""
+        here = self._preposition(at, "of")
+        if here is None:
+            return None
+        while here < len(self.words) and (
+            found := self.find(here, "det") or self.find(here, "adj")
+        ):
+            here = found[1]
+        noun = self.find(here, "noun")
+        return (
+            noun[1]
+            if noun and noun[0] in ("hall", "room") and not self._numbered(noun[1])
+            else None
+        )
+
+    def _without_head(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
+        """A noun that is left out: "the second on the left", "die rechte"."""
+        if noun.ordinal is not None and not noun.counted:
+            if noun.side is not None and self.lexicon.language.code == "en":
+                turning = replace(noun, kind="turning")
+                self.last = turning
+                return turning, at
+            return self._behind(replace(noun, kind="one", elliptic=True), at)
+        adjectives = [w for w in self.words[max(0, at - 2) : at] if w[:4] in ("link", "rech")]
+        if noun.side is not None and adjectives and adjectives[-1] not in ("links", "rechts"):
+            german = self.lexicon.language.code == "de"
+            if german and len(adjectives[-1]) < 8:
+                return self._behind(replace(noun, kind="one", elliptic=True), at)
+        return None
+
+    def _resolved(self, noun: Noun) -> Noun:
+        """The noun with the kind that it stands for, and remembered."""
+        noun = self._counted_on(noun)
+        if noun.kind == "one" and self.last is None and not noun.elliptic:
+            noun = replace(noun, kind="door")
+        if noun.kind == "one" and self.last is not None and self.last.kind in COUNTABLE:
+            kind = self.last.kind
+            noun = replace(noun, kind=kind)
+            if noun.relative:
+                noun = self._following(noun)
+            elif noun.side is None and kind in ("door", "room", "turning") and noun.ordinal:
+                noun = replace(noun, side=self.last.side)
+        if noun.kind in COUNTABLE:
+            self.last = noun
+        return noun
+
+    def _counted_on(self, noun: Noun) -> Noun:
+        """Of "The fourth door" after "past three doors" is the next one."""
+        last = self.last
+        if last is None or not last.counted or last.ordinal is None or noun.counted:
+            return noun
+        same = (noun.kind in ("one", last.kind) and last.side in (None, noun.side)) or noun.elliptic
+        if same and noun.ordinal == last.ordinal + 1:
+            return replace(noun, ordinal=1, side=noun.side or last.side)
+        return noun
+
+    def _following(self, noun: Noun) -> Noun:
+        """The next one of the kind that was named last."""
+        assert self.last is not None
+        before = self.last.ordinal or 1
+        return replace(
+            noun, ordinal=before + 1 if before > 0 else None, side=noun.side or self.last.side
+        )
+
+
+def is_doorlike(noun: Noun) -> bool:
+    """Whether a noun names a door, or a room by its door."""
+    return noun.kind in DOORLIKE
+
+
+_ADJECTIVE_ORDINALS = {"other": OTHER, "after next": 2, "last": LAST}
+
+
+def _adjective_ordinal(adjective: str, noun: Noun) -> int | None:
+    if adjective in _ADJECTIVE_ORDINALS:
+        return _ADJECTIVE_ORDINALS[adjective]
+    return noun.ordinal or 1 if adjective in ("any", "nearest", "next") else noun.ordinal
+
+
+__all__ = ["COUNTABLE", "LAST", "NounReader"]

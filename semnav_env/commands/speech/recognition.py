@@ -1,0 +1,30 @@
+"""Recognises the language of a text by its words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from semnav_env.commands.language import Language
+from semnav_env.commands.languages import languages
+from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of, mixed
+
+
+def recognised(words: Sequence[str]) -> Language:
+    """The language with the most of these words; of several the first, English before German."""
+    known = sorted(languages().values(), key=lambda language: language.code != "en")
+    return max(known, key=lambda language: votes(words, language))
+
+
+def votes(words: Sequence[str], language: Language) -> int:
+    """How many of these words a language has."""
+    known = lexicon_of(language).words
+    return sum(word in known for word in words if word[0].isalpha())
+
+
+def lexicon_for(words: Sequence[str], language: Language) -> SpeechLexicon:
+    """The lexicon of a language, with words of others where the text has some that it has not."""
+    lexicon = lexicon_of(language)
+    for other in languages().values():
+        if any(w not in lexicon.words and w in lexicon_of(other).words for w in words):
+            lexicon = mixed(lexicon, lexicon_of(other))
+    return lexicon

@@ -1,0 +1,208 @@
+"""Replaces what a speaker takes back: corrections and negations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
+from semnav_env.commands.speech.moves import is_door
+from semnav_env.commands.speech.negations import (
+    SOFT,
+    corrects,
+    cut_before,
+    end_of_clause,
+    merged_items,
+    without_negated,
+)
+
+
+def rewritten(items: Sequence[Item]) -> list[Item]:
+    """The items without those that others replace."""
+    found = _repaired(_without_first_no(list(items)))
+    found = _corrected(found)
+    found = without_negated(_without_breaks(found))
+    return _with_antecedents(_without_too_far(found))
+
+
+def _without_too_far(items: list[Item]) -> list[Item]:
+    """Drop "if you come to the corner, you have gone too far"."""
+    for at, item in enumerate(items):
+        if item.kind is ItemKind.TOO_FAR:
+            start = at
+            while start > 0 and items[start - 1].kind in (*SOFT, ItemKind.REF, ItemKind.IF):
+                start -= 1
+                if items[start].kind in (ItemKind.REF, ItemKind.IF):
+                    break
+            return _without_too_far([*items[:start], *items[at + 1 :]])
+    return items
+
+
+def _without_first_no(items: list[Item]) -> list[Item]:
+    """Drop "no" where nothing has been said that it could take back."""
+    while items and items[0].kind in (ItemKind.NO, ItemKind.BUT, *JOINTS):
+        items = items[1:]
+    return items
+
+
+def _without_breaks(items: list[Item]) -> list[Item]:
+    """Drop "go, uh, go straight", and the comma of "a bit left, ten degrees"."""
+    found: list[Item] = []
+    for index, item in enumerate(items):
+        following = [each.kind for each in items[index + 1 : index + 3]]
+        comma = item.kind is ItemKind.SIGN and item.value in (",", ":")
+        if (
+            comma
+            and found
+            and found[-1].kind is ItemKind.SIDE
+            and following[:1] == [ItemKind.DEGREES]
+        ):
+            continue
+        if (
+            comma
+            and index > 1
+            and found
+            and found[-1].kind is ItemKind.VERB
+            and found[-1].value == "go"
+            and following[:1] in ([ItemKind.VERB], [ItemKind.SIGN])
+            and (len(found) == 1 or found[-2].kind in SOFT)
+        ):
+            continue
+        behind = items[index + 1] if index + 1 < len(items) else None
+        if (
+            comma
+            and behind is not None
+            and behind.kind is ItemKind.REF
+            and found
+            and found[-1].kind not in SOFT
+        ):
+            joined = "until" in behind.roles and found[-1].kind in (
+                ItemKind.VERB,
+                ItemKind.STRAIGHT,
+            )
+            if joined or (behind.value.kind == "start" and not behind.roles):
+                continue
+        broken = (
+            item.kind is ItemKind.VERB
+            and item.value == "go"
+            and following
+            and items[index + 1].kind is ItemKind.SIGN
+        )
+        again = next((each for each in items[index + 1 :] if each.kind is not ItemKind.SIGN), None)
+        if (
+            broken
+            and again is not None
+            and again.kind is ItemKind.VERB
+            and again.value == "go"
+            and (not found or found[-1].kind in SOFT)
+        ):
+            continue
+        found.append(item)
+    return found
+
+
+def _repaired(items: list[Item]) -> list[Item]:
+    """Of "At the first, er, second intersection": a noun that breaks off, and is said again."""
+    at = 0
+    while at + 1 < len(items):
+        item, stop = items[at], at + 1
+        while stop < len(items) and items[stop].kind is ItemKind.SIGN and items[stop].value == ",":
+            stop += 1
+        again = items[stop] if stop < len(items) else item
+        broken = item.kind is ItemKind.REF and item.value.elliptic and item.roles
+        if (
+            broken
+            and again is not item
+            and again.kind is ItemKind.REF
+            and not again.roles
+            and not again.value.elliptic
+        ):
+            items = [*items[:at], replace(again, roles=item.roles), *items[stop + 1 :]]
+        at += 1
+    return items
+
+
+def _corrected(items: list[Item]) -> list[Item]:
+    """Put what stands behind "no" in the place of what it corrects, if that is a noun or a side."""
+    at = 0
+    while at < len(items):
+        if items[at].kind is ItemKind.NO:
+            start = _next(items, at + 1)
+            stop = end_of_clause(items, start)
+            part = items[start:stop]
+            if len(part) == 1 and part[0].kind in (ItemKind.REF, ItemKind.SIDE, ItemKind.DISTANCE):
+                target = _target(items[:at], part[0])
+                if target is not None:
+                    merged = merged_items(items[target], part[0])
+                    items = [
+                        *items[:target],
+                        merged,
+                        *items[target + 1 : cut_before(items, at)],
+                        *items[stop:],
+                    ]
+                    at = target
+        at += 1
+    return items
+
+
+def _next(items: Sequence[Item], at: int) -> int:
+    while at < len(items) and items[at].kind in (*SOFT, ItemKind.NO):
+        at += 1
+    return at
+
+
+def _target(before: Sequence[Item], by: Item) -> int | None:
+    """Which of the items before a correction it corrects."""
+    for index in range(len(before) - 1, -1, -1):
+        if corrects(before[index], by):
+            return index
+    return None
+
+
+def _is_needless(item: Item, before: Sequence[Item]) -> bool:
+    """Whether an item is the end of "the second door after it", which is counted from there."""
+    if item.kind is not ItemKind.REF or item.value.kind != "it" or "after" not in item.roles:
+        return False
+    last = before[-1] if before else None
+    named = last is not None and last.kind is ItemKind.REF and is_door(last.value)
+    return named and "past" not in before[-1].roles
+
+
+def _with_antecedents(items: list[Item]) -> list[Item]:
+    """Of "To it" and "past it" with the door or place that was named before."""
+    last: Noun | None = None
+    found: list[Item] = []
+    for item in items:
+        if item.kind is ItemKind.REF and item.value.relative:
+            item, found = _behind_landmark(item, found)
+        if _is_needless(item, found):
+            continue
+        if item.kind is ItemKind.REF:
+            noun = item.value
+            if (
+                noun.kind == "it"
+                and last is not None
+                and set(item.roles) & {"past", "after", "to", "until", "before", "near"}
+                and "into" not in item.roles
+            ):
+                item = replace(item, value=last)
+            elif is_door(noun) or noun.kind == "named" or noun.kind in ("intersection", "corner"):
+                last = noun
+        found.append(item)
+    return found
+
+
+def _behind_landmark(item: Item, before: list[Item]) -> tuple[Item, list[Item]]:
+    """Of "The one after that", of a room or a place: the first one behind it."""
+    places = [index for index, each in enumerate(before) if each.kind is ItemKind.REF]
+    if not places or is_door(before[places[-1]].value):
+        return item, before
+    at = places[-1]
+    passed = replace(before[at], roles=("past",))
+    seen = [
+        each
+        for each in before[:at]
+        if each.kind is not ItemKind.VERB or each.value not in ("reach", "be")
+    ]
+    noun = replace(item.value, ordinal=1, relative=False, kind="door")
+    return replace(item, value=noun), [*seen, passed, *before[at + 1 :]]

@@ -1,0 +1,58 @@
+"""Finds the known word that a misspelt one was meant to be."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+
+from rapidfuzz.distance import OSA
+
+MIN_LENGTH, LONG = 3, 7
+"""The shortest word that is corrected, and the shortest in which two slips are, letters."""
+
+SHORT = 5
+"""In words up to this length no letter is taken for another one: "late" is no "gate"."""
+
+
+def corrected_words(
+    words: Sequence[str], known: Collection[str]
+) -> tuple[list[str], dict[int, str]] | None:
+    """The words with those that are not known replaced by the nearest known ones.
+
+    Returns:
+        The words, and the replaced ones by their number; None if some word is like none, or like
+        several, or if none had to be replaced.
+    """
+    found, slips = list(words), {}
+    for index, word in enumerate(words):
+        if word in known or not word[0].isalpha():
+            continue
+        meant = nearest_word(word, known)
+        if meant is None:
+            return None
+        found[index] = slips[index] = meant
+    return (found, slips) if slips else None
+
+
+def _is_substituted(word: str, known: str) -> bool:
+    return len(word) == len(known) and sorted(word) != sorted(known)
+
+
+def nearest_word(word: str, known: Iterable[str]) -> str | None:
+    """The known word that is fewest slips away; None if none is near, or several are."""
+    if len(word) < MIN_LENGTH:
+        return None
+    most = 2 if len(word) >= LONG else 1
+    near: dict[int, list[str]] = {}
+    for each in known:
+        if abs(len(each) - len(word)) <= most and len(each) >= MIN_LENGTH:
+            slips = OSA.distance(word, each, score_cutoff=most)
+            if slips <= most and (len(word) > SHORT or not _is_substituted(word, each)):
+                near.setdefault(slips, []).append(each)
+    if not near:
+        return None
+    best = near[min(near)]
+    same_first = [each for each in best if each[0] == word[0]] or best
+    return min(
+        same_first,
+        key=lambda each: (sorted(each) != sorted(word), set(each) != set(word), -len(each), each),
+    )

@@ -1,0 +1,80 @@
+"""Reads a text as commands: recognises its language, and asks about slips of the pen."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from semnav_env.commands.command import Command
+from semnav_env.commands.errors import AmbiguousCommandError
+from semnav_env.commands.language import Language
+from semnav_env.commands.languages import english
+from semnav_env.commands.normalise import normalise
+from semnav_env.commands.refusal import refusal
+from semnav_env.commands.rooms import name_phrases
+from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of, spoken_pieces, without
+from semnav_env.commands.speech.recognition import lexicon_for, recognised
+from semnav_env.commands.speech.typos import corrected_words
+from semnav_env.commands.speech.understanding import Understanding, understand
+from semnav_env.commands.words import TextPiece, pieces
+
+
+def readings_of_text(
+    text: str, language: Language | None, rooms: Sequence[str]
+) -> tuple[Command, ...]:
+    """Every command that a text can mean.
+
+    Args:
+        text: as it was given.
+        language: of the text; None to recognise it.
+        rooms: names of the rooms that there are.
+
+    Raises:
+        CommandError: it means nothing, or its words are misspelt.
+    """
+    normalised = normalise(text, language or english())
+    found = pieces(normalised.text)
+    words = [piece.text for piece in found]
+    spoken = language or recognised(words)
+    lexicon = lexicon_of(spoken) if language else lexicon_for(words, spoken)
+    names = name_phrases(rooms)
+    said = spoken_pieces(found, lexicon)
+    understood = _understood(said, lexicon, names)
+    if not understood.commands:
+        understood = _without_slips(said, lexicon, names, text) or understood
+        raise refusal(understood, said, normalised, lexicon, rooms, forced=language is not None)
+    return understood.commands
+
+
+def _understood(
+    said: Sequence[TextPiece], lexicon: SpeechLexicon, names: Mapping[tuple[str, ...], str]
+) -> Understanding:
+    """What words mean; if nothing, what they mean without "just", "mal" and the like."""
+    found = understand([piece.text for piece in said], lexicon, names)
+    if not found.commands:
+        plain = without(said, lexicon, "softener")
+        again = understand([piece.text for piece in plain], lexicon, names)
+        return again if again.commands else found
+    return found
+
+
+def _without_slips(
+    said: Sequence[TextPiece],
+    lexicon: SpeechLexicon,
+    names: Mapping[tuple[str, ...], str],
+    text: str,
+) -> Understanding | None:
+    """Ask whether a text means what it would mean without its slips of the pen.
+
+    Raises:
+        AmbiguousCommandError: it would mean something.
+    """
+    words = [piece.text for piece in said]
+    corrected = corrected_words(words, lexicon.words.union(*names))
+    if corrected is None:
+        return None
+    meant = understand(corrected[0], lexicon, names).commands
+    if not meant:
+        return None
+    word = next(iter(corrected[1].values()))
+    ways = tuple(command.say(lexicon.language) for command in meant)
+    raise AmbiguousCommandError(text[:200], meant, ways, suggestion=word)

@@ -1,0 +1,16 @@
+"""Search and rescue: a person detector, what it makes of a house, and when a search is done."""
+
+from semnav_env.rescue.outcome import SearchOutcome
+from semnav_env.rescue.person_map import PersonMap, PersonTrack
+from semnav_env.rescue.person_search import PersonSearch
+from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings, SearchRules
+
+__all__ = [
+    "PersonDetectorSettings",
+    "PersonMap",
+    "PersonMapSettings",
+    "PersonSearch",
+    "PersonTrack",
+    "SearchOutcome",
+    "SearchRules",
+]

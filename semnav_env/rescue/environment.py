@@ -1,0 +1,106 @@
+"""`SearchAndRescue-v0`: `SemNavEnv` with the parts of a search; it has no class of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from semnav_env.commands import Command, SearchHouse
+from semnav_env.dynamics import Dynamics
+from semnav_env.env import SemNavEnv
+from semnav_env.features.validation import check_count
+from semnav_env.observations import EntryObservation
+from semnav_env.rescue.people_entry import PeopleEntry
+from semnav_env.rescue.person_search import PersonSearch
+from semnav_env.tasks import AddedTerms, EpisodeRequest, RewardWeights, Tick
+from semnav_env.vector import SemNavVectorEnv
+
+SEARCH = Command((SearchHouse(),))
+"""The command of a search."""
+
+MAX_SEARCH_SECONDS = 1200.0
+"""Time for a search unless told otherwise, seconds: twice what the scripted agent needs at most."""
+
+VICTIMS = 2
+"""Number of victims unless told otherwise."""
+
+HOUSES = 2**31
+"""Number of different houses that a task draws from."""
+
+
+class HouseTask:
+    """Asks for a search of a generated house, another one each time."""
+
+    def request(self, rng: np.random.Generator) -> EpisodeRequest:
+        """A house and the command to search it."""
+        return EpisodeRequest(SEARCH, floor_plan=f"office:house:{rng.integers(HOUSES)}")
+
+
+def area_gained(tick: Tick) -> float:
+    """Reward: area of rooms that was looked at for the first time, a tenth for each m^2."""
+    return 0.1 * float(getattr(tick.payload, "gained", 0.0))
+
+
+def people_reported(tick: Tick) -> float:
+    """Reward: 5 for each victim that is reported, -5 for each report of nobody."""
+    return 5.0 * float(getattr(tick.payload, "reported", 0.0))
+
+
+SEARCH_REWARDS = AddedTerms(
+    {"area": area_gained, "people": people_reported}, RewardWeights(progress=0.0)
+)
+"""Rewards of a search: contact, time, success and failure as ever, area and people."""
+
+
+def search_and_rescue(observation: Any = "semantic", **options: Any) -> SemNavEnv:
+    """A `SemNavEnv` in which a robot searches houses for people on the floor.
+
+    Args:
+        observation: a mode, which gets the entry "people" beside its own, or an observation type.
+        options: of `SemNavEnv`; without them a robot searches a generated house for two victims.
+    """
+    return SemNavEnv(**_search_options(observation=observation, **options))
+
+
+def search_and_rescue_vector(
+    num_envs: int = 1, *, each: Sequence[Mapping[str, Any]] | None = None, **options: Any
+) -> SemNavVectorEnv:
+    """Many robots that search, each a house of its own; as `SemNavVectorEnv`.
+
+    Args:
+        num_envs: how many robots.
+        each: arguments that differ, one mapping for each robot.
+        options: for all robots, and those of `SemNavVectorEnv`.
+    """
+    check_count("num_envs", num_envs)
+    own = [{}] * num_envs if each is None else each
+    parts = [{"payload": PersonSearch(), **one} for one in own]
+    return SemNavVectorEnv(num_envs, each=parts, **_search_options(**options))
+
+
+def _search_options(
+    observation: Any = "semantic",
+    floor_plan: Any = "office:house:0",
+    task: Any = None,
+    dynamics: Dynamics = Dynamics(victims=VICTIMS),
+    max_seconds: float = MAX_SEARCH_SECONDS,
+    rewards: Any = SEARCH_REWARDS,
+    payload: Any = None,
+    **options: Any,
+) -> dict[str, Any]:
+    """Arguments of `SemNavEnv`, with those of a search where none are given."""
+    if isinstance(observation, str):
+        observation = EntryObservation(observation, [PeopleEntry()])
+    task = HouseTask() if task is None and options.get("episodes") is None else task
+    return {
+        "observation": observation,
+        "floor_plan": floor_plan,
+        "task": task,
+        "dynamics": dynamics,
+        "max_seconds": max_seconds,
+        "rewards": rewards,
+        "payload": PersonSearch() if payload is None else payload,
+        **options,
+    }

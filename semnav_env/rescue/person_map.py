@@ -1,0 +1,142 @@
+"""The people that a robot believes it has found: tracks with a probability; robot's side.
+
+Each look changes the odds of a track by how much likelier it is if a person is there, as in the
+binary Bayes filter (Thrun, Burgard and Fox 2005, section 4.2). Looks count for less than
+independent ones, because a classifier errs alike from viewpoints that are alike (Feldman and
+Indelman 2020).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from semnav_env.features.frames import FloatArray, Point, Pose, compose, points_to_parent, to_local
+from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings
+
+LEAST_STD = 0.05
+"""Standard deviation of a place that a detection right before the robot gives, metres."""
+
+MAX_LOG_ODDS = 8.0
+"""Largest log odds of a track, so that it can still change."""
+
+VIEW_MARGIN = math.radians(5.0)
+"""Angle from the edge of the field of view within which a track need not be seen, radians."""
+
+
+@dataclass
+class PersonTrack:
+    """Somebody who may be there.
+
+    Attributes:
+        place: (x, y), odometry frame, metres.
+        log_odds: of being a person.
+        weight: inverse variance of the place, 1/m^2.
+        reported: whether the robot has reported it.
+    """
+
+    place: Point
+    log_odds: float
+    weight: float
+    reported: bool = False
+
+    @property
+    def probability(self) -> float:
+        """Of being a person."""
+        return 1.0 / (1.0 + math.exp(-self.log_odds))
+
+    def move_towards(self, place: Point, weight: float) -> None:
+        """Average the place with another one."""
+        share = weight / (self.weight + weight)
+        (x, y), (to_x, to_y) = self.place, place
+        self.place = x + share * (to_x - x), y + share * (to_y - y)
+        self.weight += weight
+
+
+class PersonMap:
+    """Joins the detections of many looks.
+
+    Args:
+        detector: what the detector can do.
+        settings: how detections become reports.
+        lidar: by which the robot tells what hides a place.
+        mount: pose of lidar and detector in the robot frame.
+
+    Attributes:
+        tracks: who may be there.
+    """
+
+    def __init__(
+        self,
+        detector: PersonDetectorSettings,
+        settings: PersonMapSettings,
+        lidar: LidarSpec,
+        mount: Pose,
+    ) -> None:
+        self._detector, self._settings, self._lidar, self._mount = detector, settings, lidar, mount
+        self.tracks: list[PersonTrack] = []
+
+    def update(self, detections: FloatArray, pose: Pose, ranges: FloatArray) -> list[PersonTrack]:
+        """Take in a look; returns the tracks that are reported now.
+
+        Args:
+            detections: places, robot frame, shape (n, 2).
+            pose: believed pose of the robot, odometry frame.
+            ranges: of the lidar, metres, shape (beams,).
+        """
+        eye = compose(pose, self._mount)
+        seen = [self._seen_at((x, y), eye) for x, y in points_to_parent(pose, detections).tolist()]
+        for track in self.tracks:
+            place = to_local(eye, track.place)
+            if not any(track is each for each in seen) and self._in_view(place, ranges):
+                self._weigh(track, math.hypot(*place), found=False)
+        least = _log_odds(self._settings.drop)
+        self.tracks = [t for t in self.tracks if t.reported or t.log_odds > least]
+        new = [track for track in self.tracks if self._is_sure(track, eye)]
+        for track in new:
+            track.reported = True
+        return new
+
+    def _seen_at(self, place: Point, eye: Pose) -> PersonTrack | None:
+        """The track of a detection, which may be a new one; None if there is no room for it."""
+        distance = math.dist(place, eye[:2])
+        weight = 1.0 / (LEAST_STD + self._detector.range_std * distance) ** 2
+        near = min(self.tracks, key=lambda t: math.dist(t.place, place), default=None)
+        if near is None or math.dist(near.place, place) > self._settings.same_distance:
+            if len(self.tracks) >= self._settings.capacity:
+                return None
+            near = PersonTrack(place, _log_odds(self._settings.prior), weight)
+            self.tracks.append(near)
+            return near
+        near.move_towards(place, weight)
+        self._weigh(near, distance, found=True)
+        return near
+
+    def _weigh(self, track: PersonTrack, distance: float, found: bool) -> None:
+        """Change the odds by a look that found somebody there, or did not."""
+        hit, false = self._detector.hit_chance(distance), self._detector.false_chance(distance)
+        ratio = hit / max(false, 1e-3) if found else max(1.0 - hit, 1e-3) / (1.0 - false)
+        changed = track.log_odds + self._settings.independence * math.log(ratio)
+        track.log_odds = float(np.clip(changed, -MAX_LOG_ODDS, MAX_LOG_ODDS))
+
+    def _in_view(self, place: Point, ranges: FloatArray) -> bool:
+        """Whether the detector looked at a place, camera frame, by what the lidar says."""
+        distance, bearing = math.hypot(*place), math.atan2(place[1], place[0])
+        detector, lidar = self._detector, self._lidar
+        if not detector.range_min <= distance <= detector.range_max:
+            return False
+        if abs(bearing) > detector.field_of_view / 2 - VIEW_MARGIN:
+            return False
+        beam = round((bearing - lidar.angle_min) / lidar.angle_increment)
+        return 0 <= beam < lidar.beams and ranges[beam] >= distance - self._settings.behind
+
+    def _is_sure(self, track: PersonTrack, eye: Pose) -> bool:
+        near = math.dist(track.place, eye[:2]) <= self._settings.report_range
+        return near and not track.reported and track.log_odds >= _log_odds(self._settings.report)
+
+
+def _log_odds(probability: float) -> float:
+    return math.log(probability / (1.0 - probability))

@@ -1,0 +1,125 @@
+"""The payload of a search: detector, map of people, and the judge's measure of coverage."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from semnav_env.belief import BeliefTracker
+from semnav_env.commands.clauses import Clause, SearchHouse
+from semnav_env.features.frames import Pose, compose, to_parent
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.payload import PayloadMarks
+from semnav_env.rescue.outcome import Report, SearchOutcome, judge_reports
+from semnav_env.rescue.person_detector import PersonDetector
+from semnav_env.rescue.person_map import PersonMap
+from semnav_env.rescue.room_coverage import RoomCoverage
+from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings, SearchRules
+from semnav_env.simulator import Motion, RobotSetup
+
+
+class PersonSearch:
+    """What a robot carries to search a house; give it as `payload=` to `SemNavEnv`.
+
+    The detector looks a few times a second; the map of people, which is the robot's own and uses
+    its believed pose alone, reports whoever it is sure of from near. Coverage is the judge's.
+
+    Args:
+        detector: what the detector can do.
+        person_map: how detections become reports.
+        rules: what the judge accepts.
+
+    Attributes:
+        people: the robot's map of people.
+        coverage: of the rooms, by true poses.
+        reports: that the robot has made.
+        gained: area seen for the first time in the last control period, m^2.
+        reported: what the reports of the last control period are worth: 1 for each victim found,
+            -1 for each report of nobody.
+    """
+
+    def __init__(
+        self,
+        detector: PersonDetectorSettings = PersonDetectorSettings(),
+        person_map: PersonMapSettings = PersonMapSettings(),
+        rules: SearchRules = SearchRules(),
+    ) -> None:
+        self.settings, self.map_settings, self.rules = detector, person_map, rules
+
+    def begin(
+        self, plan: FloorPlan, setup: RobotSetup, start: Pose, rng: np.random.Generator
+    ) -> None:
+        """Begin an episode.
+
+        Args:
+            plan: with the people on its floor.
+            setup: body and sensors of the robot.
+            start: its true pose, world frame.
+            rng: of the episode.
+        """
+        noise, mount = np.random.default_rng(rng.integers(2**62)), setup.robot.lidar_mount
+        self.detector = PersonDetector(plan, self.settings, mount, noise)
+        self.people = PersonMap(self.settings, self.map_settings, setup.lidar, mount)
+        reach = self.settings.range_max
+        self.coverage = RoomCoverage(plan, setup.robot, reach)
+        self.reports: list[Report] = []
+        self._frame = (0.0, 0.0, 0.0) if setup.exact else start
+        self._victims = [(v.centroid.x, v.centroid.y) for v in self.detector.victims]
+        self._every = max(1, round(setup.control_hz / self.settings.rate_hz))
+        self._step, self._seconds = 0, 0.0
+        self.gained, self.reported = 0.0, 0
+
+    def update(self, motion: Motion, tracker: BeliefTracker) -> None:
+        """Take in one control period; the detector looks in some of them.
+
+        Args:
+            motion: the true one.
+            tracker: the robot's, after its update.
+        """
+        self.gained, self.reported = 0.0, 0
+        if self._step % self._every == 0:
+            self._look(motion.pose, tracker)
+        self._step += 1
+        self._seconds += motion.seconds
+
+    def _look(self, pose: Pose, tracker: BeliefTracker) -> None:
+        detector, found = self.detector, self.outcome.found
+        detections = detector.look(pose)
+        eye = compose(pose, detector.mount)
+        self.gained = self.coverage.look(
+            eye, detector.rays, detector.ranges, self.settings.range_max
+        )
+        believed = tracker.believe() if tracker.belief is None else tracker.belief
+        new = self.people.update(detections, believed.pose, tracker.ranges)
+        if new:
+            self.reports += [Report(to_parent(self._frame, t.place), self._seconds) for t in new]
+            right = self.outcome.found - found
+            self.reported = 2 * right - len(new)
+
+    def fulfils(self, clause: Clause) -> bool:
+        """Whether a clause whose goal was reached has been carried out in full."""
+        return not isinstance(clause, SearchHouse) or self.outcome.fulfils(self.rules)
+
+    @property
+    def outcome(self) -> SearchOutcome:
+        """What the judge says of the search so far."""
+        names, seen = self.coverage.names, self.coverage
+        shares = dict(zip(names, seen.shares.tolist(), strict=True))
+        floor = dict(zip(names, seen.floor_shares.tolist(), strict=True))
+        return judge_reports(shares, floor, self._victims, self.reports, self.rules)
+
+    def marks(self) -> PayloadMarks:
+        """What a picture shows of it: the floor that was seen, and the reports."""
+        flags = np.array([report.place for report in self.reports]).reshape(-1, 2)
+        outcome = self.outcome
+        status = f"found: {outcome.found}   least covered: {outcome.least_coverage:.0%}"
+        return PayloadMarks(self.coverage.seen_cells, flags, status)
+
+    def start_info(self) -> dict[str, Any]:
+        """What `reset` says of it: the robot knows what its detector can do."""
+        return {"person_detector": vars(self.settings).copy()}
+
+    def final_info(self) -> dict[str, Any]:
+        """What is known at the end of an episode."""
+        return {"search": self.outcome.info}

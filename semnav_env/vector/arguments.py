@@ -1,0 +1,103 @@
+"""What a vector environment is given for each robot, looked at; errors say which robot is meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from inspect import signature
+from typing import Any
+
+from semnav_env.commands.suggest import did_you_mean
+from semnav_env.env import SemNavEnv
+from semnav_env.vector.member import TeamMember
+
+
+def made(each: Sequence[Mapping[str, Any]], options: Mapping[str, Any]) -> list[TeamMember]:
+    """The single environments.
+
+    Args:
+        each: arguments of `SemNavEnv` that differ, one mapping for each robot.
+        options: arguments for all robots.
+
+    Raises:
+        ValueError: as `SemNavEnv`; or the environments cannot be stepped together.
+    """
+    envs = []
+    for k, own in enumerate(each):
+        _check_names(k, own)
+        with naming_robot(k if own else None):
+            envs.append(TeamMember(**{**options, **own}))
+    _check_alike(envs)
+    return envs
+
+
+@contextmanager
+def naming_robot(index: int | None) -> Iterator[None]:
+    """Let errors inside say which robot they are about; None if they are about all.
+
+    Raises:
+        ValueError: one was raised inside, and is its cause.
+    """
+    try:
+        yield
+    except ValueError as error:
+        if index is None:
+            raise
+        raise ValueError(f"robot {index}: {error}") from error
+
+
+def joined(index: int, common: Mapping[str, Any], own: object) -> dict[str, Any] | None:
+    """The options of `reset` for one robot: those for all, and its own; None if there are none.
+
+    Raises:
+        ValueError: its own are no mapping.
+    """
+    if not isinstance(own, Mapping | None):
+        raise ValueError(f"each[{index}] is {own!r:.80}; it must be a dict of options, or None")
+    return {**common, **(own or {})} or None
+
+
+def one_each(name: str, values: Sequence[Any], count: int) -> Sequence[Any]:
+    """The values, if there is one for each robot.
+
+    Raises:
+        ValueError: there are more or fewer.
+    """
+    if isinstance(values, Mapping | str) or len(values) != count:
+        raise ValueError(
+            f"{name} has {len(values)} entries for {count} robots; give a list with one for each"
+        )
+    return values
+
+
+def one_seed_each(seed: int | Sequence[int | None] | None, count: int) -> Sequence[int | None]:
+    """The seeds of all robots; those after the first count on from it."""
+    if seed is None:
+        return [None] * count
+    return [seed + k for k in range(count)] if isinstance(seed, int) else seed
+
+
+def _check_names(index: int, own: object) -> None:
+    known = list(signature(SemNavEnv).parameters)
+    if not isinstance(own, Mapping):
+        raise ValueError(f"each[{index}] is {own!r:.80}; it must be a dict of: {', '.join(known)}")
+    for name in own:
+        if name not in known:
+            hint = did_you_mean(str(name), known)
+            raise ValueError(
+                f"each[{index}] has an unknown argument {name!r}{hint}; there are: "
+                f"{', '.join(known)}"
+            )
+
+
+def _check_alike(envs: Sequence[SemNavEnv]) -> None:
+    """Refuse environments that cannot be stepped together."""
+    first = envs[0]
+    for k, env in enumerate(envs):
+        for name, own, usual in (
+            ("action space", env.action_space, first.action_space),
+            ("observation space", env.observation_space, first.observation_space),
+            ("control rate", env.setup.control_hz, first.setup.control_hz),
+        ):
+            if own != usual:
+                raise ValueError(f"robot {k} has the {name} {own}; robot 0 has {usual}")

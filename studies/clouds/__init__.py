@@ -1,0 +1,1 @@
+"""How well detectors find door jambs in point clouds."""

@@ -1,0 +1,1 @@
+"""What drift of odometry does to success, with and without correction."""

@@ -1,0 +1,1 @@
+"""How often robots get out of cluttered rooms through a named door."""

@@ -1,0 +1,1 @@
+"""How well houses are searched, with their plan and without."""

@@ -1,0 +1,114 @@
+"""Searches of generated houses, and the table of their results."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from semnav_env.agents.base import steps
+from semnav_env.agents.registry import make_agent
+from semnav_env.rescue.environment import search_and_rescue
+
+FIRST_SEED = 10_000
+"""Seeds from here on are for measuring; the agents were tuned on seeds below 1000."""
+
+AGENTS = {"with the plan": "searcher", "without": "explorer"}
+"""The agents that are compared, by what they know."""
+
+
+@dataclass(frozen=True)
+class Search:
+    """One search of one house.
+
+    Attributes:
+        seed: of the episode, which also draws the house, the victims and the start.
+        agent: its name.
+        house: name of its plan.
+        verdict: of the judge.
+        success: whether the judge accepts it.
+        coverage: of each room, of the floor that can be seen.
+        floor_coverage: of each room, of all its floor.
+        victims: how many there are.
+        found: how many were reported.
+        false_reports: of nobody.
+        report_errors: distances of reports from victims, metres.
+        contacts: begun in the search.
+        metres: driven.
+        seconds: of simulated time.
+    """
+
+    seed: int
+    agent: str
+    house: str
+    verdict: str
+    success: bool
+    coverage: tuple[float, ...]
+    floor_coverage: tuple[float, ...]
+    victims: int
+    found: int
+    false_reports: int
+    report_errors: tuple[float, ...]
+    contacts: int
+    metres: float
+    seconds: float
+
+
+def search(agent: str, seed: int, robot: str) -> Search:
+    """Let an agent search the house of a seed."""
+    driver = make_agent(agent)
+    env = search_and_rescue(robot=robot, observation=driver.observation)
+    observation, start = env.reset(seed=seed)
+    info = start
+    for step in steps(env, driver, observation, start):
+        info = step.info
+    outcome = info["search"]
+    return Search(
+        seed,
+        agent,
+        start["floor_plan"],
+        str(info["verdicts"][0]),
+        info["is_success"],
+        tuple(round(share, 4) for share in outcome["coverage"].values()),
+        tuple(round(share, 4) for share in outcome["floor_coverage"].values()),
+        outcome["victims"],
+        outcome["found"],
+        outcome["false_reports"],
+        tuple(round(error, 3) for error in outcome["report_errors"]),
+        info["collisions"],
+        round(info["path_length"], 2),
+        round(env.seconds, 1),
+    )
+
+
+def row(each: Search) -> dict[str, object]:
+    """A search as plain values, for a line of a file."""
+    return asdict(each)
+
+
+def summary(searches: Sequence[Search]) -> dict[str, float]:
+    """The figures of some searches, of which there must be at least one; shares from 0 to 1."""
+    rooms = [share for each in searches for share in each.coverage]
+    errors = [error for each in searches for error in each.report_errors]
+    metres = sum(each.metres for each in searches)
+    seconds = np.array([each.seconds for each in searches])
+    return {
+        "searches": len(searches),
+        "success": _mean([each.success for each in searches]),
+        "all rooms covered": _mean([min(each.coverage) >= 0.95 for each in searches]),
+        "rooms covered": _mean([share >= 0.95 for share in rooms]),
+        "mean coverage": _mean(rooms),
+        "mean coverage of all floor": _mean([s for each in searches for s in each.floor_coverage]),
+        "all victims found": _mean([each.found == each.victims for each in searches]),
+        "false reports a search": _mean([each.false_reports for each in searches]),
+        "report error, m": _mean(errors),
+        "contacts per 100 m": 100.0 * sum(each.contacts for each in searches) / max(metres, 1e-9),
+        "metres": metres / len(searches),
+        "seconds, median": float(np.median(seconds)),
+        "seconds, most": float(seconds.max()),
+    }
+
+
+def _mean(values: Sequence[float]) -> float:
+    return float(np.mean(values)) if len(values) else 0.0

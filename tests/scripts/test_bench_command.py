@@ -1,0 +1,39 @@
+"""`semnav bench`: what is timed, and how it is told."""
+
+import json
+
+import pytest
+
+from semnav_env.scripts.bench import _in_scans
+from tests.support.command_line import run
+
+FEW = ("--runs", "1", "--steps", "20", "--robots", "2", "--threads", "1")
+
+
+def test_the_benchmark_times_steps_parts_and_a_reset(capsys):
+    code, out, _ = run(capsys, "bench", *FEW, "--json")
+    timings = {row["name"].split(":")[0].split(",")[0]: row for row in json.loads(out)}
+    assert code == 0
+    assert {"brute-force scan", "step", "step of one of 2 robots", "sense", "reset"} <= set(timings)
+    scan = timings["brute-force scan"]["microseconds"]
+    for row in timings.values():
+        assert row["ratio"] == pytest.approx(scan / row["microseconds"])
+
+
+@pytest.mark.parametrize(("ratio", "said"), [(20.0, "1/20.0"), (1.0, "1.0"), (0.5, "2.0")])
+def test_a_part_is_told_in_brute_force_scans(ratio, said):
+    assert _in_scans(ratio) == said
+
+
+def test_cold_is_for_start(capsys):
+    code, _, err = run(capsys, "bench", "--cold")
+    assert (code, err) == (2, "semnav: --cold is for --start; give both\n")
+
+
+@pytest.mark.slow
+def test_starting_is_timed_in_processes_of_their_own(capsys):
+    code, out, _ = run(capsys, "bench", "--start", "--cold", "--runs", "1", "--json")
+    timings = {row["name"]: row["microseconds"] for row in json.loads(out)}
+    assert code == 0
+    assert timings["import semnav_env"] < timings["semnav ground"]
+    assert timings["compiling all kernels, processor time"] > timings["semnav ground"]

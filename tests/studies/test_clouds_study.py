@@ -1,0 +1,43 @@
+"""The study of detectors in point clouds: its scenes, and how it judges."""
+
+import math
+
+import pytest
+
+from semnav_env.features.clouds import DetectedDoor
+from studies.clouds import detectors
+from studies.clouds.detectors import judge
+from studies.clouds.scenes import POSES, draw_scenes
+
+
+@pytest.mark.parametrize("category", POSES)
+def test_scenes_are_drawn_again_alike_about_the_poses_of_the_thesis(category):
+    first, again = (list(draw_scenes(category, 4, 5)) for _ in range(2))
+    for k, (one, other) in enumerate(zip(first, again, strict=True)):
+        assert (one.pose, one.believed, one.seed) == (other.pose, other.believed, other.seed)
+        name, planned = POSES[category][k % len(POSES[category])]
+        assert one.door.name == name
+        assert math.dist(one.pose[:2], planned[:2]) < 0.25
+
+
+def test_jambs_are_right_within_ten_centimetres_only():
+    scene = next(draw_scenes("A", 1, 5))
+    view, truth = detectors.spot(scene), scene.truth
+    for shift, right in ((0.09, True), (0.11, False)):
+        start = truth.start[0] + shift, truth.start[1]
+        result = judge(scene, view, lambda *_, at=start: DetectedDoor(at, truth.end))
+        assert result.right == (right, True)
+        assert result.wrong == (not right, False)
+
+
+def test_a_jamb_that_was_not_seen_is_neither_right_nor_wrong():
+    scene = next(draw_scenes("A", 1, 5))
+    door = DetectedDoor(scene.truth.start, (9.0, 9.0), end_seen=False)
+    result = judge(scene, detectors.spot(scene), lambda *_: door)
+    assert (result.right, result.wrong) == ((True, False), (False, False))
+    assert len(result.errors) == 1
+
+
+def test_before_the_door_the_finder_finds_both_jambs():
+    found = [judge(s, detectors.spot(s), detectors.finder) for s in draw_scenes("A", 6, 5)]
+    assert sum(sum(result.right) for result in found) >= 11
