@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from semnav_env.belief import Belief
 from semnav_env.features.checked_fields import Bounds, check_fields
-from semnav_env.payload import Payload
 from semnav_env.simulator.sensed import Motion
 
 if TYPE_CHECKING:
