@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import re
 import signal
+import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from gymnasium.envs.registration import EnvSpec
 
 from semnav_env.agents.demonstrations import Demonstration
 from semnav_env.env import SemNavEnv
+from semnav_env.features.writing import discard, naming, put_in_place
+
+if TYPE_CHECKING:  # an extra
+    from minari.dataset.minari_storage import MinariStorage
 
 DATASET_NAME = re.compile(r"(?:[-_\w]+/)*[-_\w]+-v\d+")
 """The form of a dataset's name in Minari, such as "semnav/train-scripted-v0"."""
@@ -30,6 +36,14 @@ TiM561 gives its ranges, and exact in binary, so that the last bits are zeros.""
 class DemonstrationFile:
     """A new Minari dataset; each demonstration is written at once.
 
+    It is a context manager. Until its end the dataset is in a folder beside, whose name ends in
+    `.part`, for a kill or a full disk may leave an HDF5 file that cannot be read. The end may also
+    be an error or an interruption between two demonstrations; the error then gets a note that says
+    where those so far are. Without any demonstration nothing is kept of it.
+
+    Attributes:
+        folder: of the dataset, absolute.
+
     Args:
         out: a name such as "semnav/train-scripted-v0", by which Minari finds it, or a folder.
         env: the environment that was shown, which gives spaces and specification.
@@ -45,8 +59,6 @@ class DemonstrationFile:
     def __init__(self, out: str, env: SemNavEnv, agent: str, rounds: bool = False) -> None:
         try:
             import h5py  # noqa: F401 - Minari fails late without it
-            import minari
-            from minari.dataset.minari_storage import MinariStorage
             from minari.storage import get_dataset_path
         except ImportError:
             raise ImportError(
@@ -58,19 +70,53 @@ class DemonstrationFile:
             raise FileExistsError(
                 17, "there is something already; give another name or folder", str(self.folder)
             )
-        data = self.folder / "data"
-        data.mkdir(parents=True, exist_ok=True)
+        self._part = self.folder.with_name(f".{self.folder.name}-{uuid.uuid4().hex[:12]}.part")
+        self._env, self._agent, self._rounds = env, agent, rounds
+        self._name = out if named else f"semnav/{agent_word(agent)}-v0"
+        self._added, self._whole = 0, True
+
+    def __enter__(self) -> Self:
+        """The dataset, empty."""
+        try:
+            with naming(self.folder):
+                self._storage = self._made()
+        except BaseException:
+            discard(self._part, self.folder)
+            raise
+        return self
+
+    def _made(self) -> MinariStorage:
+        import minari
+        from minari.dataset.minari_storage import MinariStorage
+
+        data, env = self._part / "data", self._env
+        data.mkdir(parents=True)
         spaces = env.observation_space, env.action_space
-        self._storage = MinariStorage.new(data, *spaces, _in_json(env.spec))
-        self._storage.update_metadata(
+        storage = MinariStorage.new(data, *spaces, _in_json(env.spec))
+        storage.update_metadata(
             {
-                "dataset_id": out if named else f"semnav/{agent_word(agent)}-v0",
+                "dataset_id": self._name,
                 "minari_version": minari.__version__,
-                "algorithm_name": agent,
-                "description": f"{agent} on {env.robot.name} in frozen episodes of semnav-env",
+                "algorithm_name": self._agent,
+                "description": f"{self._agent} on {env.robot.name} in frozen episodes of semnav-env",
             }
         )
-        self._added, self._rounds = 0, rounds
+        return storage
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Put the dataset in its place."""
+        if error is not None and not self._added:
+            discard(self._part, self.folder)
+        elif self._whole:
+            put_in_place(self._part, self.folder)
+        if error is not None and self._added:
+            where = self.folder if self._whole else self._part
+            error.add_note(f"'{where}' holds {self._added} demonstrations so far")
 
     def add(self, demonstration: Demonstration) -> None:
         """Write a demonstration; an interruption waits until it is complete."""
@@ -96,16 +142,18 @@ class DemonstrationFile:
             infos=demonstration.infos,
         )
         arrays = {name: getattr(buffer, name) for name in _ARRAYS}
-        with _uninterrupted():
+        self._whole = False
+        with _uninterrupted(), naming(self.folder):
             self._make_room(arrays)
             self._storage.update_episodes([buffer])
-        self._added += 1
+            self._added += 1
+            self._whole = True
 
     def _make_room(self, arrays: dict[str, Any]) -> None:
         """Make the empty, compressed arrays of an episode, to which Minari appends the values."""
         import h5py
 
-        with h5py.File(self.folder / "data" / "main_data.hdf5", "a", track_order=True) as file:
+        with h5py.File(self._part / "data" / "main_data.hdf5", "a", track_order=True) as file:
             for path, values in _leaves(arrays, f"episode_{self._added}"):
                 shape = values.shape[1:]
                 file.create_dataset(
@@ -119,7 +167,7 @@ class DemonstrationFile:
 
     @property
     def count(self) -> int:
-        """Number of demonstrations in the file, counted there."""
+        """Number of demonstrations in the complete dataset, counted there."""
         import h5py
 
         with h5py.File(self.folder / "data" / "main_data.hdf5", "r") as file:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -64,19 +65,24 @@ def part_of(target: Path, name: str | None = None) -> Path:
 
 
 def put_in_place(part: Path, target: Path) -> None:
-    """Let a complete part replace a file."""
+    """Let a complete part replace a file; or a folder of files, one that is empty or not there."""
     if part == target:
         return
-    with open(part, "rb") as file:
-        os.fsync(file.fileno())
-    if target.exists():
+    for path in [part] if part.is_file() else filter(Path.is_file, part.rglob("*")):
+        with open(path, "rb") as file:
+            os.fsync(file.fileno())
+    if target.is_dir():
+        target.rmdir()
+    elif target.exists():
         os.chmod(part, target.stat().st_mode)
     os.replace(part, target)
 
 
 def discard(part: Path, target: Path) -> None:
-    """Remove a part that is not complete."""
-    if part != target:
+    """Remove a part that is not complete, a file or a folder."""
+    if part.is_dir():
+        shutil.rmtree(part, ignore_errors=True)
+    elif part != target:
         with suppress(OSError):
             part.unlink()
 

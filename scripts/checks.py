@@ -11,9 +11,13 @@ import time
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
+
+if TYPE_CHECKING:  # the doctor must start without the compiled kernels
+    from semnav_env.features.kernels.cache_repair import CacheRepair
 
 _PACKAGE = "semnav-env"
 """Name of the installed distribution."""
@@ -96,12 +100,14 @@ def headless_drawing() -> InstallationCheck:
 
 
 def kernels() -> list[InstallationCheck]:
-    """Check that the compiled kernels work, and that they are kept between runs."""
+    """Mend the cache of compiled kernels, and check that they work and are kept between runs."""
     from semnav_env.features import extract
     from semnav_env.features.kernels.cache_folder import cache_folder
+    from semnav_env.features.kernels.cache_repair import repair
     from semnav_env.lidar import Lidar
     from semnav_env.maps import load_floor_plan
 
+    mended = repair(cache_folder())
     start = time.perf_counter()
     pose = (-2.5, -0.3, 0.24)
     scan = Lidar(load_floor_plan("heidelberg_hallway")).scan(pose, key=(0, 0, 0))
@@ -113,15 +119,16 @@ def kernels() -> list[InstallationCheck]:
         f"a simulated scan shows {walls} walls; ready after {seconds:.1f} s",
         "reinstall numba and semnav-env",
     )
-    return [works, _writable_cache(cache_folder())]
+    return [works, _cache(cache_folder(), mended)]
 
 
-def _writable_cache(folder: Path) -> InstallationCheck:
+def _cache(folder: Path, mended: CacheRepair) -> InstallationCheck:
     fix = "set SEMNAV_CACHE_DIR to a folder that you may write to, or every start compiles anew"
     ok = os.access(folder, os.W_OK)
-    return InstallationCheck(
-        "kernel cache", ok, f"{folder} is {'' if ok else 'not '}writable", fix, False
-    )
+    sizes = [file.stat().st_size for file in folder.glob("*.bin")]
+    held = f"{len(sizes)} kernels, {sum(sizes) / 1e6:.0f} MB"
+    detail = f"{folder} is {'' if ok else 'not '}writable; {held}{mended}"
+    return InstallationCheck("kernel cache", ok, detail, fix, needed=False)
 
 
 def _requirements() -> list[Requirement]:

@@ -65,18 +65,18 @@ class Arguments:
         seen = agent.observation
         env = self._env(seen)
         shown = env if self.observation in (None, seen) else self._env(self.observation)
-        file = DemonstrationFile(self.out, shown, self.agent, self.rounds)
         kept: list[bool] = []
         others = None if shown is env else shown, Expert() if self.labels else None
         demonstrations: Iterator[Demonstration] = (
             demonstrate(env, agent, each, *others) for each in chosen
         )
-        for each in tracked(
-            demonstrations, lambda n: f"{n} episodes", lambda: len(kept) / len(chosen)
-        ):
-            kept.append(each.success or self.failures)
-            if kept[-1]:
-                file.add(each)
+        with DemonstrationFile(self.out, shown, self.agent, self.rounds) as file:
+            for each in tracked(
+                demonstrations, lambda n: f"{n} episodes", lambda: len(kept) / len(chosen)
+            ):
+                kept.append(each.success or self.failures)
+                if kept[-1]:
+                    file.add(each)
         count = sum(kept)
         if file.count != count:
             raise OSError(f"{file.folder}: {count} episodes were written, {file.count} are there")

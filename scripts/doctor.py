@@ -1,4 +1,4 @@
-"""`semnav doctor`: check the installation, and say how to mend it."""
+"""`semnav doctor`: check the installation, mend its cache, and say what a bug report needs."""
 
 from __future__ import annotations
 
@@ -7,14 +7,16 @@ from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 
 from semnav_env.scripts import checks
+from semnav_env.scripts.bug_report import facts
 from semnav_env.scripts.checks import InstallationCheck
 
 
 @dataclass(frozen=True)
 class Arguments:
-    """Check the installation, and say how to mend it.
+    """Check the installation, and say how to mend it; its output belongs into a bug report.
 
-    The exit code is 0 if everything that is needed works, and 1 otherwise. Optional parts do not
+    Files of the cache of compiled kernels that are damaged or were left behind are removed. The
+    exit code is 0 if everything that is needed works, and 1 otherwise. Optional parts do not
     count.
 
     Attributes:
@@ -34,6 +36,7 @@ class Arguments:
 
 
 def _examine() -> Iterator[InstallationCheck]:
+    yield from facts()
     yield checks.python_version()
     yield from checks.requirements()
     yield from checks.extras()

@@ -25,7 +25,7 @@ SEMNAV = CommandTable(
             "evaluate language": "count how much of people's commands is understood",
             "train": "teach an agent, and keep what it learned",
             "bench": "time a step of the environment and its parts",
-            "doctor": "check the installation, and say how to mend it",
+            "doctor": "check the installation, mend its cache, say what a bug report needs",
         }.items()
     },
 )

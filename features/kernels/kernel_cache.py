@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import zlib
 from collections.abc import Callable
 from contextlib import suppress
 from hashlib import sha256
@@ -15,6 +16,30 @@ from numba.core.serialize import dumps
 
 from semnav_env.features.kernels.cache_folder import cache_folder
 from semnav_env.features.writing import write_file
+
+
+CHECKSUM_BYTES = 4
+"""Size of the checksum that a file begins with."""
+
+
+def sealed(content: bytes) -> bytes:
+    """The bytes of a file with some content: a checksum, then the content.
+
+    One wrong bit in machine code raises nothing; it would end the process, or give wrong numbers.
+    """
+    return zlib.crc32(content).to_bytes(CHECKSUM_BYTES, "little") + content
+
+
+def unsealed(data: bytes) -> bytes:
+    """The content of a file.
+
+    Raises:
+        ValueError: it is damaged.
+    """
+    content = data[CHECKSUM_BYTES:]
+    if sealed(content) != data:
+        raise ValueError("the checksum does not fit")
+    return content
 
 
 class KernelCache(_Cache):
@@ -46,7 +71,7 @@ class KernelCache(_Cache):
         target_context.refresh()
         path, key = self._entry(sig, target_context.codegen())
         try:
-            kept, payload = pickle.loads(path.read_bytes())
+            kept, payload = pickle.loads(unsealed(path.read_bytes()))
             return CompileResult._rebuild(target_context, *payload) if kept == key else None
         except FileNotFoundError:
             return None
@@ -61,7 +86,7 @@ class KernelCache(_Cache):
             return
         path, key = self._entry(sig, data.codegen)
         with suppress(Exception):  # a full disk, or what no pickle can hold
-            write_file(path, dumps((key, data._reduce())))
+            write_file(path, sealed(dumps((key, data._reduce()))))
 
     def enable(self) -> None:
         """Use the files."""

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from semnav_env.features.readers.channel import Channel, Message
 from semnav_env.features.readers.chunks import bound_decompression
-from semnav_env.features.readers.log import DamageError
+from semnav_env.features.readers.log import DamageError, LogError
 from semnav_env.features.readers.salvage import SalvagedBag, check_tables
 
 
@@ -96,6 +96,8 @@ def open_bag(path: Path) -> Bag:
         check_tables(file)
     try:
         return IndexedBag(path)
+    except LogError:  # beyond a budget
+        raise
     except Exception:  # bags without an index, of other kinds of messages, or damaged in any way
         return SalvagedBag(path)
 

@@ -8,7 +8,7 @@ import os
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TypeAlias
+from typing import BinaryIO, TypeAlias
 
 from semnav_env.features.readers.log import DamageError, LogError, LogReader
 from semnav_env.features.reading import check_file
@@ -28,6 +28,11 @@ expand five to twenty times."""
 
 _ALWAYS_EXPANDED = 1 << 20
 """Bytes that are decompressed at any rate."""
+
+
+def most_expanded(packed: BinaryIO) -> int:
+    """Bytes to which what was read so far of a compressed log may expand."""
+    return _ALWAYS_EXPANDED + MAX_EXPANSION * packed.tell()
 
 
 class TextFile:
@@ -74,7 +79,7 @@ class TextFile:
             size = 0
             for number, line in enumerate(_lines(self._text), start=1):
                 size += len(line)
-                if self.compressed and size > _ALWAYS_EXPANDED + MAX_EXPANSION * self._file.tell():
+                if self.compressed and size > most_expanded(self._file):
                     raise LogError(f"{self.path}: expands more than {MAX_EXPANSION} times")
                 yield number, line
         except _DAMAGED:

@@ -39,9 +39,10 @@ def test_a_demonstration_reads_back_as_it_was(
     driven: tuple[SemNavEnv, Demonstration], tmp_path: Path
 ) -> None:
     env, demonstration = driven
-    file = DemonstrationFile(str(tmp_path / "data set"), env, "oracle")
-    file.add(demonstration)
-    file.add(demonstration)
+    with DemonstrationFile(str(tmp_path / "data set"), env, "oracle") as file:
+        file.add(demonstration)
+        file.add(demonstration)
+        assert not file.folder.exists()
     assert file.count == 2
     dataset = minari.MinariDataset(file.folder / "data")
     assert dataset.total_episodes == 2
@@ -64,8 +65,8 @@ def test_a_folder_may_be_named_from_where_one_stands(
 ) -> None:
     env, demonstration = driven
     monkeypatch.chdir(tmp_path)
-    file = DemonstrationFile("new set", env, "oracle")
-    file.add(demonstration)
+    with DemonstrationFile("new set", env, "oracle") as file:
+        file.add(demonstration)
     assert file.count == 1
     assert minari.MinariDataset(tmp_path / "new set" / "data").total_episodes == 1
 
@@ -90,6 +91,17 @@ def test_what_was_driven_before_an_interruption_is_kept(
     assert len(list(dataset.iterate_episodes())) == 2
 
 
+def test_a_dataset_without_demonstrations_is_not_left_by_an_error(
+    driven: tuple[SemNavEnv, Demonstration], tmp_path: Path
+) -> None:
+    with (
+        pytest.raises(ValueError, match="no demonstration"),
+        DemonstrationFile(str(tmp_path / "d"), driven[0], "oracle"),
+    ):
+        raise ValueError("no demonstration")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_an_interruption_waits_until_the_episode_is_written() -> None:
     written: list[int] = []
 
@@ -107,8 +119,8 @@ def test_a_named_dataset_is_found_by_its_name(
     driven: tuple[SemNavEnv, Demonstration], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
-    file = DemonstrationFile("mine/oracle-v3", driven[0], "oracle")
-    file.add(driven[1])
+    with DemonstrationFile("mine/oracle-v3", driven[0], "oracle") as file:
+        file.add(driven[1])
     assert minari.load_dataset("mine/oracle-v3").total_episodes == 1
     with pytest.raises(FileExistsError, match="something already"):
         DemonstrationFile("mine/oracle-v3", driven[0], "oracle")
@@ -184,8 +196,8 @@ def test_a_step_takes_far_less_than_seven_kilobytes(
     """Case 13: of an observation with the scan, compressed; and what is rounded is near."""
     env = SemNavEnv(observation="all")
     shown = demonstrate(driven[0], make_agent("oracle"), driven[1].episode, env)
-    file = DemonstrationFile(str(tmp_path / "d"), env, "oracle", rounds)
-    file.add(shown)
+    with DemonstrationFile(str(tmp_path / "d"), env, "oracle", rounds) as file:
+        file.add(shown)
     size = (file.folder / "data" / "main_data.hdf5").stat().st_size
     assert size / len(shown.actions) < most
     again = minari.MinariDataset(file.folder / "data")[0].observations
@@ -197,5 +209,5 @@ def test_a_step_takes_far_less_than_seven_kilobytes(
 def test_an_observation_of_ones_own_leaves_the_specification_out(tmp_path: Path) -> None:
     env = gym.make("semnav_env:SemNav-v0", observation=EntryObservation("raw")).unwrapped
     assert isinstance(env, SemNavEnv)
-    file = DemonstrationFile(str(tmp_path / "d"), env, "oracle")
-    assert "env_spec" not in file._storage.metadata
+    with DemonstrationFile(str(tmp_path / "d"), env, "oracle") as file:
+        assert "env_spec" not in file._storage.metadata

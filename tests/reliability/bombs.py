@@ -19,6 +19,7 @@ from ezdxf.enums import InsertUnits
 from numpy.lib import format as npy
 from PIL import Image
 
+from tests.support.bags import BagFile, Sweep, storage
 from tests.support.drawn_maps import two_rooms, write_map
 
 MEGABYTE = 1 << 20
@@ -213,6 +214,13 @@ def mcap_chunk(folder: Path) -> Path:
     return path
 
 
+def zipped_bag(folder: Path) -> Path:
+    """A bag compressed as a whole: 150 kilobytes that are three gigabytes."""
+    bag = BagFile("sqlite3", [Sweep([1.0] * 30)], "file").write(folder)
+    storage(bag).write_bytes(3000 * zstd.compress(b"\0" * MEGABYTE))
+    return bag
+
+
 def large_picture(folder: Path) -> Path:
     """A picture of 25 million pixels with a palette."""
     path = folder / "floor.png"
@@ -227,7 +235,8 @@ BOMBS: dict[str, Callable[[Path], Path]] = {
     for each in (
         *(yaml_aliases, image_pipe, log_pipe, plan_pipe, dxf_array, dxf_nest, dxf_circles),
         *(svg_uses, svg_circle_of_uses, recursive_view, zipped_episodes, zipped_log),
-        *(npz_huge_angle, npz_wide, npz_rows_of_nothing, ros1_chunk, mcap_chunk, large_picture),
+        *(npz_huge_angle, npz_wide, npz_rows_of_nothing, ros1_chunk, mcap_chunk, zipped_bag),
+        large_picture,
     )
 }
 """All of them by name."""

@@ -18,8 +18,9 @@ MEMORY = 1 << 30
 PROCESSOR_SECONDS = 2.0
 """Largest processor time that an input may take: what waits for other processes costs nothing."""
 
-WALL_SECONDS = 60
-"""Time after which a child must be waiting for what never comes."""
+WALL_SECONDS = 600
+"""Time after which a child must be waiting for what never comes: a batch of inputs takes seconds,
+but on a busy machine minutes."""
 
 LONGEST_MESSAGE = 1000
 

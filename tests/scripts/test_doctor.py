@@ -1,0 +1,76 @@
+"""`semnav doctor`: it says what a bug report needs, and mends the cache of compiled kernels."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from semnav_env.features.kernels.cache_repair import OLD_PART, OLD_VERSION, repair
+from semnav_env.features.kernels.kernel_cache import sealed, unsealed
+from semnav_env.scripts import checks
+from semnav_env.scripts.main import main
+
+
+def kept(folder: Path, name: str, content: bytes = sealed(b"kernel"), age: float = 0.0) -> Path:
+    """A file of the cache, or a folder of it that was used so many seconds ago."""
+    path = folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content)
+    os.utime(path, (time.time() - age,) * 2)
+    os.utime(path.parent, (time.time() - age,) * 2)
+    return path
+
+
+def test_the_doctor_says_what_a_bug_report_needs(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["doctor", "--json"]) == 0
+    told = {check["name"]: check["detail"] for check in json.loads(capsys.readouterr().out)}
+    assert str(Path(checks.__file__).parents[1]) in told["semnav-env"] or told["semnav-env"]
+    wanted = {"interpreter", "system", "encodings", "environment variables", "Python", "numba"}
+    assert wanted | {"numpy", "gymnasium", "pymunk", "kernel cache"} <= told.keys()
+    assert "GB of memory" in told["system"]
+    assert "kernels" in told["kernel cache"]
+
+
+def test_the_doctor_removes_what_is_damaged_or_left_behind(tmp_path: Path) -> None:
+    here = tmp_path / "current"
+    sound = kept(here, "sound.1.bin")
+    damaged = [
+        kept(here, "cut.1.bin", sealed(b"kernel")[:-1]),
+        kept(here, "flipped.1.bin", sealed(b"kernel")[:-1] + b"x"),
+        kept(here, "empty.1.bin", b""),
+    ]
+    writing = kept(here, ".new-12.part.bin", b"ker")
+    killed = kept(here, ".old-34.part.bin", b"ker", 2 * OLD_PART)
+    recent = kept(tmp_path / "recent", "a.1.bin", age=0.5 * OLD_VERSION)
+    unused = kept(tmp_path / "unused", "a.1.bin", age=2.0 * OLD_VERSION)
+    removed = repair(here)
+    assert (removed.damaged, removed.unfinished, removed.versions) == (3, 1, 1)
+    assert all(path.exists() for path in (sound, writing, recent))
+    assert not any(path.exists() for path in (*damaged, killed, unused))
+    assert str(removed) == "; removed 3 damaged; removed 1 unfinished; removed 1 of other versions"
+    assert str(repair(here)) == ""
+
+
+def test_the_doctor_mends_the_cache_that_is_used(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    broken = kept(tmp_path / "version", "broken.1.bin", b"half")
+    monkeypatch.setattr(
+        "semnav_env.features.kernels.cache_folder.cache_folder", lambda: broken.parent
+    )
+    [_, cache] = checks.kernels()
+    assert "removed 1 damaged" in cache.detail
+    assert not broken.exists()
+
+
+@pytest.mark.parametrize("place", range(0, 300, 37))
+def test_one_wrong_bit_of_a_kept_kernel_is_found(place: int) -> None:
+    data = bytearray(sealed(bytes(range(256)) + bytes(44)))
+    assert unsealed(bytes(data)) == bytes(data[4:])
+    data[place] ^= 1 << place % 8
+    with pytest.raises(ValueError, match="checksum"):
+        unsealed(bytes(data))
