@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+import io
+import json
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
+from xml.etree import ElementTree
 
+import h5py
+from safetensors.numpy import load
+
+from semnav_env.agents.learning.files import AGENT_FILE, POLICY_FILE, TRAINING_FILE
+from semnav_env.episodes import SPLITS
 from semnav_env.lidar import Lidar
-from semnav_env.maps import load_floor_plan
+from semnav_env.maps import load_floor_plan, save_floor_plan
 from tests.support.drawn_maps import two_rooms, write_map
 
 HALL = "heidelberg_hallway"
@@ -19,17 +28,47 @@ class Writer(NamedTuple):
     Attributes:
         name: in the table.
         words: the command; {inputs} and {out} are the folders of its files.
-        files: what it writes into {out}, the last one last.
+        files: what it writes into {out}.
+        named: what an error of writing names: one of these; the files if not given.
+        follows: name of the command whose results it goes on with; otherwise older files of the
+            same names are there, if it replaces files at all.
         replaces: whether it replaces files that are there; otherwise it refuses them.
     """
 
     name: str
     words: str
     files: tuple[str, ...]
+    named: tuple[str, ...] = ()
+    follows: str = ""
     replaces: bool = True
 
+    def whole(self, name: str, content: bytes, undisturbed: bytes) -> bool:
+        """Whether the content of a file is whole, given what it is if nothing happens."""
+        if content == undisturbed or "tfevents" in name:  # curves, which are only added to
+            return True
+        if name.endswith(".jsonl"):
+            return content.endswith(b"\n") and undisturbed.startswith(content)
+        check = _CHECKS.get(Path(name).suffix)
+        try:
+            return check is not None and check(content) is not None
+        except (ValueError, OSError):
+            return False
 
-AGENT_FILES = ("training.safetensors", "policy.safetensors", "agent.json")
+
+def _read_dataset(content: bytes) -> list[str]:
+    """The names of the episodes; raises OSError if the file is damaged."""
+    with h5py.File(io.BytesIO(content)) as file:
+        file.visititems(lambda _, item: item[()] if isinstance(item, h5py.Dataset) else None)
+        return list(file)
+
+
+_CHECKS = {
+    **{".hdf5": _read_dataset, ".json": json.loads, ".safetensors": load},
+    **{".svg": ElementTree.fromstring, ".pdf": lambda content: content[content.index(b"%%EOF") :]},
+}
+"""How files are read that differ from run to run."""
+
+AGENT_FILES = tuple(f"agent/{name}" for name in (TRAINING_FILE, POLICY_FILE, AGENT_FILE))
 DATASET_FILES = ("data/data/main_data.hdf5", "data/data/metadata.json")
 
 WRITERS = (
@@ -82,30 +121,39 @@ WRITERS = (
         "evaluate",
         f"evaluate {SPLIT} --agent random --episodes 2 --out {{out}}/rows.jsonl --pictures {{out}}",
         ("rows.jsonl",),
+        named=("rows.jsonl", ".png"),
     ),
     Writer(
         "demonstrate",
         f"demonstrate {SPLIT} --episodes 2 --agent random --failures --max-seconds 8"
         " --out {out}/data",
         DATASET_FILES,
+        named=("/data'",),
         replaces=False,
     ),
     Writer(
-        "train", "train quick --steps 0 --out {out}/new", tuple(f"new/{f}" for f in AGENT_FILES)
+        "train",
+        "train quick --steps 0 --out {out}/agent",
+        AGENT_FILES,
+        replaces=False,
     ),
     Writer(
         "train --resume",
         "train quick --resume --steps 0 --out {out}/agent",
-        tuple(f"agent/{file}" for file in AGENT_FILES),
+        AGENT_FILES,
+        follows="train",
     ),
 )
 """All of them."""
 
 
+def shorten() -> None:
+    """In the process of a command: let a split be of one building, which takes a second."""
+    SPLITS[SPLIT] = replace(SPLITS[SPLIT], episodes=20, buildings=1)
+
+
 def make_inputs(folder: Path) -> None:
     """Write what the commands read: a map, a floor plan and a log of a short drive."""
-    from semnav_env.maps import save_floor_plan
-
     write_map(folder, two_rooms())
     plan = load_floor_plan(HALL)
     save_floor_plan(load_floor_plan("office_cross"), folder / "floor.geojson")

@@ -1,0 +1,75 @@
+"""Drives for many steps through ever new floors, and says whether memory stays flat."""
+
+from __future__ import annotations
+
+import gc
+import math
+import os
+import time
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from semnav_env.env import SemNavEnv
+
+EPISODES_ON_A_FLOOR = 10
+"""Episodes after which a floor is generated that has never been seen before."""
+
+WARM_UP = 0.2
+"""Share of the steps during which caches fill, and memory may grow."""
+
+
+class Drive(NamedTuple):
+    """What was seen in a drive so far.
+
+    Attributes:
+        steps: number of them.
+        episodes: number of resets.
+        floors: number of floor plans.
+        warm: resident memory after the warm-up, megabytes.
+        memory: now.
+        seconds: since the start.
+    """
+
+    steps: int
+    episodes: int
+    floors: int
+    warm: float
+    memory: float
+    seconds: float
+
+
+def resident() -> float:
+    """Resident memory of this process, megabytes."""
+    gc.collect()
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def drive(count: int, every: int) -> Iterator[Drive]:
+    """Drive at random, and report now and then; every observation and reward must be finite.
+
+    Args:
+        count: number of steps.
+        every: steps between two reports.
+    """
+    env, rng, begun = SemNavEnv(max_seconds=60.0), np.random.default_rng(5), time.monotonic()
+    warm, episodes, ended = 0.0, 0, True
+    for step in range(1, count + 1):
+        if ended:
+            floor = f"office:small:{10_000 + episodes // EPISODES_ON_A_FLOOR}"
+            env.reset(seed=episodes, options={"floor_plan": floor})
+            episodes, pushed = episodes + 1, rng.uniform(-1.0, 1.0, 2)
+        if step % 10 == 0:
+            pushed = rng.uniform((-0.3, -1.0), (1.0, 1.0))
+        observation, reward, terminated, truncated, _ = env.step(pushed)
+        assert math.isfinite(reward), (step, reward)
+        assert all(np.isfinite(value).all() for value in observation.values()), step
+        ended = terminated or truncated
+        if step == round(WARM_UP * count):
+            warm = resident()
+        if step % every == 0 or step == count:
+            floors = 1 + (episodes - 1) // EPISODES_ON_A_FLOOR
+            seconds = time.monotonic() - begun
+            yield Drive(step, episodes, floors, warm, resident(), seconds)
