@@ -13,8 +13,12 @@ test: $(VENV)/.test lint types
 	$(BIN)/python -m pytest -m "not slow" -n 2
 
 COUNT ?= 2000
+STRIKES ?= 10
+STEPS ?= 5000000
 soak: $(VENV)/.test
-	$(BIN)/python -m tests.reliability.soak $(COUNT)
+	$(BIN)/python -m tests.reliability.soak inputs $(COUNT)
+	$(BIN)/python -m tests.reliability.soak strikes $(STRIKES)
+	$(BIN)/python -m tests.reliability.soak steps $(STEPS)
 
 slow: $(VENV)/.test
 	$(BIN)/python -m pytest -m slow

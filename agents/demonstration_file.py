@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import re
-import signal
 import uuid
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -16,6 +14,7 @@ from gymnasium.envs.registration import EnvSpec
 
 from semnav_env.agents.demonstrations import Demonstration
 from semnav_env.env import SemNavEnv
+from semnav_env.features.interruption import uninterrupted
 from semnav_env.features.writing import discard, naming, put_in_place
 
 if TYPE_CHECKING:  # an extra
@@ -89,7 +88,7 @@ class DemonstrationFile:
         import minari
         from minari.dataset.minari_storage import MinariStorage
 
-        data, env = self._part / "data", self._env
+        data, env, agent = self._part / "data", self._env, self._agent
         data.mkdir(parents=True)
         spaces = env.observation_space, env.action_space
         storage = MinariStorage.new(data, *spaces, _in_json(env.spec))
@@ -97,8 +96,8 @@ class DemonstrationFile:
             {
                 "dataset_id": self._name,
                 "minari_version": minari.__version__,
-                "algorithm_name": self._agent,
-                "description": f"{self._agent} on {env.robot.name} in frozen episodes of semnav-env",
+                "algorithm_name": agent,
+                "description": f"{agent} on {env.robot.name} in frozen episodes of semnav-env",
             }
         )
         return storage
@@ -113,7 +112,8 @@ class DemonstrationFile:
         if error is not None and not self._added:
             discard(self._part, self.folder)
         elif self._whole:
-            put_in_place(self._part, self.folder)
+            with uninterrupted():
+                put_in_place(self._part, self.folder)
         if error is not None and self._added:
             where = self.folder if self._whole else self._part
             error.add_note(f"'{where}' holds {self._added} demonstrations so far")
@@ -143,7 +143,7 @@ class DemonstrationFile:
         )
         arrays = {name: getattr(buffer, name) for name in _ARRAYS}
         self._whole = False
-        with _uninterrupted(), naming(self.folder):
+        with uninterrupted(), naming(self.folder):
             self._make_room(arrays)
             self._storage.update_episodes([buffer])
             self._added += 1
@@ -208,20 +208,3 @@ def _in_json(spec: EnvSpec | None) -> EnvSpec | None:
 def agent_word(agent: str) -> str:
     """The name of an agent, without characters that the name of a dataset cannot have."""
     return re.sub(r"[^-_\w]+", "_", Path(agent).name) or "agent"
-
-
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Delay an interruption from the keyboard until the end of the block."""
-    held: list[int] = []
-    try:
-        before = signal.signal(signal.SIGINT, lambda number, _: held.append(number))
-    except ValueError:  # not the main thread, which alone gets interruptions
-        yield
-        return
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-        if held:
-            raise KeyboardInterrupt

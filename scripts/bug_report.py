@@ -1,4 +1,4 @@
-"""What a bug report must say beside the versions of packages: which code, where, on what machine."""
+"""What a bug report must say beside the versions of packages: which code, on what machine."""
 
 from __future__ import annotations
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
+from semnav_env.features.interruption import uninterrupted
 from semnav_env.features.writing import discard, naming, part_of, put_in_place
 from semnav_env.scripts.outputs import counted
 
@@ -31,7 +32,6 @@ class JsonLines:
         self.path = path.resolve()
         with naming(self.path):
             self._part = part_of(self.path, f"{self.path.name}.part")
-            self._file = open(self._part, "wb", buffering=0)  # noqa: SIM115 - closed by __exit__
         self._lines = 0
 
     def write(self, document: dict[str, Any]) -> None:
@@ -51,6 +51,12 @@ class JsonLines:
 
     def __enter__(self) -> Self:
         """The open file."""
+        try:
+            with naming(self.path):
+                self._file = open(self._part, "wb", buffering=0)
+        except BaseException:  # Ctrl-C may come when the file is there already
+            discard(self._part, self.path)
+            raise
         return self
 
     def __exit__(
@@ -64,7 +70,7 @@ class JsonLines:
         if not self._lines and error is not None:
             discard(self._part, self.path)
             return
-        with naming(self.path):
+        with uninterrupted(), naming(self.path):
             put_in_place(self._part, self.path)
         if error is not None and self._part != self.path:
             error.add_note(f"'{self.path}' holds the {counted(self._lines, 'line')} so far")

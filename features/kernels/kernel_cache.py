@@ -17,7 +17,6 @@ from numba.core.serialize import dumps
 from semnav_env.features.kernels.cache_folder import cache_folder
 from semnav_env.features.writing import write_file
 
-
 CHECKSUM_BYTES = 4
 """Size of the checksum that a file begins with."""
 

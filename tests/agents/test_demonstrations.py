@@ -13,13 +13,13 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
-from semnav_env.agents import demonstration_file
 from semnav_env.agents.demonstration_file import DemonstrationFile
 from semnav_env.agents.demonstrations import Demonstration, demonstrate
 from semnav_env.agents.expert import Expert
 from semnav_env.agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import evenly, load_episodes
+from semnav_env.features.interruption import uninterrupted
 from semnav_env.observations import MODES, EntryObservation
 from semnav_env.scripts import demonstrate as script
 from semnav_env.scripts.main import main
@@ -106,7 +106,7 @@ def test_an_interruption_waits_until_the_episode_is_written() -> None:
     written: list[int] = []
 
     def write() -> None:
-        with demonstration_file._uninterrupted():
+        with uninterrupted():
             os.kill(os.getpid(), signal.SIGINT)
             written.append(1)
 

@@ -87,7 +87,7 @@ def outcome(process):
 
 
 def test_processes_that_compile_at_once_do_not_harm_each_other(tmp_path):
-    results = {outcome(process)[0] for process in [use_kernels(tmp_path) for _ in range(3)]}
+    results = {outcome(process)[0] for process in [use_kernels(tmp_path) for _ in range(6)]}
     again, compiled, err = outcome(use_kernels(tmp_path))
     assert results == {again}
     assert (compiled, err) == (0, "")

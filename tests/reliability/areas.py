@@ -7,6 +7,7 @@ import io
 import math
 import random
 import tempfile
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -31,7 +32,7 @@ from semnav_env.simulator.odometry import Odometry
 from semnav_env.tasks import RewardWeights
 from semnav_env.tasks.request import OPTIONS
 from semnav_env.world import World
-from tests.reliability.children import Outcome, in_child, outcome_of
+from tests.reliability.children import PROCESSOR_SECONDS, Outcome, in_child, outcome_of
 from tests.reliability.hostile import VALUES, constructed, drawn, settings_classes, settings_of
 from tests.reliability.mutations import write_mutated
 from tests.reliability.readers import READERS, Reader
@@ -246,6 +247,9 @@ def try_area(area: Area, count: int, number: int) -> Outcome:
     )
     @given(area.inputs)
     def tried(drawn_input: Any) -> None:
+        begun = time.process_time()
         area.holds(drawn_input)
+        used = time.process_time() - begun
+        assert used < PROCESSOR_SECONDS, f"takes {used:.1f} s: {drawn_input!r:.500}"
 
     return in_child(tried, seconds=20.0 + 0.2 * count)

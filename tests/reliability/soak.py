@@ -1,108 +1,34 @@
-"""`python -m tests.reliability.soak`: tries bad inputs of every area, and writes the page about it.
+"""`python -m tests.reliability.soak PART COUNT`: tries for long, and writes the page about it.
 
-`make soak` does it; COUNT is the number of inputs of an area of share 1.
+The parts are `inputs` (COUNT of each area of share 1), `strikes` (COUNT of each kind on each
+command that writes) and `steps` (COUNT in all). `make soak` does all three.
 """
 
 from __future__ import annotations
 
-import json
 import sys
 import time
-from pathlib import Path
 
-from semnav_env.agents.learning.files import MAX_FILE_SIZE
-from semnav_env.episodes.files import MAX_BYTES as MAX_EPISODES
-from semnav_env.features.readers.chunks import MAX_CHUNK_BYTES
-from semnav_env.features.readers.npz_arrays import MAX_BYTES as MAX_ARRAY
-from semnav_env.features.readers.text import MAX_EXPANSION
-from semnav_env.features.reading import WHOLE_FILE
-from semnav_env.features.writing import write_file
-from semnav_env.maps.importers.documents import MAX_YAML_BYTES
-from semnav_env.maps.importers.drawing import MAX_SEGMENTS
-from semnav_env.maps.importers.dxf import MAX_BLOCKS, MAX_ENTITIES
-from semnav_env.maps.importers.raster import MAX_IMAGE_BYTES, MAX_PIXELS
-from semnav_env.maps.importers.svg import MAX_ELEMENTS
 from tests.reliability.areas import AREAS, Area, compile_kernels, try_area
-from tests.support.paths import ROOT
+from tests.reliability.page import keep
+from tests.reliability.steps import MOST_GROWTH, drive
+from tests.reliability.strikes import STRIKES, fault
+from tests.reliability.writers import WRITERS, Writer
 
-PAGE = ROOT / "docs" / "reliability.md"
-RESULTS = Path(__file__).with_name("soak.json")
 BATCH = 200
 """Inputs that are tried in one child process: a fault in it counts once."""
 
-TEMPLATE = """\
-# Reliability
 
-What is wrong is refused at once, in one line that names what is wrong and what would be right;
-what was accepted works.
-
-- **Settings** (`RobotSpec`, `LidarSpec`, `RewardWeights`, `Dynamics` and all others) say in their
-  annotations what each field takes, and check it when they are made
-  (`features/checked_fields.py`). A body that Chipmunk could not carry is never made.
-- **Files** are written by one writer (`features/writing.py`): to a part beside the file, which
-  takes its place when it is complete and on the disk. A full disk, an error, Ctrl-C or a kill
-  leaves the old file as it was.
-- **Readers** have a budget of bytes, below. What does not end (a pipe, an alias of aliases, a
-  view that counts for ever) is refused before it is read.
-- **Compiled kernels** that cannot be kept, or cannot be read again, are kept in a temporary
-  folder, or compiled anew; a line on stderr says so.
-- **Ctrl-C** ends every command with one line and exit code 130.
-
-## Budgets of the readers
-
-{budgets}
-
-## Tried
-
-Bad inputs of every area: hostile values for the fields of all settings, and driving with those
-that were not refused; hostile actions, options, texts and command lines; sound files of every
-kind, damaged at random. Each is tried in a child process with a limit of time and memory. An
-input fails if it ends in a traceback, a message of several lines or one that names no file, a
-NaN, more than a gigabyte, or never.
-
-{table}
-
-`make soak` measures the table anew and writes this page; `make soak COUNT=100000` tries more. A
-share of it is part of the tests (`tests/reliability`), with the bombs: small files that ask for
-endless time or gigabytes.
-"""
-
-BUDGETS = (
-    ("floor plan, vector map, HouseExpo, list of walls, DXF, SVG", f"{WHOLE_FILE:,} bytes"),
-    ("YAML of a map or its labels", f"{MAX_YAML_BYTES:,} bytes, no aliases"),
-    ("image of a map", f"{MAX_IMAGE_BYTES:,} bytes, {MAX_PIXELS:,} pixels"),
-    ("DXF", f"{MAX_ENTITIES:,} entities, {MAX_BLOCKS:,} inserted blocks"),
-    ("SVG", f"{MAX_ELEMENTS:,} elements, those of `<use>` included"),
-    ("walls of a drawing", f"{MAX_SEGMENTS:,} segments"),
-    ("episodes", f"{MAX_EPISODES:,} bytes, also when decompressed"),
-    ("text log", f"a line at a time; in gzip at most {MAX_EXPANSION} times the size of the file"),
-    ("npz", f"a row at a time; {MAX_ARRAY:,} bytes of an array that is read as a whole"),
-    ("ROS bag, MCAP", f"a chunk at a time; {MAX_CHUNK_BYTES:,} bytes of one when decompressed"),
-    ("trained agent", f"{MAX_FILE_SIZE:,} bytes"),
-)
+def try_inputs(count: int) -> int:
+    """Try bad inputs of all areas; returns the number of failures."""
+    results = {
+        area.name: _told(area.name, _try_area(area, round(count * area.share))) for area in AREAS
+    }
+    keep("inputs", results)
+    return sum(failed for _, failed in results.values())
 
 
-def rows(head: tuple[str, ...], body: list[tuple[str, ...]]) -> str:
-    """A table in Markdown."""
-    lines = [head, tuple("---" for _ in head), *body]
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
-
-
-def page(results: dict[str, list[int]]) -> str:
-    """The page, with results as {area: [inputs, failures]}."""
-    total = [sum(column) for column in zip(*results.values(), strict=True)]
-    body = [
-        (name, f"{tried:,}", str(failed))
-        for name, (tried, failed) in {**results, "all": total}.items()
-    ]
-    return TEMPLATE.format(
-        budgets=rows(("file", "at most"), list(BUDGETS)),
-        table=rows(("area", "inputs", "failures"), body),
-    )
-
-
-def soak(area: Area, count: int) -> list[int]:
-    """Numbers of inputs that were tried and of batches that failed; prints each failure."""
+def _try_area(area: Area, count: int) -> list[int]:
     failed = 0
     for number in range(0, count, BATCH):
         outcome = try_area(area, min(BATCH, count - number), number)
@@ -112,20 +38,41 @@ def soak(area: Area, count: int) -> list[int]:
     return [count, failed]
 
 
-def main(count: int) -> int:
-    """Try all areas; returns 1 if anything failed."""
-    compile_kernels()
-    results: dict[str, list[int]] = {}
-    for area in AREAS:
-        start = time.monotonic()
-        results[area.name] = soak(area, round(count * area.share))
-        tried, failed = results[area.name]
-        seconds = time.monotonic() - start
-        print(f"{area.name:<28}{tried:>8} inputs {failed:>3} failures {seconds:7.0f} s", flush=True)
-    write_file(RESULTS, json.dumps(results, indent=1) + "\n")
-    write_file(PAGE, page(results))
-    return int(any(failed for _, failed in results.values()))
+def strike_writers(count: int) -> int:
+    """Strike all commands that write; returns the number of failures."""
+    results = {writer.name: _told(writer.name, _strike(writer, count)) for writer in WRITERS}
+    keep("strikes", results)
+    return sum(failed for _, failed in results.values())
 
+
+def _strike(writer: Writer, count: int) -> list[int]:
+    failed = 0
+    for strike in STRIKES:
+        for seed in range(count):
+            if wrong := fault(writer, strike, seed):
+                failed += 1
+                print(f"  {writer.name}, {strike.name}, seed {seed}: {wrong}", file=sys.stderr)
+    return [count * len(STRIKES), failed]
+
+
+def drive_far(count: int) -> int:
+    """Drive; returns 1 if memory has grown."""
+    for so_far in drive(count, max(1, count // 100)):
+        print(so_far, flush=True)
+    keep("steps", so_far._asdict())
+    return int(so_far.memory - so_far.warm > MOST_GROWTH)
+
+
+def _told(name: str, result: list[int]) -> list[int]:
+    print(
+        f"{time.strftime('%X')}  {name:<28}{result[0]:>8} tried {result[1]:>3} failures", flush=True
+    )
+    return result
+
+
+PARTS = {"inputs": try_inputs, "strikes": strike_writers, "steps": drive_far}
 
 if __name__ == "__main__":
-    raise SystemExit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 2000))
+    part, number = sys.argv[1:]
+    compile_kernels()
+    raise SystemExit(min(1, PARTS[part](int(number))))

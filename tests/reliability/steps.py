@@ -12,12 +12,16 @@ from typing import NamedTuple
 import numpy as np
 
 from semnav_env.env import SemNavEnv
+from semnav_env.maps.library import MAX_KEPT_OFFICES
 
 EPISODES_ON_A_FLOOR = 10
 """Episodes after which a floor is generated that has never been seen before."""
 
 WARM_UP = 0.2
-"""Share of the steps during which caches fill, and memory may grow."""
+"""Least share of the steps during which caches fill, and memory may grow."""
+
+MOST_GROWTH = 30.0
+"""Largest growth of memory after the warm-up, megabytes."""
 
 
 class Drive(NamedTuple):
@@ -27,7 +31,8 @@ class Drive(NamedTuple):
         steps: number of them.
         episodes: number of resets.
         floors: number of floor plans.
-        warm: resident memory after the warm-up, megabytes.
+        warm: resident memory when the last floor that is kept was made, and at the earliest after
+            a fifth of the steps, megabytes.
         memory: now.
         seconds: since the start.
     """
@@ -55,13 +60,16 @@ def drive(count: int, every: int) -> Iterator[Drive]:
         every: steps between two reports.
     """
     env, rng, begun = SemNavEnv(max_seconds=60.0), np.random.default_rng(5), time.monotonic()
-    warm, episodes, ended = 0.0, 0, True
+    warm, floors, episodes, ended = 0.0, 0, 0, True
     for step in range(1, count + 1):
         if ended:
-            floor = f"office:small:{10_000 + episodes // EPISODES_ON_A_FLOOR}"
-            env.reset(seed=episodes, options={"floor_plan": floor})
-            episodes, pushed = episodes + 1, rng.uniform(-1.0, 1.0, 2)
-        if step % 10 == 0:
+            if episodes % EPISODES_ON_A_FLOOR == 0:
+                floors += 1
+                warm = resident() if floors <= MAX_KEPT_OFFICES + 1 else warm
+            floor_plan = f"office:small:{10_000 + floors}"
+            env.reset(seed=episodes, options={"floor_plan": floor_plan})
+            episodes += 1
+        if step % 10 == 1:
             pushed = rng.uniform((-0.3, -1.0), (1.0, 1.0))
         observation, reward, terminated, truncated, _ = env.step(pushed)
         assert math.isfinite(reward), (step, reward)
@@ -70,6 +78,4 @@ def drive(count: int, every: int) -> Iterator[Drive]:
         if step == round(WARM_UP * count):
             warm = resident()
         if step % every == 0 or step == count:
-            floors = 1 + (episodes - 1) // EPISODES_ON_A_FLOOR
-            seconds = time.monotonic() - begun
-            yield Drive(step, episodes, floors, warm, resident(), seconds)
+            yield Drive(step, episodes, floors, warm, resident(), time.monotonic() - begun)

@@ -101,7 +101,7 @@ def at_any_time(number: int) -> Callable[[Path, random.Random, float], None]:
 KILLED, CTRL_C = (-signal.SIGKILL,), (INTERRUPTED,)
 STRIKES = (
     Strike("full disk", full_disk, (BAD_INPUT,), False),
-    Strike("killed while writing", killed_writing, (-signal.SIGXFSZ,), True),
+    Strike("killed while writing", killed_writing, (-signal.SIGXFSZ, BAD_INPUT), True),
     Strike("killed at a change", at_a_change(signal.SIGKILL), KILLED, True),
     Strike("killed at any time", at_any_time(signal.SIGKILL), KILLED, True),
     Strike("Ctrl-C at a change", at_a_change(signal.SIGINT), CTRL_C, False),

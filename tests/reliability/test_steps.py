@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from tests.reliability.steps import drive
+from tests.reliability.steps import MOST_GROWTH, drive
 
 STEPS = 3000
-MOST_GROWTH = 30.0
-"""After the warm-up, megabytes."""
 
 
 def test_memory_stays_flat() -> None:

@@ -1,0 +1,43 @@
+"""Case 6: a full disk, a kill and Ctrl-C lose nothing, whatever command writes.
+
+Some strikes are part of every run; the others are slow, and `make soak` tries more of all.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from semnav_env.scripts.main import SEMNAV
+from semnav_env.scripts.map import COMMANDS as MAP
+from tests.reliability.strikes import STRIKES, Strike, fault
+from tests.reliability.writers import WRITERS, Writer
+
+QUICK_STRIKES = {"full disk", "killed while writing"}
+SLOW_COMMANDS = {"train", "train --resume", "evaluate"}
+WRITE_NOTHING = {
+    *("ground", "bench", "doctor", "evaluate language", "map list", "map check"),
+    *("map", "episodes"),  # further commands of these stand in the table
+}
+
+CASES = [
+    pytest.param(
+        writer,
+        strike,
+        id=f"{writer.name}, {strike.name}",
+        marks=[]
+        if strike.name in QUICK_STRIKES and writer.name not in SLOW_COMMANDS
+        else pytest.mark.slow,
+    )
+    for writer in WRITERS
+    for strike in STRIKES
+]
+
+
+@pytest.mark.parametrize(("writer", "strike"), CASES)
+def test_a_strike_loses_nothing(writer: Writer, strike: Strike) -> None:
+    assert not (wrong := fault(writer, strike, seed=1)), wrong
+
+
+def test_every_command_that_writes_is_struck() -> None:
+    names = {*SEMNAV.commands, *(f"map {name}" for name in MAP.commands)}
+    assert names - WRITE_NOTHING <= {writer.name for writer in WRITERS}
