@@ -50,7 +50,10 @@ class LearnedAgent:
         """
         folder = PRETRAINED_FOLDER / path if path in pretrained_names() else Path(path)
         description = AgentDescription.read(folder)
-        fitting = (COMPACT_SIZE, robot_spec(description.robot).action_size)
+        try:
+            fitting = (COMPACT_SIZE, robot_spec(description.robot).action_size)
+        except ValueError as error:
+            raise ValueError(f"{folder / AGENT_FILE}: {error}") from None
         widths = description.widths
         if (widths[0], widths[-1]) != fitting:
             raise ValueError(

@@ -57,7 +57,7 @@ Bad inputs of every area: hostile values for the fields of all settings, and dri
 that were not refused; hostile actions, options, texts and command lines; sound files of every
 kind, damaged at random. Each is tried in a child process with a limit of time and memory. An
 input fails if it ends in a traceback, a message of several lines or one that names no file, a
-NaN, more than a gigabyte, or not within two seconds of processor time.
+NaN, more than a gigabyte, or never.
 
 {inputs}
 
@@ -73,10 +73,10 @@ excuses, or if the command ends in anything but one line that names the file.
 
 ## Long drives
 
-{steps:,} steps of a robot that drives at random, in {episodes:,} episodes on {floors:,} floors, of
-which each was generated for the drive: resident memory was {warm:.0f} MB when the {kept} floors that
-a process keeps had been made, and {memory:.0f} MB at the end. Every observation and reward was finite. It took {seconds:,.0f} s on a
-busy machine; [Speed](speed.md) says how fast a step is.
+{steps:,} steps of a robot that drives at random, in {episodes:,} episodes on {floors:,} floors,
+of which each was generated for the drive: resident memory was {warm:.0f} MB when the {kept} floors
+that a process keeps had been made, and {memory:.0f} MB at the end. Every observation and reward
+was finite. It took {seconds:,.0f} s on a busy machine; [Speed](speed.md) says how fast a step is.
 
 `make soak` measures all of it anew and writes this page; `make soak COUNT=100000 STRIKES=100
 STEPS=50000000` tries more. A share of it is part of the tests (`tests/reliability`), with the
