@@ -13,6 +13,7 @@ from semnav_env.features.readers.npz_arrays import MAX_BYTES as MAX_ARRAY
 from semnav_env.features.readers.text import MAX_EXPANSION
 from semnav_env.features.reading import WHOLE_FILE
 from semnav_env.features.writing import write_file
+from semnav_env.maps.geodesic import RECENT_FIELDS
 from semnav_env.maps.importers.documents import MAX_YAML_BYTES
 from semnav_env.maps.importers.drawing import MAX_SEGMENTS
 from semnav_env.maps.importers.dxf import MAX_BLOCKS, MAX_ENTITIES
@@ -75,8 +76,9 @@ excuses, or if the command ends in anything but one line that names the file.
 
 {steps:,} steps of a robot that drives at random, in {episodes:,} episodes on {floors:,} floors,
 of which each was generated for the drive: resident memory was {warm:.0f} MB when the {kept} floors
-that a process keeps had been made, and {memory:.0f} MB at the end. Every observation and reward
-was finite. It took {seconds:,.0f} s on a busy machine; [Speed](speed.md) says how fast a step is.
+that a process keeps had been made, and {memory:.0f} MB at the end. Between them the fields of
+distances that it keeps fill up, to {fields:.0f} MB at most. Every observation and reward was finite.
+It took {seconds:,.0f} s on a busy machine; [Speed](speed.md) says how fast a step is.
 
 `make soak` measures all of it anew and writes this page; `make soak COUNT=100000 STRIKES=100
 STEPS=50000000` tries more. A share of it is part of the tests (`tests/reliability`), with the
@@ -122,6 +124,7 @@ def page(results: dict[str, Any]) -> str:
         inputs=counts("area, inputs", results["inputs"]),
         strikes=counts("command, strikes", results["strikes"]),
         kept=MAX_KEPT_OFFICES,
+        fields=RECENT_FIELDS.max_bytes / 1e6,
         **results["steps"],
     )
 
