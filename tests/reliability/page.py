@@ -77,8 +77,8 @@ excuses, or if the command ends in anything but one line that names the file.
 {steps:,} steps of a robot that drives at random, in {episodes:,} episodes on {floors:,} floors,
 of which each was generated for the drive: resident memory was {warm:.0f} MB when the {kept} floors
 that a process keeps had been made, and {memory:.0f} MB at the end. Between them the fields of
-distances that it keeps fill up, to {fields:.0f} MB at most. Every observation and reward was finite.
-It took {seconds:,.0f} s on a busy machine; [Speed](speed.md) says how fast a step is.
+distances that it keeps fill up, to {fields:.0f} MB at most. Every observation and reward was
+finite. It took {seconds:,.0f} s on a busy machine; [Speed](speed.md) says how fast a step is.
 
 `make soak` measures all of it anew and writes this page; `make soak COUNT=100000 STRIKES=100
 STEPS=50000000` tries more. A share of it is part of the tests (`tests/reliability`), with the
