@@ -23,10 +23,10 @@ from semnav_env.scripts.main import main
 FROZEN = {
     "english": "c6715a0370b6e6dec67ecacbe6edee88a9997e0dc590327c044b2aa12eaa3c81",
     "german": "12132d91284b2455446fdde016a53c2e97c7e6b7baeba1ceab6e9e11400cd26d",
-    "held_out_english": "0782ba75a720d58a4f01ac989d689380cde9373281f64f0e4ac611edee776507",
-    "held_out_german": "1654cfef85a8fc453b9a31402a5af4f0438aed32bf1808664d79a2146f62d4f1",
+    "second_english": "0782ba75a720d58a4f01ac989d689380cde9373281f64f0e4ac611edee776507",
+    "second_german": "1654cfef85a8fc453b9a31402a5af4f0438aed32bf1808664d79a2146f62d4f1",
 }
-SIZES = {"english": 330, "german": 330, "held_out_english": 170, "held_out_german": 170}
+SIZES = {"english": 330, "german": 330, "second_english": 170, "second_german": 170}
 
 EQUAL = """
 past intersection, door = through door(1,after intersection) = hallway past intersection; through door(1)
