@@ -14,7 +14,14 @@ from importlib.resources import files
 from typing import TypeAlias
 
 from semnav_env.commands.language import Language
-from semnav_env.commands.words import TextPiece, pieces
+from semnav_env.commands.speech.phrases import (
+    Phrase,
+    PhraseCompiler,
+    ends_of,
+    first_words,
+    words_of,
+)
+from semnav_env.commands.words import TextPiece
 
 Match: TypeAlias = tuple[str, int]
 """The value of a phrase, and the number of the first word behind it."""
@@ -28,13 +35,12 @@ class SpeechLexicon:
     """The phrases of a language.
 
     Attributes:
-        by_first: for the first word of a phrase, the phrases with their class and value, longest
-            first.
+        by_first: the phrases with their class and value, by the words with which they can begin.
         words: every word of every phrase.
         language: of the phrases.
     """
 
-    by_first: dict[str, tuple[tuple[tuple[str, ...], str, str], ...]]
+    by_first: dict[str, list[tuple[Phrase, str, str]]]
     words: frozenset[str]
     language: Language
 
@@ -46,12 +52,12 @@ class SpeechLexicon:
     @lru_cache(maxsize=20_000)  # noqa: B019 - the few lexicons live as long as the process
     def _matches(self, window: tuple[str, ...]) -> tuple[tuple[str, str, int], ...]:
         """Class, value and length of every phrase with which some words begin, longest first."""
-        phrases = self.by_first.get(window[0], ()) if window else ()
-        return tuple(
-            (kind, value, len(phrase))
-            for phrase, kind, value in phrases
-            if window[: len(phrase)] == phrase
-        )
+        found = {
+            (kind, value, length): None
+            for phrase, kind, value in (self.by_first.get(window[0], ()) if window else ())
+            for length in ends_of(phrase, window, 0)
+        }
+        return tuple(sorted(found, key=lambda match: -match[2]))
 
     def find(self, words: Sequence[str], at: int, kind: str) -> Match | None:
         """Value and end of the longest phrase of a class at a word; None if there is none."""
@@ -66,12 +72,11 @@ def lexicon_of(language: Language) -> SpeechLexicon:
     """The lexicon of a language, read at the first call."""
     file = files("semnav_env.commands.speech") / f"{language.name}.json"
     table: dict[str, str] = json.loads(file.read_text("utf-8"))
-    phrases = [
-        (phrase, *_class_and_value(key)) for key, row in table.items() for phrase in row.split("|")
-    ]
+    rows = ((key, row) for key, row in table.items() if not key.startswith("<"))
+    phrases = [(phrase, *_class_and_value(key)) for key, row in rows for phrase in row.split("|")]
     phrases += [(word, "ordinal", str(n)) for word, n in _ordinals(language)]
     phrases += [(word, "number", str(n)) for word, n in _numbers(language)]
-    return SpeechLexicon(*_indexed(language, phrases), language)
+    return _indexed(phrases, PhraseCompiler(table, language), language)
 
 
 def _class_and_value(key: str) -> tuple[str, str]:
@@ -106,29 +111,16 @@ def compound_numbers(language: Language) -> Iterator[tuple[str, float]]:
 
 
 def _indexed(
-    language: Language, phrases: Iterable[tuple[str, str, str]]
-) -> tuple[dict[str, tuple[tuple[tuple[str, ...], str, str], ...]], frozenset[str]]:
-    by_first: dict[str, dict[tuple[tuple[str, ...], str, str], None]] = {}
+    texts: Iterable[tuple[str, str, str]], compiler: PhraseCompiler, language: Language
+) -> SpeechLexicon:
+    by_first: dict[str, list[tuple[Phrase, str, str]]] = {}
     known: set[str] = set()
-    for phrase, kind, value in phrases:
-        words = plain_words(phrase, language)
-        known.update(words)
-        by_first.setdefault(words[0], {})[words, kind, value] = None
-    ordered = {
-        first: tuple(sorted(found, key=lambda entry: -len(entry[0])))
-        for first, found in by_first.items()
-    }
-    return ordered, frozenset(known)
-
-
-def plain_words(phrase: str, language: Language) -> tuple[str, ...]:
-    """The words of a phrase as they stand in a normalised text."""
-    folded = language.folded(phrase.casefold()).replace("ß", "ss")
-    return tuple(piece.text for piece in _pieces(folded))
-
-
-def _pieces(text: str) -> list[TextPiece]:
-    return pieces(text)
+    for text, kind, value in texts:
+        for phrase in compiler.compiled(text):
+            known.update(words_of(phrase))
+            for first in first_words(phrase):
+                by_first.setdefault(first, []).append((phrase, kind, value))
+    return SpeechLexicon(by_first, frozenset(known.union(compiler.words())), language)
 
 
 @cache
