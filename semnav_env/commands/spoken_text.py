@@ -69,6 +69,8 @@ def _without_slips(
         AmbiguousCommandError: it would mean something.
     """
     words = [piece.text for piece in said]
+    if any(word in lexicon.of_class("beyond") - lexicon.words for word in words):
+        return None
     corrected = corrected_words(words, lexicon.words.union(*names))
     if corrected is None:
         return None

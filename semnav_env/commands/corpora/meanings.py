@@ -12,7 +12,8 @@ The equivalences, each true by the rules of docs/commands.md:
 8. A corner and the end are where the hallway ends, so "before" them limits nothing; a door
    "at end" is the one ahead, or the last one of its side.
 9. "back to P" is to turn around and to go on until the next P.
-10. "leave D" is "through D"; a "stop" at the end adds nothing.
+10. "leave D" is "through D"; a "stop" at the end adds nothing, nor does one before a "wait".
+11. A turn that depends on a place is made there.
 """
 
 from __future__ import annotations
@@ -156,6 +157,7 @@ def _unfolded(step: Step) -> list[Step]:
             return [*_with_door(("hallway", "until"), tuple(door)), ("turn", way, None)]
         case ("if", word, what, then, otherwise):
             absent = {"closed": "no", "open": "there"}.get(word, word)
+            then = _turned_at(what, then) if absent == "there" else then
             if absent == "no" and otherwise:
                 absent, then, otherwise = "there", otherwise, then
             first = _plain(what)[1]
@@ -165,6 +167,14 @@ def _unfolded(step: Step) -> list[Step]:
                     return [("through", first)]  # the first open one
             return [("if", absent, _plain(what)[1], normal(then), normal(otherwise))]
     return [step]
+
+
+def _turned_at(place: Step, then: Steps) -> Steps:
+    """The steps of a condition with a turn at the place that it asks for."""
+    match then:
+        case (("turn", "left" | "right" as way, None),) if place[0] not in ("door", "room"):
+            return (("turn", way, place),)
+    return then
 
 
 def _with_door(verb: tuple[str, ...], door: Step) -> list[Step]:
@@ -201,6 +211,8 @@ def _append(found: list[Step], step: Step) -> None:
             found[-1:] = [("turn", way, ("turning", 1))]
         case ("to" | "in", _), ("stop",):
             pass
+        case ("stop",), ("wait", _):
+            found[-1:] = [step]
         case ("wait", float(first)), ("wait", seconds):
             found[-1:] = [("wait", first + seconds)]
         case ("turn", "around", None), ("turn", "around", None):

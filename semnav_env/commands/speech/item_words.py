@@ -90,6 +90,13 @@ class ItemWords:
             ["beside"],
         )
 
+    def _ends_clause(self, at: int) -> bool:
+        """Whether no side or place goes on with a clause: "where the kitchen is on the left"."""
+        if at >= len(self.words):
+            return True
+        kinds = {kind for kind, _, _ in self.lexicon.matches(self.words, at)}
+        return not kinds & {"where", "side", "particle", "is open", "is closed", "prep", "not"}
+
     def _has_verb(self, at: int) -> bool:
         return any(
             value == "reach" and stop == at
@@ -163,6 +170,8 @@ class ItemWords:
                 here = at = max(stop for kind, _, stop in matches if kind == "is open")
             elif any(kind == "link" for kind, _, _ in matches) and not verb:
                 here = next(stop for kind, _, stop in matches if kind == "link")
+                if "when" in roles and self._ends_clause(here):
+                    return here, past  # "where the kitchen is"
             elif verb:
                 here = verb[0]
                 at = here

@@ -180,7 +180,7 @@ def _is_left(item: Item, frame: ClauseFrame) -> bool:
         noun.kind in ("it", "one")
         or "out" in roles
         or (_is_bare_way_out(item, frame) and is_door(noun))
-        or (noun.kind in ("room", "named", "door") and not roles)
+        or (noun.kind in ("room", "named", "door", "area") and not roles)
     )
 
 

@@ -29,6 +29,9 @@ Match: TypeAlias = tuple[str, int]
 LONGEST_PHRASE = 12
 """The most words of a phrase."""
 
+MIN_COMPOUND = 6
+"""The fewest letters of a word that is taken apart."""
+
 
 @dataclass(frozen=True, eq=False)
 class SpeechLexicon:
@@ -48,6 +51,16 @@ class SpeechLexicon:
         """Class, value and end of every phrase that begins at a word, longest first."""
         window = tuple(words[at : at + LONGEST_PHRASE])
         return ((kind, value, at + length) for kind, value, length in self._matches(window))
+
+    @cache  # noqa: B019 - as below
+    def of_class(self, kind: str) -> frozenset[str]:
+        """The single words of a class."""
+        return frozenset(
+            first
+            for first, phrases in self.by_first.items()
+            for phrase, each, _ in phrases
+            if each == kind and phrase == (first,)
+        )
 
     @lru_cache(maxsize=20_000)  # noqa: B019 - the few lexicons live as long as the process
     def _matches(self, window: tuple[str, ...]) -> tuple[tuple[str, str, int], ...]:
@@ -117,7 +130,7 @@ def _indexed(
     known: set[str] = set()
     for text, kind, value in texts:
         for phrase in compiler.compiled(text):
-            known.update(words_of(phrase))
+            known.update(() if kind == "beyond" else words_of(phrase))
             for first in first_words(phrase):
                 by_first.setdefault(first, []).append((phrase, kind, value))
     return SpeechLexicon(by_first, frozenset(known.union(compiler.words())), language)
@@ -133,14 +146,15 @@ def mixed(main: SpeechLexicon, other: SpeechLexicon) -> SpeechLexicon:
 
 
 def spoken_pieces(found: Sequence[TextPiece], lexicon: SpeechLexicon) -> list[TextPiece]:
-    """The words of a text without hesitations, and with "the door's" read as "the door is"."""
+    """The words of a text without hesitations, "the door's" read as "the door is", and with
+    unknown words taken apart where their parts are known ("reinfahren")."""
     spoken: list[TextPiece] = []
     for piece in found:
         base = piece.text.removesuffix("'s")
         if base != piece.text and piece.text not in lexicon.words and base in lexicon.words:
             spoken += [piece._replace(text=base), piece._replace(text="is")]
         elif piece.text != "'":
-            spoken.append(piece)
+            spoken += [piece._replace(text=part) for part in parts_of(piece.text, lexicon)]
     return without(spoken, lexicon, "hesitation")
 
 
@@ -154,3 +168,24 @@ def without(found: Sequence[TextPiece], lexicon: SpeechLexicon, kind: str) -> li
             kept.append(found[at])
         at = match[1] if match else at + 1
     return kept or list(found)
+
+
+def parts_of(word: str, lexicon: SpeechLexicon) -> tuple[str, ...]:
+    """The known words of which an unknown one is made; the word itself if it is made of none.
+
+    A separable verb is a particle and a verb, with "zu" between them or not ("hineinzufahren"). Of
+    a compound the last part says what it is ("Flurkreuzung").
+    """
+    if word in lexicon.words or len(word) < MIN_COMPOUND or not word.isalpha():
+        return (word,)
+    for first in sorted(lexicon.of_class("separable"), key=len, reverse=True):
+        rest = word.removeprefix(first)
+        if rest != word:
+            for verb in (rest, rest.removeprefix("zu")):
+                if lexicon.find((verb,), 0, "verb"):
+                    return verb, first
+    for first in lexicon.of_class("compound"):
+        rest = word.removeprefix(first)
+        if rest != word and lexicon.find((rest,), 0, "noun"):
+            return (rest,)
+    return (word,)

@@ -62,7 +62,7 @@ def is_door(noun: Noun) -> bool:
 def is_this_room(noun: Noun) -> bool:
     """Whether a noun can be the room in which the robot is."""
     bare = noun.ordinal is None and noun.side is None and not noun.at_end
-    return noun.kind == "room" and bare
+    return noun.kind in ("room", "area") and bare
 
 
 def moves(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
@@ -84,6 +84,8 @@ def moves(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
         return _hall(noun, roles, verbs)
     if noun.kind == "named":
         return _room(noun, roles, verbs)
+    if noun.kind == "area":
+        return _area(roles, verbs)
     if is_door(noun):
         return _door(noun, roles, verbs)
     return _place(noun, roles, verbs)
@@ -131,6 +133,17 @@ def _room(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     if "cross" in verbs or ("through" in roles and "cross" in verbs):
         return (GoToRoom(room.name), Follow(PlaceReference(Place.END)))
     return (GoToRoom(room.name),)
+
+
+def _area(roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
+    """A kind of room, such as a lobby, which is only known as the one around the robot."""
+    if "leave" in verbs or "out" in roles:
+        return (Leave(),)
+    if "cross" in verbs or roles & {"through", "across"}:
+        return (Follow(PlaceReference(Place.END)),)
+    if roles & {"in", "into"} and verbs and not verbs - {"be", "reach"}:
+        return ()  # "then you are in the lobby"
+    raise NoMeaningError("area")
 
 
 def _door(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:

@@ -37,15 +37,21 @@ class NounReader(NounWords):
     names: Mapping[tuple[str, ...], str]
     last: Noun | None = None
 
-    def read(self, at: int) -> tuple[Noun, int] | None:
-        """The noun that begins at a word and the word behind it; None if none does."""
+    def read(self, at: int, determined: bool = False) -> tuple[Noun, int] | None:
+        """The noun that begins at a word and the word behind it; None if none does.
+
+        Args:
+            at: number of its first word.
+            determined: its article stands before it ("zur nächsten").
+        """
         noun, here = Noun(""), at
-        said_which = determined = False
+        said_which = is_article = False
         while here < len(self.words):
             rank, name = self.find(here, "ordinal"), self._name(here)
             plain = rank is None or (name is not None and name[1] > rank[1])
             if plain and (head := self._head(here, noun)):
-                if not determined and (self._is_verb(here) or self._is_lone_letter(here)):
+                bare = not determined and noun.ordinal is None
+                if bare and (self._is_verb(here) or self._is_lone_letter(here)):
                     return None  # "turn left" is no turning on the left
                 if self._is_elliptic_turn(here, noun):
                     break  # "at the second turn left", of intersections
@@ -55,8 +61,12 @@ class NounReader(NounWords):
                 return self._behind(noun, here)
             adjective = self.find(here, "adj")
             longest = adjective[1] if adjective else 0
+            was_article, is_article = is_article, False
             if (found := self.find(here, "det")) and found[1] >= longest:
-                determined = True
+                again = was_article and self.words[here] == self.words[here - 1]
+                if (was_article and not again) or (noun.side is not None and not determined):
+                    return None  # "that its the first door", "links den Gang hinunter"
+                determined = is_article = True
             elif (found := self.find(here, "a")) and found[1] >= longest:
                 noun, determined = replace(noun, definite=False), True
             elif modified := self._modifier(here, noun):
@@ -70,7 +80,7 @@ class NounReader(NounWords):
                     said_which = True
                     ordinal = _adjective_ordinal(found[0], noun)
                     noun = replace(noun, ordinal=ordinal, closed=found[0] == "closed")
-            elif not (here > at and (found := self.find(here, "filler"))):
+            elif not (determined and here > at and (found := self.find(here, "filler"))):
                 break
             here = found[1]
         told = self._without_head(noun, here) if said_which else None
@@ -117,7 +127,8 @@ class NounReader(NounWords):
             return replace(noun, kind=kind), stop
         if (found := self.find(at, "one")) and found[1] <= len(self.words):
             plain = noun.ordinal is None and noun.side is None and not self._is_after_article(at)
-            if plain and not self._side_behind(replace(noun, kind="one"), found[1]):
+            german = self.lexicon.language.code == "de"
+            if plain and (german or not self._side_behind(replace(noun, kind="one"), found[1])):
                 return None
             after = self.find(at, "after that") is not None
             return replace(noun, kind="one", relative=after), found[1]
@@ -221,7 +232,7 @@ class NounReader(NounWords):
                 self.last = turning
                 return turning, at
             return self._behind(replace(noun, kind="one", elliptic=True), at)
-        adjectives = [w for w in self.words[max(0, at - 2) : at] if w[:4] in ("link", "rech")]
+        adjectives = [w for w in self.words[at - 1 : at] if w[:4] in ("link", "rech")]
         if noun.side is not None and adjectives and adjectives[-1] not in ("links", "rechts"):
             german = self.lexicon.language.code == "de"
             if german and len(adjectives[-1]) < 8:

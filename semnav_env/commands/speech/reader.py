@@ -46,6 +46,9 @@ KIND_OF_CLASS = {"around alone": ItemKind.AROUND, "end until": ItemKind.TO_END}
 
 SIGNS = frozenset(",;.!?:")
 
+WITH_ARTICLE = frozenset({"zur", "zum", "im", "am", "ins", "ans", "beim", "vom", "vors", "durchs"})
+"""German prepositions that hold an article."""
+
 
 class ItemReader(ItemWords):
     """Reads a text from left to right.
@@ -78,7 +81,7 @@ class ItemReader(ItemWords):
         while at < len(self.words):
             item = self._item(at, found)
             if item is None:
-                stop = self._filler(at) or self._skipped(at)
+                stop = self._filler(at) or self._skipped(at) or self._no_correction(at)
                 if stop is None:
                     found.append(Item(ItemKind.UNKNOWN, at, at + 1, self.words[at]))
                 at = stop or at + 1
@@ -178,6 +181,11 @@ class ItemReader(ItemWords):
         if (where := self.lexicon.find(self.words, at, "start where")) is not None:
             yield Item(ItemKind.REF, at, where[1], Noun("start"))
 
+    def _no_correction(self, at: int) -> int | None:
+        """The word behind "wait" and the like where they correct nothing."""
+        found = self.lexicon.find(self.words, at, "no")
+        return found[1] if found and self._may_wait(at) else None
+
     def _is_no_correction(self, at: int, stop: int) -> bool:
         """Whether words such as "wait" stand where nothing can be corrected."""
         if not self._may_wait(at):
@@ -204,7 +212,8 @@ class ItemReader(ItemWords):
     def _nouns(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
         """Nouns with and without a preposition."""
         if noun := self.nouns.read(at):
-            yield Item(ItemKind.REF, at, noun[1], noun[0])
+            roles = ("at",) if self.lexicon.find(self.words, at, "clause start") else ()
+            yield Item(ItemKind.REF, at, noun[1], noun[0], roles)
         elif it := self.lexicon.find(self.words, at, "it alone"):
             yield Item(ItemKind.REF, at, it[1], Noun("it"))
         stops: dict[int, list[str]] = {}
@@ -217,7 +226,8 @@ class ItemReader(ItemWords):
             inner, more = stop, list(roles)
             if "when" in roles or "until" in roles:
                 inner, more = self._inner_preposition(stop, roles)
-            noun = self.nouns.read(inner) or self._it(inner)
+            has_article = self.words[inner - 1] in WITH_ARTICLE
+            noun = self.nouns.read(inner, has_article) or self._it(inner)
             if noun is None:
                 continue
             behind = self._behind_clause(noun[1], roles)
@@ -261,7 +271,9 @@ class ItemReader(ItemWords):
                 here = found[1]
             half = here
             if side := self.nouns._plain_side(half):
-                roles = ("on",) if self.words[at] in ("on", "auf") else ()
+                named = self.nouns.find(half, "side")
+                sided = named is not None and side[1] > named[1]  # "the left side"
+                roles = ("on",) if self.words[at] in ("on", "auf") or sided else ()
                 yield Item(ItemKind.SIDE, at, side[1], side[0], roles)
         where = self.lexicon.find(self.words, at, "where")
         if where:
