@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from semnav_env.commands.clauses import Stop
 from semnav_env.commands.command import Command
 from semnav_env.commands.errors import AmbiguousCommandError
 from semnav_env.commands.language import Language
@@ -75,7 +76,7 @@ def _without_slips(
     if corrected is None:
         return None
     meant = understand(corrected[0], lexicon, names).commands
-    if not meant:
+    if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
         return None
     word = next(iter(corrected[1].values()))
     ways = tuple(command.say(lexicon.language) for command in meant)

@@ -150,7 +150,8 @@ def read_leave(frame: ClauseFrame) -> Readings | None:
         return ((GoToDoor(door), *turns),)
     steps: Steps = (Leave(), *turns)
     for item in rest:
-        steps = (*steps, *moves(item.value, frame.roles(item), frozenset({"go"})))
+        if item.value.kind != "hall" or not frame.roles(item) & {"to", "into"}:
+            steps = (*steps, *moves(item.value, frame.roles(item), frozenset({"go"})))
     if frame.has(ItemKind.STRAIGHT):
         steps = (*steps, Follow())
     if (

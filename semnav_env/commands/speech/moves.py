@@ -54,6 +54,13 @@ def landmark(noun: Noun) -> Landmark:
     raise NoMeaningError(noun.kind)
 
 
+def landmark_door(noun: Noun) -> DoorReference:
+    """The door that a noun names."""
+    door = landmark(noun)
+    assert isinstance(door, DoorReference)
+    return door
+
+
 def is_door(noun: Noun) -> bool:
     """Whether a noun names a door; a room does by its door, unless it is the room around."""
     return noun.kind in ("door", "room", "one")
@@ -120,7 +127,7 @@ def _room(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     room = RoomReference(plain_name(noun.name))
     if roles & {"past", "after"} or verbs & {"pass"}:
         return (Follow(room, past=True),)
-    if roles & {"near", "opposite", "before"} and not roles & {"past", "front", "to", "into"}:
+    if roles & {"near", "opposite", "before", "from"} and not roles & {"past", "front", "to", "into"}:
         raise NoMeaningError("beside a room")
     if "until" in roles and "front" not in roles:
         return (Follow(room),)

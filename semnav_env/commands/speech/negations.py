@@ -106,7 +106,7 @@ def _without(items: list[Item], at: int) -> list[Item]:
         return items
     place = next((i for i in negated if i.kind is ItemKind.REF and "at" in i.roles), None)
     if place is not None and not is_door(place.value) and verbs:
-        return [*before, place, *rest]
+        return [*before, *rest] if _names_another(place, rest[0]) else [*before, place, *rest]
     refs = [item for item in negated if item.kind is ItemKind.REF]
     if refs and rest[0].kind is ItemKind.REF and not verbs:
         merged = merged_items(refs[-1], rest[0]) if corrects(refs[-1], rest[0]) else rest[0]
@@ -117,6 +117,11 @@ def _without(items: list[Item], at: int) -> list[Item]:
     if before and before[-1].kind is ItemKind.VERB and rest[0].kind is ItemKind.VERB:
         before = before[:-1]
     return [*before, *rest]
+
+
+def _names_another(place: Item, item: Item) -> bool:
+    """Of "Not at the first intersection, but at the second": counted from the same place."""
+    return item.kind is ItemKind.REF and corrects(place, item) and bool(set(item.roles) & {"at"})
 
 
 def _is_contrast(before: Sequence[Item], negated: Item) -> bool:

@@ -93,6 +93,8 @@ def read_turn(frame: ClauseFrame) -> Readings | None:
         return (*contexts, GoToDoor(door)), (*contexts, GoToDoor(door, Approach.TO))
     if doors:
         return _door_on_side(frame, contexts, rest, way)
+    if "be" in frame.verbs and len(rest) == 1 and rest[0].value.kind == "named":
+        return ((*contexts, *moves(rest[0].value, frame.roles(rest[0]), frame.verbs)),)
     if frame.goes_in:
         others = tuple(step for item in rest for step in before_turn(item, frame))
         return ((*contexts, *others, GoToDoor(DoorReference(1, Side(way.value)))),)
@@ -202,6 +204,10 @@ def _turn_among(frame: ClauseFrame, contexts: Steps, rest: list[Item], way: Turn
         return ((turn, turn),)
     if len(frame.items) == 1 and frame.items[0].roles:
         return ((SideOfMentionedDoor(Side(way.value)),),)
+    if frame.of(ItemKind.SIDE)[0].roles and not frame.verbs & {"turn", "make", "take", "go"}:
+        raise NoMeaningError("a side is no turn")  # "the second door, on the left side"
+    if frame.of(ItemKind.SIDE)[0].roles and "ab" in {i.value for i in frame.of(ItemKind.PARTICLE)}:
+        raise NoMeaningError("along a side")
     if len(frame.items) == 1:
         return (turn,), (SideOfMentionedDoor(Side(way.value)),)
     if at_door is not None:
