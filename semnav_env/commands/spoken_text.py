@@ -12,6 +12,7 @@ from semnav_env.commands.languages import english
 from semnav_env.commands.normalise import normalise
 from semnav_env.commands.refusal import refusal
 from semnav_env.commands.rooms import name_phrases
+from semnav_env.commands.speech.items import ItemKind
 from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of, spoken_pieces, without
 from semnav_env.commands.speech.recognition import lexicon_for, recognised
 from semnav_env.commands.speech.typos import corrected_words
@@ -42,6 +43,7 @@ def readings_of_text(
     understood = _understood(said, lexicon, names)
     if not understood.commands:
         understood = _without_slips(said, lexicon, names, text) or understood
+        _ask_without_unread(said, lexicon, names, text, understood)
         raise refusal(understood, said, normalised, lexicon, rooms, forced=language is not None)
     return understood.commands
 
@@ -81,3 +83,25 @@ def _without_slips(
     word = next(iter(corrected[1].values()))
     ways = tuple(command.say(lexicon.language) for command in meant)
     raise AmbiguousCommandError(text[:200], meant, ways, suggestion=word)
+
+
+def _ask_without_unread(
+    said: Sequence[TextPiece],
+    lexicon: SpeechLexicon,
+    names: Mapping[tuple[str, ...], str],
+    text: str,
+    understood: Understanding,
+) -> None:
+    """Ask whether a text means what it would mean without words that are not understood.
+
+    Raises:
+        AmbiguousCommandError: it would mean something.
+    """
+    words = [piece.text for piece in said]
+    meant = understand(words, lexicon, names, leave_out=True).commands
+    if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
+        return
+    unread = next(item for item in understood.items if item.kind is ItemKind.UNKNOWN)
+    ways = tuple(command.say(lexicon.language) for command in meant)
+    unread_words = " ".join(words[unread.start : unread.stop])
+    raise AmbiguousCommandError(text[:200], meant, ways, unread=unread_words)
