@@ -26,13 +26,12 @@ from semnav_env.commands.clauses import (
     GoToDoor,
     GoToRoom,
     IfThere,
-    Leave,
     Stop,
     Turn,
     Turning,
 )
 from semnav_env.commands.command import reference_of
-from semnav_env.commands.references import DoorReference, Place, PlaceReference, Side
+from semnav_env.commands.references import DoorReference, Place, Side
 
 
 class ReadingClause(NamedTuple):
@@ -111,43 +110,11 @@ def one_reading(found: Sequence[ClauseReadings], choice: Sequence[Steps]) -> Rea
                 case _:
                     adverbs = (each.anew, each.in_any_case) if number == 0 else (False, False)
                     reading.append(ReadingClause(step, *adverbs))
-    return _without_repeats(reading)
+    return reading
 
 
 def _is_at_door(reading: Reading) -> bool:
     return bool(reading) and isinstance(reading[-1].clause, GoToDoor)
-
-
-def _without_repeats(reading: Reading) -> Reading:
-    """The clauses without those that say again what the one before them says."""
-    found: Reading = []
-    for each in reading:
-        before = found[-1].clause if found else None
-        match before, each.clause:
-            case Leave(), Leave():
-                continue
-            case Follow(PlaceReference(Place.END)), Follow(PlaceReference(Place.END)):
-                continue
-            case Follow(PlaceReference(Place.END)), GoToDoor(DoorReference(-1)):
-                found[-1] = each
-                continue
-            case GoToDoor(_, Approach.TO | Approach.THROUGH), GoToDoor(
-                DoorReference(1, None) as door, Approach.IN
-            ) if isinstance(before, GoToDoor) and before.door != door:
-                inside = replace(before, approach=Approach.IN)
-                found[-1] = found[-1]._replace(clause=inside)
-                continue
-            case GoToRoom(_, Approach.THROUGH), IfThere(DoorReference(1)) if isinstance(
-                before, GoToRoom
-            ):
-                found[-1] = found[-1]._replace(clause=replace(before, approach=Approach.TO))
-            case GoToRoom(), GoToDoor(DoorReference(1, None), Approach.TO) if isinstance(
-                before, GoToRoom
-            ):
-                found[-1] = found[-1]._replace(clause=replace(before, approach=Approach.TO))
-                continue
-        found.append(each)
-    return found
 
 
 def _stop_before(reading: Reading, index: int) -> None:

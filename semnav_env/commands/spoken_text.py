@@ -11,6 +11,7 @@ from semnav_env.commands.language import Language
 from semnav_env.commands.languages import english
 from semnav_env.commands.normalise import normalise
 from semnav_env.commands.refusal import refusal
+from semnav_env.commands.repeats import told_once
 from semnav_env.commands.rooms import name_phrases
 from semnav_env.commands.speech.items import ItemKind
 from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of, spoken_pieces, without
@@ -45,7 +46,19 @@ def readings_of_text(
         understood = _without_slips(said, lexicon, names, text) or understood
         _ask_without_unread(said, lexicon, names, text, understood)
         raise refusal(understood, said, normalised, lexicon, rooms, forced=language is not None)
-    return understood.commands
+    return _as_said(understood.commands, said, lexicon.language)
+
+
+def _as_said(
+    commands: Sequence[Command], said: Sequence[TextPiece], language: Language
+) -> tuple[Command, ...]:
+    """The command that is said in its canonical words, or what is said, each thing once."""
+    words = [piece.text for piece in said]
+    for command in commands:
+        canonical = pieces(normalise(command.say(language), language).text)
+        if [piece.text for piece in canonical] == words:
+            return (command,)
+    return tuple(dict.fromkeys(map(told_once, commands)))
 
 
 def _understood(

@@ -14,6 +14,7 @@ The equivalences, each true by the rules of docs/commands.md:
 9. "back to P" is to turn around and to go on until the next P.
 10. "leave D" is "through D"; a "stop" at the end adds nothing, nor does one before a "wait".
 11. A turn that depends on a place is made there.
+12. Whether a room is open is seen in front of it, and its door is then the first one.
 """
 
 from __future__ import annotations
@@ -45,6 +46,8 @@ from semnav_env.commands.references import (
     Unit,
 )
 from semnav_env.commands.rooms import plain_name
+
+_FIRST = ("door", 1, None, None, None)
 
 ENDS = ("corner", "end", "t-junction")
 """Places at which a hallway ends, so that no door lies behind them."""
@@ -156,6 +159,10 @@ def _unfolded(step: Step) -> list[Step]:
         case ("turn", way, ("door", *_) as door):
             return [*_with_door(("hallway", "until"), tuple(door)), ("turn", way, None)]
         case ("if", word, what, then, otherwise):
+            if what[0] == "room":
+                inside = tuple(("through", _FIRST) if each == what else each for each in then)
+                there = ("if", word, _FIRST, inside, otherwise)
+                return [("to", what), *_unfolded(there)]
             absent = {"closed": "no", "open": "there"}.get(word, word)
             then = _turned_at(what, then) if absent == "there" else then
             if absent == "no" and otherwise:

@@ -161,6 +161,8 @@ def contexts_of(frame: ClauseFrame) -> tuple[Steps, list[Item]]:
             steps += _passed(item.value)
         else:
             rest.append(item)
+    if steps and frame.verbs == {"be"}:  # "it's two doors past the kitchen"
+        rest = [replace(item, value=replace(item.value, counted=False)) for item in rest]
     return tuple(steps), rest
 
 

@@ -122,7 +122,8 @@ def _turned_away(frame: ClauseFrame) -> Readings:
         noun = replace(noun, side=None)
         straight = Item(ItemKind.STRAIGHT, frame.refs[0].start, frame.refs[0].stop)
         frame = ClauseFrame((*frame.items, straight))
-    first: Steps = (Face(landmark(noun)), Turn(Turning.AROUND))
+    known = noun.kind == "entry"  # with it behind it the robot came in
+    first: Steps = () if known else (Face(landmark(noun)), Turn(Turning.AROUND))
     rest = tuple(item for item in frame.items if item is not frame.refs[0] and item.value != "away")
     plain = ClauseFrame(
         tuple(

@@ -144,7 +144,10 @@ class ItemWords:
         """Words between "when" or "until" and its noun: "bis du an die", "wenn du zur"."""
         while (filler := self._filler(at)) and not self.nouns.read(at):
             at = filler
-        stops = [stop for kind, _, stop in self.lexicon.matches(self.words, at) if kind == "prep"]
+        found = [(v, stop) for kind, v, stop in self.lexicon.matches(self.words, at) if kind == "prep"]
+        stops = [stop for _, stop in found]
+        if any(value == "out" for value, _ in found):
+            return len(self.words), roles  # "wenn du aus der Tür kommst" is no place
         if stops and self.nouns.read(stops[0]):
             return stops[0], roles
         return at, roles

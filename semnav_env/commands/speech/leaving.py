@@ -85,6 +85,8 @@ def _back_to(noun: Noun, roles: frozenset[str]) -> Steps:
     """Back along the way to the last thing of a kind: the first one after turning around."""
     if noun.kind in ("start", "way back", "it"):
         return (GoBack(),)
+    if noun.kind == "entry":
+        return (TurnBack(), Follow(DoorReference()))
     if noun.kind == "hall":
         return (TurnBack(), Follow())
     if noun.kind == "named":

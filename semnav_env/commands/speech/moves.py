@@ -41,7 +41,7 @@ def landmark(noun: Noun) -> Landmark:
         if not noun.at_end:
             return DoorReference(ordinal, noun.side)
         if noun.side is None:
-            return DoorReference(ordinal, Side.AHEAD)
+            return DoorReference(ordinal, None if ordinal == LAST else Side.AHEAD)
         return DoorReference(LAST if ordinal == 1 else ordinal, noun.side)
     if noun.kind == "named":
         return RoomReference(plain_name(noun.name))
@@ -93,6 +93,8 @@ def moves(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
         return _room(noun, roles, verbs)
     if noun.kind == "area":
         return _area(roles, verbs)
+    if noun.kind == "entry" and (roles & {"into", "through", "out"} or verbs & {"take", "leave"}):
+        return (Leave(),)
     if is_door(noun):
         return _door(noun, roles, verbs)
     return _place(noun, roles, verbs)

@@ -96,6 +96,12 @@ def _without(items: list[Item], at: int) -> list[Item]:
     rest = items[following:]
     verbs = [item for item in negated if item.kind is ItemKind.VERB]
     before = items[:at]
+    if not rest:
+        again = [i for i in range(at + 2, stop) if items[i].kind is ItemKind.VERB]
+        if again and items[again[0]].value != "be":  # "don't turn around go straight"
+            return [*items[:at], *items[again[0] :]]
+    if not negated and (said := _said_before(items, at)) is not None and following < len(items):
+        return [*items[:said], *rest]  # "durch die Tür rechts nicht, durch die linke"
     if not rest or not negated:
         if len(negated) == len(verbs) == 1 and verbs[0].value in ("go", "turn"):
             return [*before, replace(verbs[0], value="stop")]
@@ -117,6 +123,17 @@ def _without(items: list[Item], at: int) -> list[Item]:
     if before and before[-1].kind is ItemKind.VERB and rest[0].kind is ItemKind.VERB:
         before = before[:-1]
     return [*before, *rest]
+
+
+def _said_before(items: Sequence[Item], at: int) -> int | None:
+    """Where the clause begins that a "not" at its end negates; None if there is none."""
+    start = at
+    while start > 0 and items[start - 1].kind not in SOFT:
+        start -= 1
+    behind = items[at + 1] if at + 1 < len(items) else None
+    ends = behind is not None and behind.kind in (*SOFT, ItemKind.BUT)
+    named = any(item.kind is ItemKind.REF for item in items[start:at])
+    return start if ends and named and start < at else None
 
 
 def _names_another(place: Item, item: Item) -> bool:

@@ -39,7 +39,8 @@ class NounWords:
         return Side(found[0]), word[1] if word else found[1]
 
     def _is_after_article(self, at: int) -> bool:
-        return at > 0 and any(stop == at for _, stop in filter(None, [self.find(at - 1, "det")]))
+        found = [self.find(at - 1, "det"), self.find(at - 1, "a")] if at > 0 else []
+        return any(stop == at for _, stop in filter(None, found))
 
     def _name(self, at: int) -> tuple[str, int] | None:
         """The longest name of a room at a word."""

@@ -17,7 +17,7 @@ COUNTABLE = ("door", "room", "intersection", "corner", "t_junction", "turning")
 DOORLIKE = ("door", "room", "one")
 """Kinds of nouns that have a side."""
 
-CHOOSING = ("open", "closed", "nearest", "any", "other", "next", "after next", "last")
+CHOOSING = ("open", "closed", "nearest", "any", "other", "next", "after next", "last", "middle")
 """Adjectives that say which one is meant."""
 
 
@@ -49,6 +49,8 @@ class NounReader(NounWords):
         while here < len(self.words):
             rank, name = self.find(here, "ordinal"), self._name(here)
             plain = rank is None or (name is not None and name[1] > rank[1])
+            if here > at and self.find(here, "clause start"):
+                break
             if plain and (head := self._head(here, noun)):
                 bare = not determined and noun.ordinal is None
                 if bare and (self._is_verb(here) or self._is_lone_letter(here)):
@@ -78,7 +80,7 @@ class NounReader(NounWords):
                     return None  # "open the door" is no open door
                 if found[0] in CHOOSING:
                     said_which = True
-                    ordinal = _adjective_ordinal(found[0], noun)
+                    ordinal = self._chosen(found[0]) or _adjective_ordinal(found[0], noun)
                     noun = replace(noun, ordinal=ordinal, closed=found[0] == "closed")
             elif not (determined and here > at and (found := self.find(here, "filler"))):
                 break
@@ -96,6 +98,12 @@ class NounReader(NounWords):
             and self.words[at] == "turn"
             and self._plain_side(at + 1) is not None
         )
+
+    def _chosen(self, adjective: str) -> int | None:
+        """The ordinal of "the middle one" or "the last one" of several that were named."""
+        if self.last is None or not self.last.counted or not self.last.ordinal:
+            return None
+        return {"last": self.last.ordinal, "middle": (self.last.ordinal + 1) // 2}.get(adjective)
 
     def _modifier(self, at: int, noun: Noun) -> tuple[Noun, int] | None:
         """An ordinal, a number or a side before a noun."""
@@ -153,6 +161,8 @@ class NounReader(NounWords):
                 noun, at = replace(noun, at_end=True), end[1]
             elif is_doorlike(noun) and (state := self._state(at)):
                 at = state
+            elif is_doorlike(noun) and (came := self.find(at, "came by")):
+                noun, at = replace(noun, kind="entry"), came[1]
             elif noun.counted and noun.kind == "door" and (on := self.find(at, "further")):
                 noun, at = replace(noun, counted=False), on[1]
             elif noun.doorway and (door := self._of_door(at)):
@@ -203,9 +213,7 @@ class NounReader(NounWords):
         return any(end >= stop and self._is_noun(end) for end in preps)
 
     def _is_noun(self, at: int) -> bool:
-        remembered = self.last
         noun = self.read(at) if at < len(self.words) else None
-        self.last = remembered
         return noun is not None and noun[0].kind not in ("it", "one", "hall")
 
     def _of_hall(self, at: int) -> int | None:
@@ -228,9 +236,7 @@ class NounReader(NounWords):
         """A noun that is left out: "the second on the left", "die rechte"."""
         if noun.ordinal is not None and not noun.counted:
             if noun.side is not None and self.lexicon.language.code == "en":
-                turning = replace(noun, kind="turning")
-                self.last = turning
-                return turning, at
+                return replace(noun, kind="turning"), at
             return self._behind(replace(noun, kind="one", elliptic=True), at)
         adjectives = [w for w in self.words[at - 1 : at] if w[:4] in ("link", "rech")]
         if noun.side is not None and adjectives and adjectives[-1] not in ("links", "rechts"):
@@ -251,8 +257,6 @@ class NounReader(NounWords):
                 noun = self._following(noun)
             elif noun.side is None and kind in ("door", "room", "turning") and noun.ordinal:
                 noun = replace(noun, side=self.last.side)
-        if noun.kind in COUNTABLE:
-            self.last = noun
         return noun
 
     def _counted_on(self, noun: Noun) -> Noun:

@@ -8,9 +8,9 @@ from dataclasses import replace
 from semnav_env.commands.references import Side
 from semnav_env.commands.speech.conditions import read_condition
 from semnav_env.commands.speech.item_words import ItemWords
-from semnav_env.commands.speech.items import Item, ItemKind, Noun
+from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
-from semnav_env.commands.speech.nouns import NounReader
+from semnav_env.commands.speech.nouns import COUNTABLE, NounReader
 from semnav_env.commands.speech.numerals import read_number
 
 PLAIN_CLASSES = (
@@ -79,6 +79,9 @@ class ItemReader(ItemWords):
         opens = self.exact and list(self.words[:2]) == ["right", ","]
         at = 2 if opens else 0  # "right, so ..." is no turn
         while at < len(self.words):
+            if self.lexicon.find(self.words, at, "purpose"):
+                at = self._end_of_remark(at)
+                continue
             item = self._item(at, found)
             if item is None:
                 stop = self._filler(at) or self._skipped(at) or self._no_correction(at)
@@ -100,7 +103,6 @@ class ItemReader(ItemWords):
     def _item(self, at: int, before: Sequence[Item]) -> Item | None:
         if self.words[at] in SIGNS and not self._has_phrase(at):
             return Item(ItemKind.SIGN, at, at + 1, self.words[at])
-        remembered = self.nouns.last
         best: Item | None = None
         for item in self._candidates(at, before):
             if best is None or item.stop > best.stop:
@@ -110,15 +112,21 @@ class ItemReader(ItemWords):
             best = Item(ItemKind.SIGN, at, at + 1, self.words[at])
         if best is not None and filler is not None and filler > best.stop:
             best = None
-        if best is None or not self._names_noun(best):
-            self.nouns.last = remembered
-        elif best.kind is ItemKind.REF and best.value.kind in ("door", "room"):
-            self.nouns.last = best.value
+        if best is not None:
+            self._remember(best)
         return best
 
-    @staticmethod
-    def _names_noun(item: Item) -> bool:
-        return item.kind in (ItemKind.REF, ItemKind.IF)
+    def _end_of_remark(self, at: int) -> int:
+        """The sign behind a clause that says why: "so that we can see you"."""
+        while at < len(self.words) and self.words[at] not in SIGNS:
+            at += 1
+        return at
+
+    def _remember(self, item: Item) -> None:
+        """Note the noun of an item for "the next one" and "the one after that"."""
+        noun = item.value.noun if item.kind is ItemKind.IF else item.value
+        if isinstance(noun, Noun) and noun.kind in COUNTABLE:
+            self.nouns.last = noun
 
     def _candidates(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
         yield from self._amounts(at, before)
@@ -162,12 +170,10 @@ class ItemReader(ItemWords):
                     and before[-1].kind not in (ItemKind.SIGN, ItemKind.AND, ItemKind.THEN)
                 ):
                     continue
-                if (
-                    kind == "here"
-                    and self.words[at] == "right"
-                    and before
-                    and before[-1].value in ("turn", "make")
-                ):
+                turns = bool(before) and before[-1].value in ("turn", "make")
+                if kind == "here" and self.words[at] == "right" and turns:
+                    continue
+                if kind == "here" and self.words[at] == "right" and not self.exact:
                     continue
                 if kind == "around alone" and self._is_corner(stop):
                     continue
@@ -178,6 +184,9 @@ class ItemReader(ItemWords):
                 else:
                     yield Item(ItemKind(kind), at, stop, value)
                 break
+        once = self.lexicon.find(self.words, at, "once")
+        if once and (not before or before[-1].kind in (*JOINTS, ItemKind.BUT)):
+            yield Item(ItemKind.THEN, at, once[1], "once")
         if (where := self.lexicon.find(self.words, at, "start where")) is not None:
             yield Item(ItemKind.REF, at, where[1], Noun("start"))
 
@@ -216,6 +225,9 @@ class ItemReader(ItemWords):
             yield Item(ItemKind.REF, at, noun[1], noun[0], roles)
         elif it := self.lexicon.find(self.words, at, "it alone"):
             yield Item(ItemKind.REF, at, it[1], Noun("it"))
+        for role in ("past", "after"):
+            if it := self.lexicon.find(self.words, at, f"{role} it"):
+                yield Item(ItemKind.REF, at, it[1], Noun("it"), (role,))
         stops: dict[int, list[str]] = {}
         for kind, value, stop in self.lexicon.matches(self.words, at):
             if kind == "prep" and self._is_preposition(at, value, before):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from semnav_env.commands.speech.ellipsis import in_full
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.moves import is_door
 from semnav_env.commands.speech.statements import merged_names, without_labels
@@ -20,7 +21,7 @@ from semnav_env.commands.speech.negations import (
 
 def rewritten(items: Sequence[Item]) -> list[Item]:
     """The items without those that others replace."""
-    found = _repaired(_without_first_no(list(items)))
+    found = _repaired(_without_first_no(in_full(items)))
     found = _corrected(merged_names(without_labels(found)))
     found = without_negated(_without_breaks(found))
     return _with_antecedents(_without_too_far(found))
