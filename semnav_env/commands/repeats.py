@@ -12,6 +12,8 @@ from semnav_env.commands.clauses import (
     GoToRoom,
     IfThere,
     Leave,
+    Turn,
+    Turning,
 )
 from semnav_env.commands.command import Command
 from semnav_env.commands.references import LAST, DoorReference, Place, PlaceReference
@@ -39,6 +41,8 @@ def _merged(before: Clause, clause: Clause) -> list[Clause] | None:
     """What two clauses say together, if the second one adds only how or where; else None."""
     match before, clause:
         case Leave(), Leave():
+            return [clause]
+        case Turn(Turning.AROUND, None), Turn(Turning.AROUND, None):
             return [clause]
         case Follow(PlaceReference() as place, False), Follow(same) if (
             place == same and (clause == _END or clause.past)

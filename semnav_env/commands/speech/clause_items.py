@@ -102,8 +102,13 @@ def _is_afterthought(before: Sequence[Item], items: Sequence[Item]) -> bool:
     """Whether what stands behind a comma only says where the door or the turn before it is."""
     if len(items) != 1:
         return False
+    if items[0].kind is ItemKind.REF and "after" not in items[0].roles:
+        turns = len(before) and before[-1].kind is ItemKind.SIDE and not before[-1].roles
+        placed = any(item.kind is ItemKind.REF for item in before)
+        at_place = "at" in items[0].roles and not is_door(items[0].value)
+        return bool(turns) and at_place and not placed  # "turn right, at the corner"
     if items[0].kind is ItemKind.REF:
-        return "after" in items[0].roles
+        return True
     if items[0].kind is not ItemKind.SIDE or any(item.kind is ItemKind.SIDE for item in before):
         return False
     doors = [item for item in before if item.kind is ItemKind.REF and is_door(item.value)]

@@ -134,11 +134,10 @@ class ItemWords:
                 return _distance(round(2 * metres) / 2, at, stop, Unit.METRES)
         return None
 
-    def _second(self, at: int) -> int | None:
-        """The end of the second noun of "between P and Q"."""
+    def _second(self, at: int) -> tuple[Noun, int] | None:
+        """The second noun of "between P and Q", and the word behind it."""
         conjunction = self.lexicon.find(self.words, at, "and")
-        noun = self.nouns.read(conjunction[1]) if conjunction else None
-        return noun[1] if noun else None
+        return self.nouns.read(conjunction[1]) if conjunction else None
 
     def _inner_preposition(self, at: int, roles: list[str]) -> tuple[int, list[str]]:
         """Words between "when" or "until" and its noun: "bis du an die", "wenn du zur"."""

@@ -183,7 +183,7 @@ def _door(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
         return (Follow(door),)
     if "take" in verbs and not roles & {"to", "at"}:
         return (GoToDoor(door),)
-    if roles & {"to", "toward"} or verbs & {"find"}:
+    if roles & {"to", "toward"} or verbs & {"find", "reach"}:
         approach = Approach.THROUGH if noun.kind == "room" else Approach.TO
         return (GoToDoor(door, approach),)
     if not roles and not verbs - {"go", "be"}:

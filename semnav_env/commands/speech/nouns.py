@@ -193,6 +193,14 @@ class NounReader(NounWords):
             where = self.find(start, "where") if noun.kind in DOORLIKE else None
             if where and not self._names_more(start, where[1]):
                 return Side(where[0]), where[1]
+        if relative and noun.kind not in DOORLIKE:
+            found = self._side_at(noun, relative[1])
+            link = self.find(found[1], "link") if found else None
+            return (found[0], link[1] if link else found[1]) if found else None
+        return self._side_at(noun, at)
+
+    def _side_at(self, noun: Noun, at: int) -> tuple[Side, int] | None:
+        """A side with or without a preposition: "on your left", "left"."""
         here = at
         for kind in ("prep", "det", "det"):
             if kind == "prep" and (preposition := self._preposition(at, "on")):

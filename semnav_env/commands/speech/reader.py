@@ -254,7 +254,10 @@ class ItemReader(ItemWords):
                 more = ["past"]
             yield Item(ItemKind.REF, at, end, noun[0], tuple(more))
             if "between" in roles and (second := self._second(end)):
-                yield Item(ItemKind.REF, at, second, noun[0], ("between",))
+                first = noun[0]
+                if first.elliptic:  # "between the first and second door"
+                    first = replace(first, kind=second[0].kind, elliptic=False)
+                yield Item(ItemKind.REF, at, second[1], first, ("between",))
             return
 
     def _is_preposition(self, at: int, value: str, before: Sequence[Item]) -> bool:
