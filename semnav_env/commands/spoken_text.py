@@ -64,13 +64,13 @@ def _as_said(
 def _understood(
     said: Sequence[TextPiece], lexicon: SpeechLexicon, names: Mapping[tuple[str, ...], str]
 ) -> Understanding:
-    """What words mean; if nothing, what they mean without "just", "mal" and the like."""
-    found = understand([piece.text for piece in said], lexicon, names)
-    if not found.commands:
-        plain = without(said, lexicon, "softener")
-        again = understand([piece.text for piece in plain], lexicon, names)
-        return again if again.commands else found
-    return found
+    """What words mean without "just", "mal" and the like; if nothing, what they mean with them."""
+    plain = without(said, lexicon, "softener")
+    texts = [without(plain, lexicon, "softening verb"), plain, said]
+    tried = dict.fromkeys(tuple(piece.text for piece in text) for text in texts)
+    found = [understand(text, lexicon, names) for text in tried]
+    right = [each for each in found[:-1] if each.commands] or found[-1:]
+    return min(right, key=lambda each: each.cost)
 
 
 def _without_slips(

@@ -159,14 +159,23 @@ def spoken_pieces(found: Sequence[TextPiece], lexicon: SpeechLexicon) -> list[Te
 
 
 def without(found: Sequence[TextPiece], lexicon: SpeechLexicon, kind: str) -> list[TextPiece]:
-    """The words of a text without those of a class, unless nothing would be left."""
+    """The words of a text without those of a class, unless nothing would be left.
+
+    Words of a longer phrase stay ("just past"), and so does a verb that begins a clause ("halt").
+    """
     words = [piece.text for piece in found]
-    kept, at = [], 0
+    kept: list[TextPiece] = []
+    at = 0
     while at < len(words):
         match = lexicon.find(words, at, kind)
-        if match is None:
-            kept.append(found[at])
-        at = match[1] if match else at + 1
+        longest = max((stop for _, _, stop in lexicon.matches(words, at)), default=at + 1)
+        begins = not kept or any(lexicon.find((kept[-1].text,), 0, c) for c in ("and", "then"))
+        is_verb = (begins or not kept[-1].text.isalnum()) and lexicon.find(words, at, "verb")
+        if match is not None and match[1] >= longest and not is_verb:
+            at = match[1]
+        else:
+            kept += found[at:longest]
+            at = longest
     return kept or list(found)
 
 
