@@ -14,7 +14,8 @@ The equivalences, each true by the rules of docs/commands.md:
 9. "back to P" is to turn around and to go on until the next P.
 10. "leave D" is "through D"; a "stop" at the end adds nothing, nor does one before a "wait".
 11. A turn that depends on a place is made there.
-12. Whether a room is open is seen in front of it, and its door is then the first one.
+12. Places of a kind that are passed one after the other add up.
+13. Whether a room is open is seen in front of it, and its door is then the first one.
 """
 
 from __future__ import annotations
@@ -236,6 +237,10 @@ def _append(found: list[Step], step: Step) -> None:
             same in (kind, "turning") and kind != "room"
         ):
             found[-1:] = [("turn", way, place)]
+        case ("hallway", "past", (kind, int(n))), ("hallway", "past", (other, int(m))) if (
+            kind == other and n > 0 and m > 0
+        ):
+            found[-1:] = [("hallway", "past", (kind, n + m))]
         case ("hallway", "past", ("door", int(n), side, None, None)), (
             *verb,
             ("door", int(m), other, relation, places),

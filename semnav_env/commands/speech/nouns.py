@@ -30,12 +30,16 @@ class NounReader(NounWords):
         lexicon: of its language.
         names: the spoken words of each room's name, and the name.
         last: the noun that was named last; None at the beginning.
+        counts_on: "at the first crossing, ..., at the second one" is the next one.
+        went_on: some noun could be counted on.
     """
 
     words: Sequence[str]
     lexicon: SpeechLexicon
     names: Mapping[tuple[str, ...], str]
     last: Noun | None = None
+    counts_on: bool = False
+    went_on: bool = False
 
     def read(self, at: int, determined: bool = False) -> tuple[Noun, int] | None:
         """The noun that begins at a word and the word behind it; None if none does.
@@ -242,6 +246,8 @@ class NounReader(NounWords):
 
     def _without_head(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
         """A noun that is left out: "the second on the left", "die rechte"."""
+        if noun.ordinal == OTHER and noun.side is not None:
+            return None  # "my other left"
         if noun.ordinal is not None and not noun.counted:
             if noun.side is not None and self.lexicon.language.code == "en":
                 return replace(noun, kind="turning"), at
@@ -256,6 +262,9 @@ class NounReader(NounWords):
     def _resolved(self, noun: Noun) -> Noun:
         """The noun with the kind that it stands for, and remembered."""
         noun = self._counted_on(noun)
+        if self._goes_on(noun):
+            self.went_on = True
+            noun = replace(noun, ordinal=1) if self.counts_on else noun
         if noun.kind == "one" and self.last is None and not noun.elliptic:
             noun = replace(noun, kind="door")
         if noun.kind == "one" and self.last is not None and self.last.kind in COUNTABLE:
@@ -276,6 +285,14 @@ class NounReader(NounWords):
         if same and noun.ordinal == last.ordinal + 1:
             return replace(noun, ordinal=1, side=noun.side or last.side)
         return noun
+
+    def _goes_on(self, noun: Noun) -> bool:
+        """Whether a noun is the next of the places that are being counted: "the second one"."""
+        last = self.last
+        if last is None or last.kind not in ("intersection", "corner") or not last.ordinal:
+            return False
+        named = noun.kind == "one" or noun.elliptic
+        return named and not last.counted and noun.ordinal == last.ordinal + 1 > 1
 
     def _following(self, noun: Noun) -> Noun:
         """The next one of the kind that was named last."""

@@ -56,11 +56,15 @@ def understand(
     """
     found = []
     for exact, waits in _variants(words):
-        items: list[Item] | None = ItemReader(words, lexicon, names, exact, waits).items()
+        reader = ItemReader(words, lexicon, names, exact, waits)
+        texts: list[list[Item] | None] = [reader.items()]
+        if reader.nouns.went_on:
+            again = ItemReader(words, lexicon, names, exact, waits)
+            again.nouns.counts_on = True
+            texts.append(again.items())
         if leave_out:
-            items = without_unread(items or [], words, lexicon)
-        if items is not None:
-            found.append(_understand(words, items))
+            texts = [without_unread(items or [], words, lexicon) for items in texts]
+        found += [_understand(words, items) for items in texts if items is not None]
     if not found:
         return Understanding((), 0.0, ())
     right = [each for each in found if each.commands]
