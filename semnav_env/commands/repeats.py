@@ -44,13 +44,11 @@ def _merged(before: Clause, clause: Clause) -> list[Clause] | None:
             return [clause]
         case Turn(Turning.AROUND, None), Turn(Turning.AROUND, None):
             return [clause]
-        case Follow(PlaceReference() as place, False), Follow(same) if (
-            place == same and (clause == _END or clause.past)
+        case Follow(PlaceReference() as place, False), Follow(same) if place == same and (
+            clause == _END or clause.past
         ):
             return [clause]
-        case Follow(PlaceReference(Place.END)), GoToDoor(DoorReference(ordinal)) if (
-            ordinal == LAST
-        ):
+        case Follow(PlaceReference(Place.END)), GoToDoor(DoorReference(ordinal)) if ordinal == LAST:
             return [clause]
         case GoToDoor(_, Approach.TO | Approach.THROUGH), GoToDoor(
             DoorReference(1, None) as door, Approach.IN

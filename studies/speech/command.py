@@ -19,7 +19,7 @@ from studies.speech.robustness import (
 
 @dataclass(frozen=True)
 class Arguments:
-    """Put fillers into the development sets, leave out their punctuation, and parse canonical words.
+    """Disturb the development sets, and parse canonical words and long texts.
 
     Attributes:
         programs: how many sampled programs are said and parsed in each language.

@@ -76,6 +76,8 @@ def read_condition(
             break
     if noun is None and not (pronoun and state):
         return None
+    if noun is not None and noun.kind == "named" and not (state or absent):
+        return None  # "when you see the kitchen" is a place
     if inverted and not state:
         return None
     if not (exists or state or absent):
@@ -88,7 +90,17 @@ def read_condition(
     return Item(ItemKind.IF, at, stop, Premise(noun, absent is not closed, state))
 
 
-CLASSES = ("at end", "absent", "is open", "is closed", "exists", "here", "pronoun", "side", "filler")
+CLASSES = (
+    "at end",
+    "absent",
+    "is open",
+    "is closed",
+    "exists",
+    "here",
+    "pronoun",
+    "side",
+    "filler",
+)
 
 
 def _longest(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> tuple[str, int, str] | None:

@@ -33,13 +33,13 @@ from semnav_env.commands.speech.frame import (
     moves_or_mention,
 )
 from semnav_env.commands.speech.items import Item, ItemKind, Noun
-from semnav_env.commands.speech.turning import read_sideless_turn
 from semnav_env.commands.speech.moves import (
     NoMeaningError,
     is_door,
     landmark,
     landmark_door,
 )
+from semnav_env.commands.speech.turning import read_sideless_turn
 
 
 def read_go(frame: ClauseFrame) -> Readings | None:

@@ -107,6 +107,8 @@ class ItemWords:
 
     def _amounts(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
         """Degrees, distances and times, with "for" or "by" before them."""
+        if angle := self.lexicon.find(self.words, at, "angle"):
+            yield Item(ItemKind.DEGREES, at, angle[1], float(angle[0]))
         prefix = self.nouns._preposition(at, "for")
         for start in dict.fromkeys((at, prefix or at)):
             here = start
@@ -143,7 +145,9 @@ class ItemWords:
         """Words between "when" or "until" and its noun: "bis du an die", "wenn du zur"."""
         while (filler := self._filler(at)) and not self.nouns.read(at):
             at = filler
-        found = [(v, stop) for kind, v, stop in self.lexicon.matches(self.words, at) if kind == "prep"]
+        found = [
+            (v, stop) for kind, v, stop in self.lexicon.matches(self.words, at) if kind == "prep"
+        ]
         stops = [stop for _, stop in found]
         if any(value == "out" for value, _ in found):
             return len(self.words), roles  # "wenn du aus der Tür kommst" is no place

@@ -97,7 +97,7 @@ def _class_and_value(key: str) -> tuple[str, str]:
     return (kind, value) if kind in VALUED else (key, "")
 
 
-VALUED = ("number", "verb", "prep", "adj", "noun", "side", "where", "particle")
+VALUED = ("number", "verb", "prep", "adj", "noun", "side", "where", "particle", "angle")
 """Classes whose keys have a value behind them."""
 
 
@@ -146,8 +146,10 @@ def mixed(main: SpeechLexicon, other: SpeechLexicon) -> SpeechLexicon:
 
 
 def spoken_pieces(found: Sequence[TextPiece], lexicon: SpeechLexicon) -> list[TextPiece]:
-    """The words of a text without hesitations, "the door's" read as "the door is", and with
-    unknown words taken apart where their parts are known ("reinfahren")."""
+    """The words of a text without hesitations, as the lexicon knows them.
+
+    "The door's" is read as "the door is", and unknown words are taken apart ("reinfahren").
+    """
     spoken: list[TextPiece] = []
     for piece in found:
         base = piece.text.removesuffix("'s")
@@ -169,6 +171,7 @@ def without(found: Sequence[TextPiece], lexicon: SpeechLexicon, kind: str) -> li
     while at < len(words):
         match = lexicon.find(words, at, kind)
         longest = max((stop for _, _, stop in lexicon.matches(words, at)), default=at + 1)
+        longest = at + 1 if kind == "hesitation" else longest
         begins = not kept or any(lexicon.find((kept[-1].text,), 0, c) for c in ("and", "then"))
         is_verb = (begins or not kept[-1].text.isalnum()) and lexicon.find(words, at, "verb")
         if match is not None and match[1] >= longest and not is_verb:

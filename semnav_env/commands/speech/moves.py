@@ -129,7 +129,12 @@ def _room(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     room = RoomReference(plain_name(noun.name))
     if roles & {"past", "after"} or verbs & {"pass"}:
         return (Follow(room, past=True),)
-    if roles & {"near", "opposite", "before", "from"} and not roles & {"past", "front", "to", "into"}:
+    if roles & {"near", "opposite", "before", "from"} and not roles & {
+        "past",
+        "front",
+        "to",
+        "into",
+    }:
         raise NoMeaningError("beside a room")
     if "until" in roles and "front" not in roles:
         return (Follow(room),)

@@ -56,8 +56,7 @@ class NounReader(NounWords):
             if here > at and self.find(here, "clause start"):
                 break
             if plain and (head := self._head(here, noun)):
-                bare = not determined and noun.ordinal is None
-                if bare and (self._is_verb(here) or self._is_lone_letter(here)):
+                if not determined and self._is_no_noun(here, noun.ordinal is not None):
                     return None  # "turn left" is no turning on the left
                 if self._is_elliptic_turn(here, noun):
                     break  # "at the second turn left", of intersections

@@ -221,8 +221,8 @@ class ItemReader(ItemWords):
     def _nouns(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
         """Nouns with and without a preposition."""
         if noun := self.nouns.read(at):
-            roles = ("at",) if self.lexicon.find(self.words, at, "clause start") else ()
-            yield Item(ItemKind.REF, at, noun[1], noun[0], roles)
+            begins = ("at",) if self.lexicon.find(self.words, at, "clause start") else ()
+            yield Item(ItemKind.REF, at, noun[1], noun[0], begins)
         elif it := self.lexicon.find(self.words, at, "it alone"):
             yield Item(ItemKind.REF, at, it[1], Noun("it"))
         for role in ("past", "after"):

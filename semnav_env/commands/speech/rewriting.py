@@ -8,7 +8,6 @@ from dataclasses import replace
 from semnav_env.commands.speech.ellipsis import in_full
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.moves import is_door
-from semnav_env.commands.speech.statements import merged_names, without_labels
 from semnav_env.commands.speech.negations import (
     SOFT,
     corrects,
@@ -17,6 +16,7 @@ from semnav_env.commands.speech.negations import (
     merged_items,
     without_negated,
 )
+from semnav_env.commands.speech.statements import merged_names, without_labels
 
 
 def rewritten(items: Sequence[Item]) -> list[Item]:

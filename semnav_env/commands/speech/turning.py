@@ -105,7 +105,9 @@ def read_sideless_turn(frame: ClauseFrame) -> Readings:
     """Of "Turn at the corner": to the left or to the right?"""
     if len(frame.refs) > 1 or any("at" not in frame.roles(item) for item in frame.refs):
         raise NoMeaningError("turn where")
-    side = (Item(ItemKind.SIDE, frame.items[-1].stop, frame.items[-1].stop, each) for each in _SIDES)
+    side = (
+        Item(ItemKind.SIDE, frame.items[-1].stop, frame.items[-1].stop, each) for each in _SIDES
+    )
     found = (read_turn(ClauseFrame((*frame.items, each))) for each in side)
     return tuple(steps for readings in found for steps in readings or ())
 

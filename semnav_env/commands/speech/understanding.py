@@ -57,8 +57,9 @@ def understand(
     found = []
     for exact, waits in _variants(words):
         reader = ItemReader(words, lexicon, names, exact, waits)
-        texts: list[list[Item] | None] = [reader.items()]
-        if reader.nouns.went_on:
+        first = reader.items()
+        texts: list[list[Item] | None] = [first]
+        if reader.nouns.went_on and not any(item.kind is ItemKind.NO for item in first):
             again = ItemReader(words, lexicon, names, exact, waits)
             again.nouns.counts_on = True
             texts.append(again.items())

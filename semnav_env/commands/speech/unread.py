@@ -16,6 +16,10 @@ MAX_UNREAD = 2
 """The most stretches of unknown words that are left out; with more a text is rather no command."""
 
 _PARTS = (*JOINTS, ItemKind.BUT)
+_SAYING = (
+    *(ItemKind.REF, ItemKind.SIDE, ItemKind.STRAIGHT, ItemKind.IN, ItemKind.OUT, ItemKind.IF),
+    *(ItemKind.DISTANCE, ItemKind.DEGREES, ItemKind.SECONDS, ItemKind.AROUND, ItemKind.BACK),
+)
 _NAMING = ("det", "a", "prep", "adj", "ordinal", "number", "numeral word")
 _DIRECTED = frozenset({"to", "into", "through", "past", "until", "along", "all along", "toward"})
 
@@ -137,7 +141,7 @@ def _aside(
             break
         end = index + 1 if items[index].kind is ItemKind.UNKNOWN else end
     dropped = items[begin:end]
-    if any(item.kind in (ItemKind.IF, ItemKind.DISTANCE) for item in dropped):
+    if any(item.kind in _SAYING for item in dropped):
         return None
     return [*items[:begin], *items[end:]]
 
