@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from semnav_env.commands.references import LAST, OTHER, Side
 from semnav_env.commands.speech.items import Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
+from semnav_env.commands.speech.noun_memory import NounMemory
 from semnav_env.commands.speech.noun_words import NounWords
 from semnav_env.commands.speech.numerals import read_number
-
-COUNTABLE = ("door", "room", "intersection", "corner", "t_junction", "turning")
-"""Kinds of nouns that "the second" can stand for."""
 
 DOORLIKE = ("door", "room", "one")
 """Kinds of nouns that have a side."""
@@ -29,17 +27,13 @@ class NounReader(NounWords):
         words: of the text.
         lexicon: of its language.
         names: the spoken words of each room's name, and the name.
-        last: the noun that was named last; None at the beginning.
-        counts_on: "at the first crossing, ..., at the second one" is the next one.
-        went_on: some noun could be counted on.
+        memory: what was named before.
     """
 
     words: Sequence[str]
     lexicon: SpeechLexicon
     names: Mapping[tuple[str, ...], str]
-    last: Noun | None = None
-    counts_on: bool = False
-    went_on: bool = False
+    memory: NounMemory = field(default_factory=NounMemory)
 
     def read(self, at: int, determined: bool = False) -> tuple[Noun, int] | None:
         """The noun that begins at a word and the word behind it; None if none does.
@@ -83,7 +77,7 @@ class NounReader(NounWords):
                     return None  # "open the door" is no open door
                 if found[0] in CHOOSING:
                     said_which = True
-                    ordinal = self._chosen(found[0]) or _adjective_ordinal(found[0], noun)
+                    ordinal = self.memory.chosen(found[0]) or _adjective_ordinal(found[0], noun)
                     noun = replace(noun, ordinal=ordinal, closed=found[0] == "closed")
             elif not (determined and here > at and (found := self.find(here, "filler"))):
                 break
@@ -94,19 +88,14 @@ class NounReader(NounWords):
 
     def _is_elliptic_turn(self, at: int, noun: Noun) -> bool:
         places = ("intersection", "corner", "t_junction")
-        named = self.last is not None and self.last.kind in places
+        last = self.memory.last
+        named = last is not None and last.kind in places
         return (
             named
             and noun.ordinal is not None
             and self.words[at] == "turn"
             and self._plain_side(at + 1) is not None
         )
-
-    def _chosen(self, adjective: str) -> int | None:
-        """The ordinal of "the middle one" or "the last one" of several that were named."""
-        if self.last is None or not self.last.counted or not self.last.ordinal:
-            return None
-        return {"last": self.last.ordinal, "middle": (self.last.ordinal + 1) // 2}.get(adjective)
 
     def _modifier(self, at: int, noun: Noun) -> tuple[Noun, int] | None:
         """An ordinal, a number or a side before a noun."""
@@ -174,7 +163,7 @@ class NounReader(NounWords):
                 at = hall
             else:
                 break
-        return self._resolved(noun), at
+        return self.memory.resolved(noun), at
 
     def _of_door(self, at: int) -> tuple[Noun, int] | None:
         """The door of a doorway: "of the second room", "der zweiten Tür"."""
@@ -258,49 +247,6 @@ class NounReader(NounWords):
                 return self._behind(replace(noun, kind="one", elliptic=True), at)
         return None
 
-    def _resolved(self, noun: Noun) -> Noun:
-        """The noun with the kind that it stands for, and remembered."""
-        noun = self._counted_on(noun)
-        if self._goes_on(noun):
-            self.went_on = True
-            noun = replace(noun, ordinal=1) if self.counts_on else noun
-        if noun.kind == "one" and self.last is None and not noun.elliptic:
-            noun = replace(noun, kind="door")
-        if noun.kind == "one" and self.last is not None and self.last.kind in COUNTABLE:
-            kind = self.last.kind
-            noun = replace(noun, kind=kind)
-            if noun.relative:
-                noun = self._following(noun)
-            elif noun.side is None and kind in ("door", "room", "turning") and noun.ordinal:
-                noun = replace(noun, side=self.last.side)
-        return noun
-
-    def _counted_on(self, noun: Noun) -> Noun:
-        """Of "The fourth door" after "past three doors" is the next one."""
-        last = self.last
-        if last is None or not last.counted or last.ordinal is None or noun.counted:
-            return noun
-        same = (noun.kind in ("one", last.kind) and last.side in (None, noun.side)) or noun.elliptic
-        if same and noun.ordinal == last.ordinal + 1:
-            return replace(noun, ordinal=1, side=noun.side or last.side)
-        return noun
-
-    def _goes_on(self, noun: Noun) -> bool:
-        """Whether a noun is the next of the places that are being counted: "the second one"."""
-        last = self.last
-        if last is None or last.kind not in ("intersection", "corner") or not last.ordinal:
-            return False
-        named = noun.kind == "one" or noun.elliptic
-        return named and not last.counted and noun.ordinal == last.ordinal + 1 > 1
-
-    def _following(self, noun: Noun) -> Noun:
-        """The next one of the kind that was named last."""
-        assert self.last is not None
-        before = self.last.ordinal or 1
-        return replace(
-            noun, ordinal=before + 1 if before > 0 else None, side=noun.side or self.last.side
-        )
-
 
 def is_doorlike(noun: Noun) -> bool:
     """Whether a noun names a door, or a room by its door."""
@@ -314,6 +260,3 @@ def _adjective_ordinal(adjective: str, noun: Noun) -> int | None:
     if adjective in _ADJECTIVE_ORDINALS:
         return _ADJECTIVE_ORDINALS[adjective]
     return noun.ordinal or 1 if adjective in ("any", "nearest", "next") else noun.ordinal
-
-
-__all__ = ["COUNTABLE", "LAST", "NounReader"]

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 from semnav_env.commands.references import Side
 from semnav_env.commands.speech.conditions import read_condition
-from semnav_env.commands.speech.item_words import ItemWords
+from semnav_env.commands.speech.item_words import SIGNS, ItemWords
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
-from semnav_env.commands.speech.nouns import COUNTABLE, NounReader
+from semnav_env.commands.speech.nouns import NounReader
 from semnav_env.commands.speech.numerals import read_number
 
 PLAIN_CLASSES = (
@@ -43,8 +43,6 @@ PLAIN_CLASSES = (
 """Classes whose phrases are items by themselves; of two that are equally long the earlier one."""
 
 KIND_OF_CLASS = {"around alone": ItemKind.AROUND, "end until": ItemKind.TO_END}
-
-SIGNS = frozenset(",;.!?:")
 
 WITH_ARTICLE = frozenset({"zur", "zum", "im", "am", "ins", "ans", "beim", "vom", "vors", "durchs"})
 """German prepositions that hold an article."""
@@ -113,20 +111,9 @@ class ItemReader(ItemWords):
         if best is not None and filler is not None and filler > best.stop:
             best = None
         if best is not None:
-            self._remember(best)
+            noun = best.value.noun if best.kind is ItemKind.IF else best.value
+            self.nouns.memory.remember(noun)
         return best
-
-    def _end_of_remark(self, at: int) -> int:
-        """The sign behind a clause that says why: "so that we can see you"."""
-        while at < len(self.words) and self.words[at] not in SIGNS:
-            at += 1
-        return at
-
-    def _remember(self, item: Item) -> None:
-        """Note the noun of an item for "the next one" and "the one after that"."""
-        noun = item.value.noun if item.kind is ItemKind.IF else item.value
-        if isinstance(noun, Noun) and noun.kind in COUNTABLE:
-            self.nouns.last = noun
 
     def _candidates(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
         yield from self._amounts(at, before)
@@ -189,34 +176,6 @@ class ItemReader(ItemWords):
             yield Item(ItemKind.THEN, at, once[1], "once")
         if (where := self.lexicon.find(self.words, at, "start where")) is not None:
             yield Item(ItemKind.REF, at, where[1], Noun("start"))
-
-    def _no_correction(self, at: int) -> int | None:
-        """The word behind "wait" and the like where they correct nothing."""
-        found = self.lexicon.find(self.words, at, "no")
-        return found[1] if found and self._may_wait(at) else None
-
-    def _is_no_correction(self, at: int, stop: int) -> bool:
-        """Whether words such as "wait" stand where nothing can be corrected."""
-        if not self._may_wait(at):
-            return False
-        if at == 0:
-            return True
-        behind = stop
-        while behind < len(self.words) and (
-            self.words[behind] == "," or self.lexicon.find(self.words, behind, "filler")
-        ):
-            behind += 1
-        if behind >= len(self.words):
-            return True
-        matches = list(self.lexicon.matches(self.words, behind))
-        verbs = [value for kind, value, _ in matches if kind == "verb"]
-        corrects = (
-            self.nouns._plain_side(behind) is not None
-            or "turn" in verbs
-            or any(kind == "no" for kind, _, _ in matches)
-            or (not verbs and next(self._nouns(behind, ()), None) is not None)
-        )
-        return self.waits or not corrects
 
     def _nouns(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
         """Nouns with and without a preposition."""

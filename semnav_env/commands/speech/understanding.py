@@ -59,9 +59,9 @@ def understand(
         reader = ItemReader(words, lexicon, names, exact, waits)
         first = reader.items()
         texts: list[list[Item] | None] = [first]
-        if reader.nouns.went_on and not any(item.kind is ItemKind.NO for item in first):
+        if reader.nouns.memory.went_on and not any(item.kind is ItemKind.NO for item in first):
             again = ItemReader(words, lexicon, names, exact, waits)
-            again.nouns.counts_on = True
+            again.nouns.memory.counts_on = True
             texts.append(again.items())
         if leave_out:
             texts = [without_unread(items or [], words, lexicon) for items in texts]
