@@ -79,6 +79,8 @@ def one_reading(found: Sequence[ClauseReadings], choice: Sequence[Steps]) -> Rea
         for number, step in enumerate(steps):
             match step:
                 case EnterMentionedDoor():
+                    if _has_entered(reading):
+                        return []
                     _enter(reading, index)
                 case StopBeforeMentioned():
                     _stop_before(reading, index)
@@ -172,6 +174,15 @@ def _open_otherwise(reading: Reading, index: int) -> None:
     if not isinstance(condition, IfThere) or condition.otherwise:
         raise OutOfPlaceError("otherwise than what? begin with a condition", index)
     reading[-2] = reading[-2]._replace(clause=replace(condition, otherwise=True))
+
+
+def _has_entered(reading: Reading) -> bool:
+    """Whether one waits behind the door already: "through the door, wait, and then go in"."""
+    last = [each.clause for each in reading[-2:]]
+    match last:
+        case [GoToDoor(_, Approach.THROUGH), Stop()]:
+            return True
+    return False
 
 
 def _enter(reading: Reading, index: int) -> None:

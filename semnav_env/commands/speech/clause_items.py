@@ -21,8 +21,8 @@ from semnav_env.commands.speech.frames import readings_of
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.moves import is_door, landmark
 
-VERBLESS_COST, COMMA_COST = 0.25, 0.15
-"""Costs of a clause's having no verb, and of a comma inside it."""
+VERBLESS_COST, COMMA_COST, SIDELESS_COST = 0.25, 0.15, 0.6
+"""Costs of a clause's having no verb, of a comma inside it, and of a turn without a side."""
 
 PREFIXES = (ItemKind.OTHERWISE, ItemKind.IN_ANY_CASE, ItemKind.FROM_THERE, ItemKind.NO)
 """Items that say how a clause belongs to those before it."""
@@ -77,6 +77,10 @@ def read_clause(items: list[Item]) -> tuple[Readings, float] | None:
         return None
     if not any(item.kind is ItemKind.VERB for item in kept):
         cost += VERBLESS_COST
+    turns_nowhere = verbs == ["turn"] and all(
+        item.kind in (ItemKind.VERB, ItemKind.PARTICLE) for item in kept
+    )
+    cost += SIDELESS_COST if turns_nowhere else 0.0
     return readings_of(ClauseFrame(tuple(kept))), cost
 
 

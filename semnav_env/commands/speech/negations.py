@@ -114,6 +114,8 @@ def _without(items: list[Item], at: int) -> list[Item]:
     if place is not None and not is_door(place.value) and verbs:
         return [*before, *rest] if _names_another(place, rest[0]) else [*before, place, *rest]
     refs = [item for item in negated if item.kind is ItemKind.REF]
+    if refs and rest[0].kind is ItemKind.REF and rest[0].value.kind == "it":
+        return [*before, replace(rest[0], value=refs[-1].value), *rest[1:]]
     if refs and rest[0].kind is ItemKind.REF and not verbs:
         merged = merged_items(refs[-1], rest[0]) if corrects(refs[-1], rest[0]) else rest[0]
         rest = [_next_of(refs[-1].value, merged), *rest[1:]]

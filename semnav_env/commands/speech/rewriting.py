@@ -129,6 +129,13 @@ def _corrected(items: list[Item]) -> list[Item]:
     at = 0
     while at < len(items):
         if items[at].kind is ItemKind.NO:
+            before = cut_before(items, at)
+            if before and items[before - 1].kind is ItemKind.REF:
+                noun = items[before - 1].value
+                if noun.kind == "area" and at + 1 < len(items):  # no destination by itself
+                    items = [*items[: before - 1], *items[at + 1 :]]
+                    at = before - 1
+                    continue
             start = _next(items, at + 1)
             stop = end_of_clause(items, start)
             part = items[start:stop]
