@@ -38,6 +38,11 @@ cross = cross = hallway until end
 the wall ahead = hallway until wall = hallway until end
 closed is none = if closed door(1,left): stop end = if no door(1,left): stop end
 stop at the end = through door(1); stop = through door(1)
+passed places add up = hallway past intersection; hallway past intersection = hallway past intersection#2
+a door that is reached = hallway until door(2); stop = to door(2)
+a stop before a wait = stop; wait 5 = wait 5
+a turn that depends on a place = if corner: turn left end = if corner: turn left at corner end
+a room is open at its door = if open room(lab): room(lab) end = to room(lab); if door(1): through door(1) end
 the first open one = if closed door(1): through door(2) else: through door(1) end = through door(1)
 """  # noqa: E501
 
@@ -93,7 +98,7 @@ def test_most_of_the_development_sets_is_understood_or_asked(path: Path) -> None
     feasible = [v.outcome for v in found if v.sentence.kind == "feasible"]
     right = [outcome in (ParseOutcome.UNDERSTOOD, ParseOutcome.ASKED) for outcome in feasible]
     assert sum(right) >= 0.85 * len(feasible)
-    assert feasible.count(ParseOutcome.MISREAD) <= 0.02 * len(feasible)
+    assert feasible.count(ParseOutcome.MISREAD) <= 0.01 * len(feasible)
     refused = [v.outcome is ParseOutcome.REFUSED for v in found if v.sentence.kind == "infeasible"]
     assert sum(refused) >= 0.97 * len(refused)
 

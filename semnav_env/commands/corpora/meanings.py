@@ -15,7 +15,8 @@ The equivalences, each true by the rules of docs/commands.md:
 10. "leave D" is "through D"; a "stop" at the end adds nothing, nor does one before a "wait".
 11. A turn that depends on a place is made there.
 12. Places of a kind that are passed one after the other add up.
-13. Whether a room is open is seen in front of it, and its door is then the first one.
+13. "until D" is "to D" at the end and before a stop: the door is reached.
+14. Whether a room is open is seen in front of it, and its door is then the first one.
 """
 
 from __future__ import annotations
@@ -125,6 +126,9 @@ def normal(steps: Steps) -> Steps:
         _append(found, step)
     while len(found) > 1 and found[-1] == ("stop",):
         found.pop()
+    match found[-1:]:
+        case [("hallway", "until", ("door", *_) as door)]:
+            found[-1] = ("to", tuple(door))
     if found and found[-1] == ("hallway",):
         found[-1] = ("hallway", "until", ("end", 1))
     return tuple(found)

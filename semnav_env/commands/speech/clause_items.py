@@ -21,8 +21,9 @@ from semnav_env.commands.speech.frames import readings_of
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.moves import is_door, landmark
 
-VERBLESS_COST, COMMA_COST, SIDELESS_COST = 0.25, 0.15, 0.6
-"""Costs of a clause's having no verb, of a comma inside it, and of a turn without a side."""
+VERBLESS_COST, COMMA_COST, SIDELESS_COST, LATE_PLACE_COST = 0.25, 0.15, 0.6, 0.5
+"""Costs of a clause's having no verb, of a comma inside it, of a turn without a side, and of a
+place behind a comma ("turn left, at the corner")."""
 
 PREFIXES = (ItemKind.OTHERWISE, ItemKind.IN_ANY_CASE, ItemKind.FROM_THERE, ItemKind.NO)
 """Items that say how a clause belongs to those before it."""
@@ -44,7 +45,8 @@ def read_clause(items: list[Item]) -> tuple[Readings, float] | None:
                 or index == len(items) - 1
             ):
                 return None
-            cost += COMMA_COST
+            late = len(items) == index + 2 and "at" in items[index + 1].roles
+            cost += LATE_PLACE_COST if late and not _is_context(kept) else COMMA_COST
         elif (
             item.kind is ItemKind.THEN
             and kept

@@ -107,7 +107,7 @@ def _face(frame: ClauseFrame) -> Readings | None:
     if len(frame.refs) != 1:
         raise NoMeaningError("face")
     noun = frame.refs[0].value
-    if noun.kind in ("it", "hall", "start") or (noun.kind == "wall" and noun.side):
+    if noun.kind in ("it", "hall", "start") or (noun.kind == "wall" and frame.sides):
         raise NoMeaningError("face")
     what = landmark(noun)
     if isinstance(what, DoorReference) and frame.sides:

@@ -37,7 +37,6 @@ from semnav_env.commands.speech.moves import (
     NoMeaningError,
     is_door,
     landmark,
-    landmark_door,
 )
 from semnav_env.commands.speech.turning import read_sideless_turn
 
@@ -128,8 +127,6 @@ def _named(item: Item, frame: ClauseFrame, last: bool) -> Readings:
     along = any(other.value.kind == "hall" for other in frame.refs) or frame.has(ItemKind.STRAIGHT)
     if noun.kind == "named" and along and "until" in roles and "to" not in roles:
         return ((Follow(landmark(noun)),),)
-    if is_door(noun) and {"until", "front"} <= roles and not along:
-        return ((GoToDoor(landmark_door(noun), Approach.TO),),)
     if noun.kind == "door" and roles & {"to"} and along and "into" not in roles:
         return ((Follow(landmark(noun)),),)
     if roles & {"before"} and not is_door(noun) and noun.kind != "named":

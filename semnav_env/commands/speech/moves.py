@@ -54,13 +54,6 @@ def landmark(noun: Noun) -> Landmark:
     raise NoMeaningError(noun.kind)
 
 
-def landmark_door(noun: Noun) -> DoorReference:
-    """The door that a noun names."""
-    door = landmark(noun)
-    assert isinstance(door, DoorReference)
-    return door
-
-
 def is_door(noun: Noun) -> bool:
     """Whether a noun names a door; a room does by its door, unless it is the room around."""
     return noun.kind in ("door", "room", "one")

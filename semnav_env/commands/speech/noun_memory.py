@@ -65,7 +65,11 @@ class NounMemory:
     def _goes_on(self, noun: Noun) -> bool:
         """Whether a noun is the next of the places that are being counted: "the second one"."""
         last = self.last
-        if last is None or last.kind not in ("intersection", "corner") or not last.ordinal:
+        if last is None or not last.ordinal:
+            return False
+        if last.kind not in ("intersection", "corner") and (
+            last.kind not in ("door", "room") or last.side is not None
+        ):
             return False
         named = noun.kind == "one" or noun.elliptic
         return named and not last.counted and noun.ordinal == last.ordinal + 1 > 1

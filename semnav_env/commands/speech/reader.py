@@ -44,6 +44,9 @@ PLAIN_CLASSES = (
 
 KIND_OF_CLASS = {"around alone": ItemKind.AROUND, "end until": ItemKind.TO_END}
 
+MAX_FIRST_THEN = 2
+"""The most words of "then" at the beginning of a text; "when you come out" is a clause there."""
+
 WITH_ARTICLE = frozenset({"zur", "zum", "im", "am", "ins", "ans", "beim", "vom", "vors", "durchs"})
 """German prepositions that hold an article."""
 
@@ -138,6 +141,8 @@ class ItemReader(ItemWords):
             for name, value, stop in found:
                 name = "to end" if name == "end until" else name
                 if name != kind or (kind == "no" and self._is_no_correction(at, stop)):
+                    continue
+                if kind == "then" and not before and stop - at > MAX_FIRST_THEN:
                     continue
                 if kind in ("in", "out", "before it") and self._begins_noun(stop):
                     continue

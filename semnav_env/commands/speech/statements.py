@@ -66,8 +66,11 @@ def _told_once(items: list[Item], at: int) -> list[Item]:
     doors = [item for item in said if item.kind is ItemKind.REF and is_door(item.value)]
     names = [item for item in said if _is_name(item) and not item.roles]
     subject = _subject(items, at)
-    if names and not doors and subject is None and at and _is_door_item(items[at - 1]):
-        return [item for item in items if item is not names[0]]  # "the second door is the bath"
+    door = _before(items, at)
+    if names and not doors and door is not None and is_door(items[door].value):
+        if door == at - 1 and not items[door].roles:  # "the second door is the bath"
+            return [item for item in items if item is not names[0]]
+        return [*items[: door + 1], *items[stop:]]  # "through the second door, it is the bath"
     if subject is None or names:
         return items
     if doors:
@@ -93,12 +96,18 @@ def _end(items: Sequence[Item], at: int) -> int:
     return at
 
 
-def _subject(items: Sequence[Item], at: int) -> int | None:
-    """The name of a room of which a statement tells: before its verb, or in the sentence before."""
+def _before(items: Sequence[Item], at: int) -> int | None:
+    """What is named directly before a statement, or in the sentence before."""
     before = at - 1
     while before >= 0 and items[before].kind in (ItemKind.SIGN, ItemKind.HERE):
         before -= 1
-    if before < 0 or not _is_name(items[before]):
+    return before if before >= 0 and items[before].kind is ItemKind.REF else None
+
+
+def _subject(items: Sequence[Item], at: int) -> int | None:
+    """The name of a room of which a statement tells: before its verb, or in the sentence before."""
+    before = _before(items, at)
+    if before is None or not _is_name(items[before]):
         return None
     roles = set(items[before].roles)
     return before if not roles or roles & {"to", "into"} else None

@@ -59,7 +59,7 @@ def understand(
         reader = ItemReader(words, lexicon, names, exact, waits)
         first = reader.items()
         texts: list[list[Item] | None] = [first]
-        if reader.nouns.memory.went_on and not any(item.kind is ItemKind.NO for item in first):
+        if reader.nouns.memory.went_on and not any(item.kind in _BACK for item in first):
             again = ItemReader(words, lexicon, names, exact, waits)
             again.nouns.memory.counts_on = True
             texts.append(again.items())
@@ -75,6 +75,10 @@ def understand(
     near = [each for each in right if each.cost <= best.cost + 0.4]
     commands = dict.fromkeys(command for each in [best, *near] for command in each.commands)
     return Understanding(tuple(commands), best.cost, best.items)
+
+
+_BACK = (ItemKind.NO, ItemKind.NOT)
+"""Items that take something back, so that nothing is counted on."""
 
 
 def _variants(words: Sequence[str]) -> list[tuple[bool, bool]]:
