@@ -132,7 +132,7 @@ def test_a_text_with_too_many_clauses_says_so() -> None:
             "go down the hallway until the first corner and turn left",
         ),
         ("I'm so tired, turn left", "turn left"),
-        ("easy, turn left at the corner", "turn left at the first corner"),
+        ("Lucy, turn left at the corner", "turn left at the first corner"),
     ],
 )
 def test_words_that_say_nothing_of_the_way_are_asked_about(text: str, meant: str) -> None:
