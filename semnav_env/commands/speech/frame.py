@@ -161,7 +161,7 @@ def contexts_of(frame: ClauseFrame) -> tuple[Steps, list[Item]]:
             steps += _passed(item.value)
         else:
             rest.append(item)
-    if steps and frame.verbs == {"be"}:  # "it's two doors past the kitchen"
+    if steps and not frame.verbs - {"be"}:  # "it's two doors past the kitchen"
         rest = [replace(item, value=replace(item.value, counted=False)) for item in rest]
     return tuple(steps), rest
 

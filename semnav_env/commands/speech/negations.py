@@ -97,6 +97,10 @@ def _without(items: list[Item], at: int) -> list[Item]:
     verbs = [item for item in negated if item.kind is ItemKind.VERB]
     before = items[:at]
     if not rest:
+        refs = [item for item in negated if item.kind is ItemKind.REF]
+        end = at - 1 if items[at - 1].kind is ItemKind.BUT else at
+        if verbs and refs and end > 0 and all(item.value.kind == "it" for item in refs):
+            return items[: cut_before(items, end)]  # "to the crossing, but don't cross it"
         again = [i for i in range(at + 2, stop) if items[i].kind is ItemKind.VERB]
         if again and items[again[0]].value != "be":  # "don't turn around go straight"
             return [*items[:at], *items[again[0] :]]
