@@ -1,4 +1,4 @@
-"""Says once what a speaker says twice: "get out of here, out of this room"."""
+"""Says once what a speaker says twice: "to the end, to the last door"."""
 
 from __future__ import annotations
 
@@ -11,9 +11,6 @@ from semnav_env.commands.clauses import (
     GoToDoor,
     GoToRoom,
     IfThere,
-    Leave,
-    Turn,
-    Turning,
 )
 from semnav_env.commands.command import Command
 from semnav_env.commands.references import LAST, DoorReference, Place, PlaceReference
@@ -40,10 +37,6 @@ def told_once(command: Command) -> Command:
 def _merged(before: Clause, clause: Clause) -> list[Clause] | None:
     """What two clauses say together, if the second one adds only how or where; else None."""
     match before, clause:
-        case Leave(), Leave():
-            return [clause]
-        case Turn(Turning.AROUND, None), Turn(Turning.AROUND, None):
-            return [clause]
         case Follow(PlaceReference() as place, False), Follow(same) if place == same and (
             clause == _END or clause.past
         ):

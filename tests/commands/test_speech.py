@@ -160,7 +160,7 @@ def test_words_for_what_the_robot_cannot_do_are_never_left_out(text: str) -> Non
 def test_what_is_said_in_canonical_words_is_taken_literally() -> None:
     text = "leave the room and leave the room"
     assert str(parse(text)) == text
-    assert str(parse("get out of here, get out of the room")) == "leave the room"
+    assert str(parse("get out of here, out of the room")) == "leave the room"
 
 
 def test_separable_verbs_and_compounds_are_taken_apart() -> None:

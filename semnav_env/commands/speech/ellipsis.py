@@ -11,7 +11,7 @@ from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 def in_full(items: Sequence[Item]) -> list[Item]:
     """The items with what was left out."""
     found = _keeping_sides(_without_broken_commas(items))
-    found = _without_repetition(found)
+    found = _without_repetition(_with_one_way_out(found))
     found = _with_verbs(found)
     found = _with_sides(found)
     return _counted_from_passed(_without_counting(found))
@@ -36,6 +36,32 @@ def _keeping_sides(items: Sequence[Item]) -> list[Item]:
         sided = bool(found) and found[-1].kind is ItemKind.SIDE
         found.append(replace(item, value="turn") if keeps and sided else item)
     return found
+
+
+def _with_one_way_out(items: Sequence[Item]) -> list[Item]:
+    """Of "Get out of here, out of this room": one goes out once."""
+    found: list[Item] = []
+    segment: list[Item] = []
+    left = False
+    for item in [*items, None]:
+        if item is not None and item.kind is not ItemKind.SIGN:
+            segment.append(item)
+            continue
+        again = left and bool(segment) and all(map(_only_leads_out, segment))
+        left = any(each.kind is ItemKind.OUT or each.value in _LEAVING for each in segment)
+        found += [] if again else segment
+        found += [] if item is None else [item]
+        segment = []
+    return found
+
+
+_LEAVING = ("leave", "exit")
+
+
+def _only_leads_out(item: Item) -> bool:
+    noun = _noun(item)
+    hall = noun is not None and noun.kind == "hall" and bool(set(item.roles) & {"to", "into"})
+    return item.kind is ItemKind.OUT or hall or (noun is not None and "out" in item.roles)
 
 
 def _without_repetition(items: Sequence[Item]) -> list[Item]:
