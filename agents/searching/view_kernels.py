@@ -67,9 +67,9 @@ def seconds_to_look(
     """
     rows, columns = seconds.shape
     costs = np.full((len(eyes), len(headings)), np.inf)
-    for k in range(len(eyes)):
-        for j in range(len(headings)):
-            c, s = math.cos(headings[j]), math.sin(headings[j])
+    for j in range(len(headings)):
+        c, s = math.cos(headings[j]), math.sin(headings[j])
+        for k in range(len(eyes)):
             x, y = eyes[k, 0] + c * back[0] - s * back[1], eyes[k, 1] + s * back[0] + c * back[1]
             column, row = round((x - west) / spacing), round((y - south) / spacing)
             if not (0 <= row < rows and 0 <= column < columns) or seconds[row, column] == np.inf:
