@@ -98,7 +98,13 @@ def test_numpy_says_what_torch_says(moment):
 
 @pytest.mark.parametrize(
     "text",
-    ["go 3 metres", "turn left by 45 degrees", "wait for 5 seconds", "go to the last door", COMMAND],
+    [
+        "go 3 metres",
+        "turn left by 45 degrees",
+        "wait for 5 seconds",
+        "go to the last door",
+        COMMAND,
+    ],
 )
 def test_every_clause_has_numbers(text):
     tokens = encode(parse(text))

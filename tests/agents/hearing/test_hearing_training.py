@@ -97,7 +97,12 @@ def test_command_line_trains_and_goes_on(monkeypatch, tmp_path, capsys):
 
 @pytest.mark.parametrize(
     ("content", "named"),
-    [("{", "not JSON"), ("[]", "format"), ('{"format": 1}', "shape"), ('{"format": 2}', "format 2")],
+    [
+        ("{", "not JSON"),
+        ("[]", "format"),
+        ('{"format": 1}', "shape"),
+        ('{"format": 2}', "format 2"),
+    ],
 )
 def test_damaged_card_is_named(tmp_path, content, named):
     (tmp_path / CARD_FILE).write_text(content)
