@@ -73,9 +73,9 @@ class ModelCard:
                     f"{path}: {name!r} must be of type {kind.__name__}, "
                     f"not {document.get(name)!r:.40}"
                 )
-        fields = {name: document[name] for name in _CARD_TYPES}
+        rest = {name: document[name] for name in _CARD_TYPES if name != "shape"}
         try:
-            return cls(**fields | {"shape": NetworkShape(**fields["shape"])})
+            return cls(NetworkShape(**document["shape"]), **rest)
         except (TypeError, ValueError) as error:
             raise ValueError(f"{path}: shape: {error}") from None
 
