@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.base import Observation
+from semnav_env.agents.base import Agent, Observation
 from semnav_env.agents.hearing.clause_state import ClauseState
 from semnav_env.agents.hearing.elements import Description, describe
 from semnav_env.agents.hearing.labels import Label, as_record, imagined_label, real_label, steps_on
 from semnav_env.agents.scripted import ScriptedAgent
-from semnav_env.commands.clauses import Clause
+from semnav_env.commands.clauses import Clause, GoToRoom
+from semnav_env.commands.command import Command
+from semnav_env.commands.encoding import encode
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode
 from semnav_env.features.frames import relative, to_local
 from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.features.scene import Scene
 from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.goal import door_of
 from semnav_env.observations import EntryObservation, Moment, SeenGoal
 from semnav_env.observations.layout import GOAL
 from semnav_env.robots import RobotSpec
@@ -51,8 +56,6 @@ class GroundedGoal:
         """Where to drive now, robot frame."""
         belief = moment.belief
         goal, pose = belief.target, belief.pose
-        from semnav_env.grounding.goal import door_of
-
         door = door_of(goal)
         jambs = None if door is None else (to_local(pose, door.start), to_local(pose, door.end))
         return SeenGoal(goal.kind, relative(pose, goal.pose), jambs).values
@@ -62,17 +65,6 @@ class ShownAgent(ScriptedAgent):
     """The scripted agent on observations for an agent that hears."""
 
     observation = EntryObservation("command", [GroundedGoal()])  # type: ignore[assignment]
-
-
-class Driver(Protocol):
-    """Who drives while samples are collected."""
-
-    def reset(self, info: dict[str, Any]) -> None:
-        """Begin an episode."""
-
-    def act(self, observation: Observation) -> NDArray[np.float32]:
-        """The next action."""
-        ...
 
 
 @dataclass
@@ -121,14 +113,12 @@ class Collector:
         self.commands, self.rng = commands, np.random.default_rng(seed)
         self.env = SemNavEnv(robot, observation=ShownAgent.observation, max_seconds=max_seconds)
 
-    def drive(self, episode: Episode, driver: Driver, samples: Samples) -> bool:
+    def drive(self, episode: Episode, driver: Agent, samples: Samples) -> bool:
         """Let a driver carry out an episode; returns whether it succeeds."""
         observation, info = self.env.reset(seed=episode.number, options={"episode": episode})
         driver.reset(info)
-        self._lidar, self._mount = (
-            LidarSpec(**info["lidar"]),
-            RobotSpec(**info["robot"]).lidar_mount,
-        )
+        self._lidar = LidarSpec(**info["lidar"])
+        self._mount = RobotSpec(**info["robot"]).lidar_mount
         follower = self.env.tracker.follower
         shown = ClauseState(observation["command"], self.env.belief.pose)
         late: list[tuple[ClauseState, int]] = []
@@ -137,12 +127,7 @@ class Collector:
             late = self._follow(shown, follower, late)
             if step % DECISION_STEPS == 0 or (late and late[-1][1] == LATE_STEPS + 1):
                 self._keep(observation, shown, follower, samples)
-                for state, _ in late:
-                    label = Label(
-                        None, steps_on(follower.command.clauses, state.clause, follower.active)
-                    )
-                    samples.add(self._described(observation, state), label)
-                late = [(state, left - 1) for state, left in late if left > 1]
+                late = self._keep_late(observation, late, follower, samples)
             action = driver.act(observation)
             self._keep_own(driver, follower, samples)
             observation, _, terminated, truncated, info = self.env.step(action)
@@ -153,8 +138,6 @@ class Collector:
         self, shown: ClauseState, follower: Follower, late: list[tuple[ClauseState, int]]
     ) -> list[tuple[ClauseState, int]]:
         """Bring the state that is shown to that of the environment's follower."""
-        from copy import copy
-
         belief = self.env.belief
         pose, speed = belief.pose, float(np.hypot(*belief.velocity[:2]))
         period = 1.0 / self.env.setup.control_hz
@@ -182,38 +165,40 @@ class Collector:
         for _ in range(IMAGINED):
             self._imagine(observation, shown, follower, scene, samples)
 
+    def _keep_late(
+        self,
+        observation: Observation,
+        late: list[tuple[ClauseState, int]],
+        follower: Follower,
+        samples: Samples,
+    ) -> list[tuple[ClauseState, int]]:
+        """Keep samples of clauses that have just been carried out; returns those to show again."""
+        for state, _ in late:
+            step = steps_on(follower.command.clauses, state.clause, follower.active)
+            samples.add(self._described(observation, state), Label(None, step))
+        return [(state, left - 1) for state, left in late if left > 1]
+
     def _imagine(
         self,
         observation: Observation,
         shown: ClauseState,
         follower: Follower,
-        scene: Any,
+        scene: Scene,
         samples: Samples,
     ) -> None:
-        from copy import copy
-
-        from semnav_env.commands.command import Command
-        from semnav_env.commands.encoding import encode
-
+        """Keep a sample of a clause of another command, had it been said here."""
         clauses = self.commands[int(self.rng.integers(len(self.commands)))]
         index = int(self.rng.integers(len(clauses)))
         label = imagined_label(clauses, index, follower, scene, self.env.belief.pose)
         if label is None:
             return
+        rooms = [clause.name for clause in clauses if isinstance(clause, GoToRoom)]
         state = copy(shown)
-        state.tokens, state.clause, state.way_back = (
-            encode(Command(clauses), self._rooms(clauses)),
-            index,
-            None,
-        )
+        state.tokens, state.clause = encode(Command(clauses), rooms), index
+        state.way_back = None
         samples.add(self._described(observation, state), label)
 
-    def _rooms(self, clauses: tuple[Clause, ...]) -> list[str]:
-        from semnav_env.commands.clauses import GoToRoom
-
-        return [clause.name for clause in clauses if isinstance(clause, GoToRoom)]
-
-    def _keep_own(self, driver: Driver, follower: Follower, samples: Samples) -> None:
+    def _keep_own(self, driver: Agent, follower: Follower, samples: Samples) -> None:
         """Keep what a learner that drives has just decided on, in the state that it was in."""
         decisions = getattr(driver, "decisions", ())
         share = 1.0 if len(decisions) > 1 else KEPT_SHARE

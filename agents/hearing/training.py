@@ -20,7 +20,7 @@ import torch
 
 from semnav_env.agents.hearing.agent import HearingAgent
 from semnav_env.agents.hearing.card import CARD_FILE, NETWORK_FILE, ModelCard
-from semnav_env.agents.hearing.collecting import Collector, Driver, Samples, ShownAgent
+from semnav_env.agents.hearing.collecting import Collector, Samples, ShownAgent
 from semnav_env.agents.hearing.learning import Learner, measured
 from semnav_env.agents.hearing.mirror import Arrays
 from semnav_env.agents.hearing.network import GroundingNetwork
@@ -191,6 +191,3 @@ def _rate(each: HearingRound, epoch: int) -> float:
 def _read(path: Path) -> Arrays:
     with np.load(path) as file:
         return {name: file[name] for name in file.files}
-
-
-__all__ = ["Driver", "HearingTrainer", "plain_preset"]
