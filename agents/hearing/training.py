@@ -32,6 +32,9 @@ from semnav_env.features.writing import replacing
 
 STATE_FILE, SAMPLES = "training.safetensors", "samples"
 
+PROGRESS = "progress"
+"""Name of the tensor that says after which round and epoch the state was saved."""
+
 MEASURED = 4000
 """Samples of the last chunk of the first round on which the network is measured; it does not learn
 from that chunk."""
@@ -115,7 +118,8 @@ class HearingTrainer:
             self.learner = Learner(self.network)
         loss = self.learner.epoch(samples, self.preset.batch_size, (rates[0], rates[1]), rng)
         found = measured(self.network, self._held_out)
-        save_tensors(self.folder / STATE_FILE, self.learner.state())
+        progress = {PROGRESS: np.array((number, epoch))}
+        save_tensors(self.folder / STATE_FILE, self.learner.state() | progress)
         save_tensors(self.folder / NETWORK_FILE, self.network.arrays())
         row = {"round": number, "epoch": epoch, "loss": round(loss, 4)}
         row |= {name: round(value, 4) for name, value in found.items() if math.isfinite(value)}
@@ -173,8 +177,19 @@ class HearingTrainer:
                     f"{self.folder} was trained with another {name}; start anew with another --out"
                 )
         self.card = card
-        if any("epoch" in row for row in card.curve):
-            self.learner.load(load_tensors(self.folder / STATE_FILE))
+        if (self.folder / STATE_FILE).exists():
+            self._resume_state()
+
+    def _resume_state(self) -> None:
+        """Go on from the saved state, which may be one epoch ahead of the card."""
+        tensors = load_tensors(self.folder / STATE_FILE)
+        number, epoch = (int(value) for value in tensors.pop(PROGRESS))
+        self.learner.load(tensors)
+        if not self._has(number, epoch=epoch):
+            save_tensors(self.folder / NETWORK_FILE, self.network.arrays())
+            found = measured(self.network, self._held_out)
+            row = {name: round(value, 4) for name, value in found.items() if math.isfinite(value)}
+            self._note({"round": number, "epoch": epoch, **row})
 
 
 def plain_preset(preset: HearingPreset) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """Training of an agent that hears: from nothing to a folder that drives."""
 
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -63,6 +64,17 @@ def test_interrupted_training_ends_as_an_uninterrupted_one(trained, tmp_path):
             break
     whole, parts = (load_tensors(folder / NETWORK_FILE) for folder in (trained[0], tmp_path))
     assert all(np.array_equal(whole[name], parts[name]) for name in whole)
+
+
+def test_kill_between_state_and_card_loses_nothing(trained, tmp_path):
+    shutil.copytree(trained[0], tmp_path, dirs_exist_ok=True)
+    card = ModelCard.read(tmp_path)
+    card.curve.pop()
+    card.write(tmp_path)
+    assert list(HearingTrainer(TINY, tmp_path, seed=0).advance()) == []
+    assert len(ModelCard.read(tmp_path).curve) == len(trained[1])
+    before, after = (load_tensors(folder / NETWORK_FILE) for folder in (trained[0], tmp_path))
+    assert all(np.array_equal(before[name], after[name]) for name in before)
 
 
 def test_other_seed_is_refused(trained):
