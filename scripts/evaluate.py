@@ -51,7 +51,7 @@ class Arguments:
     Attributes:
         suite: heidelberg, office_cross, or "all" of these; a split (`semnav episodes list`); or a
             file of episodes.
-        agent: scripted, oracle, blind, random, quick, office (trained ones), the folder of a
+        agent: scripted, oracle, blind, random, quick, office, listener (trained), the folder of a
             trained agent, or package.module:Class.
         robot: wheelchair or spot.
         seeds: number of start poses, each with its own noise, for every command of a suite.
