@@ -31,7 +31,7 @@ class Arguments:
     the current update; what was learned is saved, and --resume continues from there.
 
     Attributes:
-        preset: what to learn: quick or office.
+        preset: what to learn: quick or drive.
         out: folder of the agent; runs/PRESET if not given.
         steps: number of decisions in all, at the end; that of the preset if not given.
         minutes: time limit of this run.
@@ -101,7 +101,9 @@ def _bar(console: Console) -> Progress:
     return Progress(TextColumn("{task.description}"), *columns, console=console)
 
 
-def _line(report: TrainingReport) -> str:
+def _line(report: TrainingReport | None) -> str:
+    if report is None:
+        return "driving demonstrations"
     return (
         f"{report.steps} decisions, {report.rate:.0f}/s, "
         f"success {report.success:.0%}, no contact {report.contact_free:.0%}, "
