@@ -14,7 +14,11 @@ from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver
 from semnav_env.agents.learning.files import AGENT_FILE, POLICY_FILE, AgentDescription, load_tensors
 from semnav_env.agents.learning.policy import Policy
 from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.observations.layout import GOAL
 from semnav_env.robots import RobotSpec, robot_spec
+
+_STOP = GOAL.columns.index("stop")
+"""Where in the goal it says that the robot is to stand still."""
 
 PRETRAINED_FOLDER = Path(__file__).with_name("pretrained")
 """Folder of the trained agents that come with the package."""
@@ -104,7 +108,9 @@ class LearnedAgent:
         self._held = 0
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
-        """The action; a new one is chosen every `repeat` steps."""
+        """The action; a new one is chosen every `repeat` steps. A goal to stop at needs no policy."""
+        if observation["goal"][_STOP]:
+            return np.zeros(self._robot.action_size, np.float32)
         if self._held == 0:
             row = {name: observation[name][None] for name in ("goal", "odometry", "scan")}
             action = self.policy.act(self._observer.observe(row)[0])

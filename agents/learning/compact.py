@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
-from semnav_env.agents.learning.surroundings import SECTORS, Surroundings
+from semnav_env.agents.learning.clearance_memory import SECTORS, ClearanceMemory
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.observations.layout import GOAL, ODOMETRY
 from semnav_env.robots import RobotSpec
@@ -37,7 +37,7 @@ class CompactObserver:
     """
 
     def __init__(self, robots: Sequence[RobotSpec], lidar: LidarSpec) -> None:
-        self._surroundings = Surroundings(robots, lidar)
+        self._memory = ClearanceMemory(robots, lidar)
         self._sideways = np.array([[robot.holonomic] for robot in robots], np.float32)
 
     def forget(self, robots: NDArray[np.bool_]) -> None:
@@ -46,7 +46,7 @@ class CompactObserver:
         Args:
             robots: whose, shape (n,).
         """
-        self._surroundings.forget(robots)
+        self._memory.forget(robots)
 
     def observe(self, observation: Observation, robots: Sequence[int] | None = None) -> Array:
         """The body, the goal, the velocity and the room around, each value in [-1, 1].
@@ -70,7 +70,7 @@ class CompactObserver:
         kind, place, heading, jambs, has_door = np.split(goal, _GOAL_PARTS, axis=-1)
         turned = np.arctan2(odometry[:, 3], odometry[:, 2])
         poses = np.column_stack((odometry[:, :2], turned)).astype(np.float64)
-        clearances = self._surroundings.clearances(index, poses, observation["scan"])
+        clearances = self._memory.clearances(index, poses, observation["scan"])
         return np.concatenate(
             (
                 self._sideways[index],

@@ -12,6 +12,7 @@ from hypothesis.extra.numpy import arrays
 
 from semnav_env.agents.learned import PRETRAINED_FOLDER, LearnedAgent, pretrained_names
 from semnav_env.agents.learning.actions import for_body, from_body
+from semnav_env.agents.learning.clearance_memory import NO_HIT, SECTORS, ClearanceMemory
 from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver
 from semnav_env.agents.learning.files import (
     AGENT_FILE,
@@ -21,7 +22,6 @@ from semnav_env.agents.learning.files import (
 )
 from semnav_env.agents.learning.policy import Policy
 from semnav_env.agents.learning.presets import PRESETS
-from semnav_env.agents.learning.surroundings import NO_HIT, SECTORS, Surroundings
 from semnav_env.env import SemNavEnv
 from semnav_env.features.lidar_spec import lidar_spec
 from semnav_env.observations import GOAL, UNBOUNDED
@@ -92,7 +92,7 @@ def test_a_hit_is_as_near_as_it_is_to_the_footprint(beam, x, y):
     scan = np.full((1, LIDAR.beams), LIDAR.range_max, np.float32)
     scan[0, beam] = 1.0
     robot = ROBOTS["wheelchair"]
-    room = Surroundings([robot], LIDAR).clearances(np.array([0]), np.zeros((1, 3)), scan)[0]
+    room = ClearanceMemory([robot], LIDAR).clearances(np.array([0]), np.zeros((1, 3)), scan)[0]
     [sector] = np.flatnonzero(room < NO_HIT)
     sides = max(abs(x) - robot.length / 2, 0.0), max(abs(y) - robot.width / 2, 0.0)
     assert room[sector] == pytest.approx(np.hypot(*sides), abs=0.01)
@@ -102,7 +102,7 @@ def test_a_hit_is_as_near_as_it_is_to_the_footprint(beam, x, y):
 def test_what_was_ahead_is_remembered_behind():
     scan = np.full((1, LIDAR.beams), 2.0, np.float32)
     clear = np.full((1, LIDAR.beams), LIDAR.range_max, np.float32)
-    around, here = Surroundings([ROBOTS["spot"]], LIDAR), np.array([0])
+    around, here = ClearanceMemory([ROBOTS["spot"]], LIDAR), np.array([0])
     seen = around.clearances(here, np.zeros((1, 3)), scan)[0]
     turned = around.clearances(here, np.array([[0.0, 0.0, np.pi]]), clear)[0]
     assert seen[0] == NO_HIT
@@ -205,6 +205,14 @@ def test_a_new_episode_begins_with_a_new_action(saved):
     agent.act(near)
     agent.reset(info)
     assert np.array_equal(agent.act(far), policy().act(compact(far)))
+
+
+def test_it_stands_still_where_the_goal_is_to_stop(saved):
+    agent, goal = LearnedAgent.load(saved), np.zeros(GOAL.size, np.float32)
+    goal[GOAL.columns.index("stop")] = 1.0
+    agent.reset({"robot": vars(ROBOTS["wheelchair"]), "lidar": vars(LIDAR)})
+    assert not agent.act(observation(np.full(811, 2.0), goal)).any()
+    assert agent.act(observation(np.full(811, 2.0))).any()
 
 
 def test_another_robot_is_refused(saved):

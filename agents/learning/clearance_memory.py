@@ -36,7 +36,7 @@ metres and radians."""
 Array = NDArray[np.float32]
 
 
-class Surroundings:
+class ClearanceMemory:
     """The room around each of several robots.
 
     Args:
