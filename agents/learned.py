@@ -108,7 +108,7 @@ class LearnedAgent:
         self._held = 0
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
-        """The action; a new one is chosen every `repeat` steps. A goal to stop at needs no policy."""
+        """The action; the policy chooses a new one every `repeat` steps, unless it is to stop."""
         if observation["goal"][_STOP]:
             return np.zeros(self._robot.action_size, np.float32)
         if self._held == 0:

@@ -31,7 +31,7 @@ def test_actions_can_be_chosen_from_a_list() -> None:
 
 def test_tokens_of_the_command_become_one_hot() -> None:
     env = FlattenObservation(FilterObservation(gym.make(ID, observation="command"), ["command"]))
-    observation, info = env.reset(seed=0)
+    observation, _ = env.reset(seed=0)
     space = env.unwrapped.observation_space["command"]
     assert observation.shape == (flatdim(space),)
     assert set(np.unique(observation)) == {0.0, 1.0}
