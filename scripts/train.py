@@ -34,7 +34,7 @@ class Arguments:
     the current update; what was learned is saved, and --resume continues from there.
 
     Attributes:
-        preset: what to learn: quick, office, or listener, which hears the command.
+        preset: what to learn: quick, drive, or listener, which hears the command.
         out: folder of the agent; runs/PRESET if not given.
         steps: number of decisions in all, at the end; that of the preset if not given. The length
             of listener is fixed.
@@ -108,7 +108,9 @@ def _bar(console: Console) -> Progress:
     return Progress(TextColumn("{task.description}"), *columns, console=console)
 
 
-def _line(report: TrainingReport) -> str:
+def _line(report: TrainingReport | None) -> str:
+    if report is None:
+        return "driving demonstrations"
     return (
         f"{report.steps} decisions, {report.rate:.0f}/s, "
         f"success {report.success:.0%}, no contact {report.contact_free:.0%}, "
