@@ -25,8 +25,12 @@ FROZEN = {
     "german": "12132d91284b2455446fdde016a53c2e97c7e6b7baeba1ceab6e9e11400cd26d",
     "second_english": "0782ba75a720d58a4f01ac989d689380cde9373281f64f0e4ac611edee776507",
     "second_german": "1654cfef85a8fc453b9a31402a5af4f0438aed32bf1808664d79a2146f62d4f1",
+    "third_english": "1b00c91f6d6462157902e5950e404103e278150a729d71a3316cf6e57b8d93e1",
+    "third_german": "8318723764e1701ae464d5c9d220dab74d005358f2367a51bb7ff2c0b65e214e",
 }
-SIZES = {"english": 330, "german": 330, "second_english": 170, "second_german": 170}
+SIZES = {"english": 330, "german": 330} | dict.fromkeys(
+    ("second_english", "second_german", "third_english", "third_german"), 170
+)
 
 EQUAL = """
 past intersection, door = through door(1,after intersection) = hallway past intersection; through door(1)

@@ -41,7 +41,7 @@ def development_corpora() -> tuple[Path, ...]:
 
 
 def held_out_corpora() -> tuple[Path, ...]:
-    """The files of a third author, on which nothing was tuned; none until they are added."""
+    """The files of a third author, on which nothing was tuned."""
     return tuple(sorted(_folder().glob("third_*.jsonl")))
 
 
