@@ -141,18 +141,27 @@ class EntryObservation:
 
     def observe(self, moment: Moment) -> dict[str, Array]:
         """The entries as fresh arrays."""
-        belief, tracker, tokens = moment.belief, moment.tracker, moment.tokens
-        write_last, write_other = self._kernels
-        row = np.empty(self.row_size, np.float32)
+        belief, tracker = moment.belief, moment.tracker
         if belief is tracker.belief:
-            write_last(row, tracker.senses)
+            observation = self.observe_last(tracker, moment.tokens)
         else:
-            write_other(row, tracker.senses, estimate_of(belief))
-        observation: dict[str, Array] = dict(zip(self._names, self._split(row)))  # noqa: B905, slower
-        observation["command"] = tokens.ravel().astype(np.int16)
+            row = np.empty(self.row_size, np.float32)
+            self._kernels[1](row, tracker.senses, estimate_of(belief))
+            observation = self._entries(row, moment.tokens)
         for entry in self.extra:
             observation[entry.name] = entry.observe(moment)
         return observation
+
+    def observe_last(self, tracker: BeliefTracker, tokens: NDArray[np.int64]) -> dict[str, Array]:
+        """The entries of the mode for what is believed last, which need no `Moment`."""
+        row = np.empty(self.row_size, np.float32)
+        self._kernels[0](row, tracker.senses)
+        return self._entries(row, tokens)
+
+    def _entries(self, row: NDArray[np.float32], tokens: NDArray[np.int64]) -> dict[str, Array]:
+        entries: dict[str, Array] = dict(zip(self._names, self._split(row)))  # noqa: B905, slower
+        entries["command"] = tokens.ravel().astype(np.int16)
+        return entries
 
 
 def as_observation(value: object) -> ObservationType:

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.scratch import Scratch, allocate_scratch
-from semnav_env.vector.robot_arrays import RobotArrays, join_robot, list_of, put
+from semnav_env.robot_loop import RobotArrays, join_robot
+from semnav_env.vector.robot_list import list_of, put
 from semnav_env.vector.tick import PERIOD, tick, write_command_rows, write_rows
 
 LEAST_SHARE = 8
