@@ -278,6 +278,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
             corrects_drift=self.corrects_drift and not setup.exact,
             known_scene=floor_plan.scene_by(self.rules.door) if setup.exact else None,
             rules=self.rules,
+            observes_features=getattr(self.observation_type, "observes_features", True),
         )
 
     def _begin(self, mission: Mission, instruction: str) -> None:

@@ -92,7 +92,7 @@ def join_robot(simulator: SimulatorArrays, senses: Senses, judge: JudgeRecord) -
     return RobotArrays(simulator, senses, judge)
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def run_period(
     robot: RobotArrays, drives: bool, forward: float, left: float, turn: float, seconds: float
 ) -> tuple[int, int]:
@@ -122,7 +122,7 @@ def run_period(
     return understood, judge_motion(robot.judge)
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def _tell_mind(robot: RobotArrays, seconds: float) -> None:
     """Give what was sensed to the robot's mind."""
     sensing, estimate = robot.simulator.sensing[0], robot.senses.estimate[0]
@@ -139,7 +139,7 @@ def _tell_mind(robot: RobotArrays, seconds: float) -> None:
     estimate.velocity[2] = velocity.turn
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def _tell_judge(robot: RobotArrays, in_contact: int, seconds: float) -> None:
     """Give the true motion to the robot's judge."""
     sensing, state = robot.simulator.sensing[0], robot.judge.state[0]

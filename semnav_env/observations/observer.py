@@ -95,6 +95,7 @@ class EntryObservation:
 
     Attributes:
         exact: whether lidar and odometry are to have no errors and the scene is the floor plan's.
+        observes_features: whether features of the scan are among the entries.
         remembers: whether the row goes on with `layout.MEMORY_ENTRIES` behind the scan.
         row_size: how many numbers the kernels write; after `space`.
         places: of the entries in that row, by name; after `space`.
@@ -111,6 +112,7 @@ class EntryObservation:
             raise ValueError(f"observation {mode!r} has {sorted(taken)} already; name yours anew")
         self.mode, self.extra, self.exact = mode, tuple(extra), mode == "truth"
         self.remembers = MEMORY_ENTRIES[0].name in MODES[mode]
+        self.observes_features = "corners" in MODES[mode]
         self._kernels = (write_row, write_belief)
         if self.remembers:
             from semnav_env.observations.memory_row import write_command_belief, write_command_row

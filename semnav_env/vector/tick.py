@@ -69,7 +69,7 @@ def write_command_rows(robots: Any, first: int, last: int, rows: NDArray[np.floa
         write_command_row(rows[k], robots[k].senses)
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def _tick_robot(robot: RobotArrays, twist: FloatArray, seconds: float, period: Any) -> None:
     events = run_period(robot, True, twist[0], twist[1], twist[2], seconds)
     period.understood, period.judged = events
