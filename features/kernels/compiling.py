@@ -173,7 +173,9 @@ class _BorrowingContext(CPUContext):
     """Reads the fields of structures, though it counts no references."""
 
     @property
-    def nrt(self) -> Any:
+    def nrt(  # pyright: ignore[reportIncompatibleVariableOverride]
+        self,
+    ) -> Any:
         """What reads structures."""
         return NRTContext(self, True)
 
@@ -226,7 +228,7 @@ def _linked(body: Any) -> Any:
     context, door = body.target_context, copy(body.fndesc)
     if isinstance(context, _BorrowingContext):  # Python hands over structures with a reference
         context = context.subtarget(enable_nrt=True)
-        context.__class__ = CPUContext
+        context.__class__ = CPUContext  # pyright: ignore[reportAttributeAccessIssue]
     door.env_name += ".python"
     environment = Environment.from_fndesc(door)
     library = context.codegen().create_library(door.qualname)
