@@ -17,7 +17,7 @@ from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.validation import check_kind
 from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
 from semnav_env.maps import FloorPlan
-from semnav_env.observations import Moment, ObservationType, as_observation
+from semnav_env.observations import EntryObservation, Moment, ObservationType, as_observation
 from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.robots.actions import Actions
@@ -161,7 +161,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
         sensed = self.simulator.reset(mission.start, self.np_random)
         info = mission.info | setup.info | request.info
         self._begin(mission, info["instruction"])
-        self.tracker.update(*sensed[:4])
+        self.tracker.think(self._loop.look())
         if self.payload is not None:
             self.payload.begin(self.floor_plan, self.setup, mission.start, self.np_random)
             self.payload.update(sensed.motion, self.tracker)
@@ -177,23 +177,40 @@ class SemNavEnv(GymnasiumEnv[Any]):
             RuntimeError: before the first `reset`.
         """
         self._require_reset("step")
-        sensed = self.simulator.step(self._actions.twist(action))
-        motion = sensed.motion
-        belief = self.tracker.update(*sensed[:4])
-        if self.payload is not None:
-            self.payload.update(motion, self.tracker)
-        judgement = self.judge.update(motion)
-        tick = tasks.Tick(*judgement, motion, belief, np.asarray(action), self.payload)
-        terms = self.rewards.terms(tick)
+        events = self._loop.drive(self._actions.twist(action))
+        judgement, outcome = self.think(*events), self.judge.outcome
+        terms = self._terms(judgement, outcome.in_contact != 0, action)
         terminated = self.judge.verifier.over
         truncated = not terminated and self.simulator.steps >= self.max_steps
         ended = self.conclude(truncated) if terminated or truncated else {}
-        self.renderer.note(self, motion.pose)
-        info = self.judge.info | {"reward_terms": terms} | ended
+        info = self.judge.info_of(outcome)
+        self.renderer.note(self, info["pose"])
+        info |= {"reward_terms": terms, **ended}
         return self.observe(), sum(terms.values()), terminated, truncated, info
+
+    def think(self, understood: int, judged: int) -> tasks.Judgement:
+        """Do what the events of `understand` and `judge_motion` call for."""
+        if understood:
+            self.tracker.think(understood)
+        if self.payload is not None:
+            self.payload.update(self.simulator.motion, self.tracker)
+        return self.judge.think(judged)
+
+    def _terms(
+        self, judgement: tasks.Judgement, in_contact: bool, action: ArrayLike
+    ) -> dict[str, float]:
+        """The terms of the reward."""
+        rewards = self.rewards
+        if type(rewards) is tasks.RewardWeights:  # the usual ones need no belief
+            return rewards.weigh(*judgement, in_contact)
+        sensed = self.simulator.motion, self.belief, np.asarray(action)
+        return rewards.terms(tasks.Tick(*judgement, *sensed, self.payload))
 
     def observe(self) -> Any:
         """A fresh observation from where the robot is now."""
+        kind = self.observation_type
+        if type(kind) is EntryObservation and not kind.extra:
+            return kind.observe_last(self.tracker, self.tokens)
         told = self.tracker.command, self.tokens, self.simulator.see, self.instruction
         moment = Moment(self.belief, self.tracker, *told, self.payload)
         return self.observation_type.observe(moment)
@@ -261,14 +278,18 @@ class SemNavEnv(GymnasiumEnv[Any]):
             corrects_drift=self.corrects_drift and not setup.exact,
             known_scene=floor_plan.scene_by(self.rules.door) if setup.exact else None,
             rules=self.rules,
+            observes_features=getattr(self.observation_type, "observes_features", True),
         )
 
     def _begin(self, mission: Mission, instruction: str) -> None:
         """Give a mission to the judge, and its command to the robot."""
+        from semnav_env.robot_loop import RobotLoop  # first needed now
+
         self.judge, self.instruction = tasks.EpisodeJudge(mission, self.payload), instruction
         self.tokens = encode(mission.command, self.floor_plan.room_names)
         odometry_frame = (0.0, 0.0, 0.0) if self.setup.exact else mission.start
         self.tracker.begin(mission.command, mission.ways_seen_from(odometry_frame))
+        self._loop = RobotLoop(self.simulator, self.tracker, self.judge.verifier)
         self.renderer.begin(mission.start)
 
 

@@ -59,7 +59,7 @@ def extract_arrays(
         scratch: `allocate_scratch(n)` or larger.
         walls: dtype `WALL`, any length, like the next four.
         doors: dtype `DOOR`.
-        corners: dtype `CORNER`.
+        corners: dtype `CORNER`. Without room for one, neither corners nor corridors are looked for.
         corridors: dtype `CORRIDOR`.
         arcs: dtype `ARC`.
         counts: how many of each were found, shape (6,); see `layout`.
@@ -166,6 +166,9 @@ def find_features(
         scratch,
         features.doors,
     )
+    counts[CORNERS] = counts[CORRIDORS] = 0
+    if len(features.corners) == 0:
+        return
     counts[CORNERS] = find_corners(
         counts[WALLS], beams_per_turn > 0, settings, scratch, features.corners
     )

@@ -24,6 +24,7 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.cpu import CPUContext
 from numba.core.environment import Environment
 from numba.core.registry import CPUDispatcher
+from numba.core.runtime.context import NRTContext
 
 from semnav_env.features.kernels import frames_in_kernels  # noqa: F401 - kernels call them
 from semnav_env.features.kernels.cache_folder import cache_folder
@@ -53,38 +54,43 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 def kernel(function: Function) -> Function: ...
 @overload
 def kernel(
-    *, counts_references: bool = False, inline: bool = False
+    *, counts_references: bool = False, borrows: bool = False, inline: bool = False
 ) -> Callable[[Function], Function]: ...
 def kernel(
     function: Callable[..., Any] | None = None,
     *,
     counts_references: bool = False,
+    borrows: bool = False,
     inline: bool = False,
 ) -> Any:
     """Decorate a kernel: a function of plain numbers, tuples, arrays and structures.
 
     Args:
         function: the function; without it, as in `@kernel(inline=True)`, a decorator is returned.
-        counts_references: the kernel makes or returns arrays, or takes structures. Others work on
+        counts_references: the kernel makes or returns arrays, or changes structures. Others work on
             their caller's arrays alone and need not count the references to these, by atomic
             additions, which takes twice as long as the work of a scan.
+        borrows: the kernel takes structures and only reads their fields; likewise.
         inline: put the kernel's statements in place of each call, before types are known.
     """
     if function is None:
-        return partial(kernel, counts_references=counts_references, inline=inline)
+        options = {"counts_references": counts_references, "borrows": borrows}
+        return partial(kernel, **options, inline=inline)
     if inline:
         return njit(function, error_model="numpy", nogil=True, inline="always")
     if getattr(config, "DISABLE_JIT", False) or not NUMBA_FITS:
         # Numba's own folder may be one where nothing can be written.
         config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
         return njit(function, error_model="numpy", nogil=True, cache=True)
-    return Kernel(function, counts_references)
+    return Kernel(function, counts_references, borrows)
 
 
 class Kernel(CPUDispatcher):
     """A compiled function that Python and other kernels call."""
 
-    def __init__(self, function: Callable[..., Any], counts_references: bool) -> None:
+    def __init__(
+        self, function: Callable[..., Any], counts_references: bool, borrows: bool
+    ) -> None:
         options = {
             "nopython": True,
             "boundscheck": None,
@@ -95,7 +101,7 @@ class Kernel(CPUDispatcher):
             "no_cfunc_wrapper": True,
         }
         super().__init__(function, targetoptions=options)
-        self.body = KernelBody(function, targetoptions=options)
+        self.body = KernelBody(function, options, borrows)
         self._compiler = _LinkingCompiler(self.body)
         self._cache = KernelCache(function)
 
@@ -125,11 +131,14 @@ def _kernel_named(module: str, name: str) -> Any:
 class KernelBody(CPUDispatcher):
     """A kernel as other kernels call it."""
 
-    def __init__(self, function: Callable[..., Any], targetoptions: dict[str, Any]) -> None:
+    def __init__(
+        self, function: Callable[..., Any], targetoptions: dict[str, Any], borrows: bool
+    ) -> None:
         super().__init__(function, targetoptions=targetoptions)
         self._compiler = _BodyCompiler(
             function, self.targetdescr, targetoptions, {}, compiler.Compiler
         )
+        self._compiler.borrows = borrows
 
 
 _FunctionCompiler: Any = getattr(dispatcher, "_FunctionCompiler", object)
@@ -160,14 +169,30 @@ class _NoEnvironments:
         """Do nothing, for there is no machine code."""
 
 
+class _BorrowingContext(CPUContext):
+    """Reads the fields of structures, though it counts no references."""
+
+    @property
+    def nrt(  # pyright: ignore[reportIncompatibleVariableOverride]
+        self,
+    ) -> Any:
+        """What reads structures."""
+        return NRTContext(self, True)
+
+
 class _BodyCompiler(_FunctionCompiler):
     """Compiles to intermediate code."""
+
+    borrows = False
 
     def _compile_core(self, args: Any, return_type: Any) -> Any:
         NOTICE.work_goes_on()
         flags = compiler.Flags()
         self.targetdescr.options.parse_as_flags(flags, self.targetoptions)
         context = self.targetdescr.target_context
+        if self.borrows:
+            context = copy(context)
+            context.__class__ = _BorrowingContext
         return compiler.compile_extra(
             self.targetdescr.typing_context,
             context,
@@ -201,6 +226,9 @@ def _linked(body: Any) -> Any:
     kept with each caller, which does not know what Python's types need.
     """
     context, door = body.target_context, copy(body.fndesc)
+    if isinstance(context, _BorrowingContext):  # Python hands over structures with a reference
+        context = context.subtarget(enable_nrt=True)
+        context.__class__ = CPUContext  # pyright: ignore[reportAttributeAccessIssue]
     door.env_name += ".python"
     environment = Environment.from_fndesc(door)
     library = context.codegen().create_library(door.qualname)

@@ -13,13 +13,21 @@ from numpy.typing import ArrayLike
 
 from semnav_env.belief.belief import Belief, SceneSource
 from semnav_env.belief.bump_map import BumpMap
-from semnav_env.belief.estimate import BELIEVED, BELIEVED_OFFSET, ESTIMATE, SENSED
+from semnav_env.belief.estimate import (
+    BELIEVED,
+    BELIEVED_OFFSET,
+    ESTIMATE,
+    SENSED,
+    mean_velocity,
+    pose_in,
+)
 from semnav_env.belief.scene_source import KnownScene, RememberedScene, nothing
 from semnav_env.belief.told_ways import ToldWays
 from semnav_env.belief.understand import (
     FIRST_SCAN,
     LOOK_DUE,
     Senses,
+    extract_features,
     join_senses,
     note_look,
     understand,
@@ -27,7 +35,12 @@ from semnav_env.belief.understand import (
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import MOST_CONTACTS, Contact, FloatArray, Pose, Twist
-from semnav_env.features.kernels.scratch import Scratch, allocate_features, allocate_scratch
+from semnav_env.features.kernels.scratch import (
+    Features,
+    Scratch,
+    allocate_features,
+    allocate_scratch,
+)
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
@@ -59,10 +72,11 @@ class BeliefTracker:
             grounded on them and not on what is remembered.
         rules: what a door is, and the distances and tolerances of grounding. What a door is may be
             said by `extractor` instead.
+        observes_features: whether all features stand in `senses` after each scan. Otherwise corners
+            and corridors, which a belief does not need, are found when `features` is asked for.
 
     Attributes:
         ranges: of the last scan, metres, shape (beams,).
-        features: of the last scan, lidar frame.
         senses: arrays of the belief, as kernels take them.
         belief: the last one; None before the first.
         memory: walls and doors seen so far, odometry frame.
@@ -85,11 +99,12 @@ class BeliefTracker:
         corrects_drift: bool = True,
         known_scene: Scene | None = None,
         rules: Rules = Rules(),
+        observes_features: bool = True,
     ) -> None:
         self.lidar, self.mount = lidar_spec(lidar), mount
         self.corrects_drift, self.known_scene = corrects_drift, known_scene
         self.ranges = np.zeros(self.lidar.beams)
-        self.features = allocate_features()
+        self._features, self._observes_features = allocate_features(), observes_features
         self.memory = SceneMemory()
         self.bumps = BumpMap(self.lidar, mount)
         self.belief: Belief | None = None
@@ -113,7 +128,7 @@ class BeliefTracker:
         sensor = self.lidar.sensor, self._beams, self._record, self._scratch, self.mount
         known: tuple[Any, Any] = self.memory.arrays, self.bumps.arrays
         mind: tuple[Any, Any, Any] = self._estimate, self._progress, self._told.arrays
-        return join_senses(*sensor, self.ranges, self.features, *known, *mind)
+        return join_senses(*sensor, self.ranges, self._features, *known, *mind)
 
     def __getstate__(self) -> dict[str, Any]:
         self._keep_last_scene()
@@ -153,6 +168,7 @@ class BeliefTracker:
         )
         self._estimate[:] = np.zeros(1, ESTIMATE)
         self._estimate["scan"], self._estimate["corrects_drift"] = -1, self.corrects_drift
+        self._estimate["observes_features"] = self._observes_features
         self._begun = True
 
     def update(
@@ -204,7 +220,7 @@ class BeliefTracker:
             raise ValueError(f"odometry is {odometry}; it must be a finite (x, y, heading)")
         seconds = self._period if seconds is None else seconds
         if velocity is None:
-            velocity = self._mean_velocity(odometry, seconds)
+            velocity = mean_velocity(self._estimate[0], odometry, seconds)
         self.let_go()
         own[:] = array
         felt = min(len(bumps), MOST_CONTACTS)
@@ -215,7 +231,7 @@ class BeliefTracker:
     def think(self, events: int) -> None:
         """Do what the events of `understand` call for; nothing without one."""
         estimate, follower = self._estimate[0], self.follower
-        pose = _pose(estimate["pose"])
+        pose = pose_in(estimate["pose"])
         looked = True
         if events & FIRST_SCAN:
             follower.start(self.scene(), pose)
@@ -253,18 +269,18 @@ class BeliefTracker:
             return self.known_scene
         return self.bumps.join(self.memory.scene())
 
+    @property
+    def features(self) -> Features:
+        """Of the last scan, lidar frame."""
+        if not self._observes_features:
+            extract_features(self.senses, True)
+        return self._features
+
     def hits(self) -> FloatArray:
         """Where the last beams ended, lidar frame, shape (n, 2); NaN without a return."""
         spec = self.lidar
         valid = (self.ranges >= spec.range_min) & (self.ranges < spec.range_max)
         return np.where(valid, self.ranges, np.nan)[:, None] * self._beams
-
-    def _mean_velocity(self, odometry: Pose, seconds: float) -> Twist:
-        """The mean velocity since the last scan, in the robot frame then; 0 at the first scan."""
-        estimate = self._estimate[0]
-        if estimate["scan"] < 0:
-            return ORIGIN
-        return _velocity(_pose(estimate["odometry"]), odometry, seconds)
 
     def let_go(self) -> None:
         """Forget the last belief, before `understand`; who still has it keeps its scene."""
@@ -278,16 +294,3 @@ class BeliefTracker:
         if source is not None:
             source.keep()
         self._last_source = nothing
-
-
-def _pose(field: FloatArray) -> Pose:
-    x, y, heading = field.tolist()
-    return x, y, heading
-
-
-def _velocity(before: Pose, after: Pose, seconds: float) -> Twist:
-    """The mean velocity between two poses, in the robot frame of the first."""
-    x, y = after[0] - before[0], after[1] - before[1]
-    c, s = math.cos(before[2]), math.sin(before[2])
-    yaw = math.remainder(after[2] - before[2], math.tau)
-    return (c * x + s * y) / seconds, (c * y - s * x) / seconds, yaw / seconds

@@ -98,7 +98,7 @@ def join_senses(
     )
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def understand(senses: Senses) -> int:
     """Take in the scan and the motion that stand in the senses; returns events.
 
@@ -126,7 +126,7 @@ def understand(senses: Senses) -> int:
     return events
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def _feel(senses: Senses, pose: Pose) -> bool:
     """Note what the body touches unseen; returns whether something new is known."""
     estimate = senses.estimate[0]
@@ -136,7 +136,7 @@ def _feel(senses: Senses, pose: Pose) -> bool:
     return bool(note_contacts(senses.bumps, felt, senses.ranges, senses.limits, senses.mount, pose))
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def note_look(senses: Senses) -> None:
     """Note that the clause has been grounded."""
     estimate = senses.estimate[0]
@@ -146,7 +146,7 @@ def note_look(senses: Senses) -> None:
     estimate.look_walls, estimate.look_doors = how_many_count(*senses.remembered)
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def perceive(senses: Senses, odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
     """Extract the features of the last scan and remember them; returns the believed pose.
 
@@ -160,7 +160,7 @@ def perceive(senses: Senses, odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
     """
     corrects_drift = senses.estimate[0].corrects_drift
     features, limits = senses.features, senses.limits[0]
-    extract_features(senses)
+    extract_features(senses, senses.estimate[0].observes_features)
     robot = _advanced(odometry, before) if corrects_drift else odometry
     lidar = _mounted(robot, senses.mount)
     if corrects_drift:
@@ -184,10 +184,11 @@ def _pose(field: FloatArray) -> Pose:
     return field[0], field[1], field[2]
 
 
-@kernel(counts_references=True)
-def extract_features(senses: Senses) -> None:
-    """Extract the features of the last scan."""
+@kernel(borrows=True)
+def extract_features(senses: Senses, all_of_them: bool) -> None:
+    """Extract the features of the last scan; corners and corridors only if all are wanted."""
     features, limits = senses.features, senses.limits[0]
+    room = len(features.corners) if all_of_them else 0
     extract_arrays(
         senses.ranges,
         senses.beams,
@@ -198,7 +199,7 @@ def extract_features(senses: Senses) -> None:
         senses.scratch,
         features.walls,
         features.doors,
-        features.corners,
+        features.corners[:room],
         features.corridors,
         features.arcs,
         features.counts,

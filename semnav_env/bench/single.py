@@ -58,7 +58,7 @@ def kernel_parts(steps: int, **options: Any) -> list[Part]:
         "sense: physics, odometry, scan": lambda: sense(env.simulator.arrays),
         "of it the exact scan": lambda: cast(*exact),
         "understand: features, memory, progress": lambda: understand(tracker.senses),
-        "of it the features": lambda: extract_features(tracker.senses),
+        "of it the features": lambda: extract_features(tracker.senses, True),
         "grounding a clause, when it is time to look": lambda: follower.look(scene(), believed),
     }
     rig, door = DepthRig.spot(), Door((1.0, 0.45), (1.0, -0.45))

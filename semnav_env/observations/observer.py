@@ -95,6 +95,7 @@ class EntryObservation:
 
     Attributes:
         exact: whether lidar and odometry are to have no errors and the scene is the floor plan's.
+        observes_features: whether features of the scan are among the entries.
         remembers: whether the row goes on with `layout.MEMORY_ENTRIES` behind the scan.
         row_size: how many numbers the kernels write; after `space`.
         places: of the entries in that row, by name; after `space`.
@@ -111,6 +112,7 @@ class EntryObservation:
             raise ValueError(f"observation {mode!r} has {sorted(taken)} already; name yours anew")
         self.mode, self.extra, self.exact = mode, tuple(extra), mode == "truth"
         self.remembers = MEMORY_ENTRIES[0].name in MODES[mode]
+        self.observes_features = "corners" in MODES[mode]
         self._kernels = (write_row, write_belief)
         if self.remembers:
             from semnav_env.observations.memory_row import write_command_belief, write_command_row
@@ -141,18 +143,27 @@ class EntryObservation:
 
     def observe(self, moment: Moment) -> dict[str, Array]:
         """The entries as fresh arrays."""
-        belief, tracker, tokens = moment.belief, moment.tracker, moment.tokens
-        write_last, write_other = self._kernels
-        row = np.empty(self.row_size, np.float32)
+        belief, tracker = moment.belief, moment.tracker
         if belief is tracker.belief:
-            write_last(row, tracker.senses)
+            observation = self.observe_last(tracker, moment.tokens)
         else:
-            write_other(row, tracker.senses, estimate_of(belief))
-        observation: dict[str, Array] = dict(zip(self._names, self._split(row)))  # noqa: B905, slower
-        observation["command"] = tokens.ravel().astype(np.int16)
+            row = np.empty(self.row_size, np.float32)
+            self._kernels[1](row, tracker.senses, estimate_of(belief))
+            observation = self._entries(row, moment.tokens)
         for entry in self.extra:
             observation[entry.name] = entry.observe(moment)
         return observation
+
+    def observe_last(self, tracker: BeliefTracker, tokens: NDArray[np.int64]) -> dict[str, Array]:
+        """The entries of the mode for what is believed last, which need no `Moment`."""
+        row = np.empty(self.row_size, np.float32)
+        self._kernels[0](row, tracker.senses)
+        return self._entries(row, tokens)
+
+    def _entries(self, row: NDArray[np.float32], tokens: NDArray[np.int64]) -> dict[str, Array]:
+        entries: dict[str, Array] = dict(zip(self._names, self._split(row)))  # noqa: B905, slower
+        entries["command"] = tokens.ravel().astype(np.int16)
+        return entries
 
 
 def as_observation(value: object) -> ObservationType:

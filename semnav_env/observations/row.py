@@ -45,9 +45,11 @@ _KIND, _PLACE = STARTS["goal"], column(GOAL, "x")
 _JAMBS, _HAS_DOOR = column(GOAL, "door_start_x"), column(GOAL, "has_door")
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     """Write all entries; and the scan, if there is room for it.
+
+    What is seen and remembered is left out where features are not observed.
 
     Args:
         row: shape (ROW_SIZE,) or (ROW_SIZE + beams,).
@@ -56,7 +58,7 @@ def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     write_belief(row, senses, senses.estimate)
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def write_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray) -> None:
     """As `write_row`, with another belief than the last one.
 
@@ -67,10 +69,13 @@ def write_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray)
     """
     believed = estimate[0]
     pose = (believed.pose[0], believed.pose[1], believed.pose[2])
-    _write_features(row, senses.features, senses.mount)
-    _, doors, counters = senses.remembered
-    _write_remembered(row, doors, counters[0].doors, pose)
-    _write_bumps(row, senses.bumps, pose)
+    if senses.estimate[0].observes_features:
+        _write_features(row, senses.features, senses.mount)
+        _, doors, counters = senses.remembered
+        _write_remembered(row, doors, counters[0].doors, pose)
+        _write_bumps(row, senses.bumps, pose)
+        _keep_within(row[:_REMEMBERED], FEATURE_BOUND)
+        _keep_within(row[_REMEMBERED:_CLAUSE], UNBOUNDED)
     limits = senses.limits[0]
     if len(row) > ROW_SIZE:  # with the scan
         _write_scan(row[ROW_SIZE:], senses.ranges, limits.range_min, limits.range_max)
@@ -82,8 +87,7 @@ def write_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray)
     for i in range(3):
         row[_TWIST + i] = believed.velocity[i]
     _write_goal(row, believed.target, pose, c, s)
-    _keep_within(row[:_REMEMBERED], FEATURE_BOUND)
-    _keep_within(row[_REMEMBERED:ROW_SIZE], UNBOUNDED)
+    _keep_within(row[_CLAUSE:ROW_SIZE], UNBOUNDED)
 
 
 @kernel

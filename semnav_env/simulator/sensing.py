@@ -94,7 +94,7 @@ def join_simulator(
     return SimulatorArrays(drive, odometry, sensing, lidar, mount, ranges)
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def sense(arrays: SimulatorArrays) -> int:
     """Drive a robot for one control period and sense; returns events, 0 or `TOUCHED`."""
     drive(arrays.drive)
@@ -104,7 +104,7 @@ def sense(arrays: SimulatorArrays) -> int:
     return look(arrays)
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def look(arrays: SimulatorArrays) -> int:
     """Sense where the robot is now; returns events, 0 or `TOUCHED`."""
     driven, sensing = arrays.drive[0], arrays.sensing[0]
@@ -115,7 +115,7 @@ def look(arrays: SimulatorArrays) -> int:
     return TOUCHED if driven.touches > 0 else 0
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def _scan(arrays: SimulatorArrays, x: float, y: float, heading: float) -> None:
     """Measure the ranges from a robot's true pose, world frame."""
     grid, starts, ends, beams, sensor, discs, leaves = arrays.lidar

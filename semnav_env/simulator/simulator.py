@@ -137,7 +137,12 @@ class Simulator:
     @property
     def motion(self) -> Motion:
         """The true motion of the last control period."""
-        return self._sensed(TOUCHED if self.world.in_contact else 0).motion
+        return self.last.motion
+
+    @property
+    def last(self) -> Sensed:
+        """What was sensed in the last control period."""
+        return self._sensed(TOUCHED if self.world.in_contact else 0)
 
     def reset(self, start: Pose, rng: np.random.Generator) -> Sensed:
         """Put the robot at rest at a pose, world frame; returns what it senses there.

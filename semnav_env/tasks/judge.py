@@ -9,6 +9,7 @@ from semnav_env.commands import SearchHouse
 from semnav_env.simulator.sensed import Motion
 from semnav_env.verifier import Mission, Verifier, place
 from semnav_env.verifier.judge_record import NO_DISTANCES, judge_motion
+from semnav_env.verifier.judge_state import Outcome
 
 if TYPE_CHECKING:
     from semnav_env.payload import Payload
@@ -32,7 +33,7 @@ class EpisodeJudge:
 
     Attributes:
         verifier: says what became of each clause.
-        outcome: what the verifier's record said after the last control period.
+        verdicts: one per clause.
     """
 
     def __init__(self, mission: Mission, payload: Payload | None = None) -> None:
@@ -42,8 +43,7 @@ class EpisodeJudge:
                 "or give payload=PersonSearch() of semnav_env.rescue"
             )
         self.verifier = Verifier(mission, None if payload is None else payload.fulfils)
-        self.outcome = self.verifier.read()
-        self._motion: Motion | None = None
+        self.verdicts = self.verifier.verdicts
         self._measure_way()
 
     def update(self, motion: Motion) -> Judgement:
@@ -53,17 +53,16 @@ class EpisodeJudge:
 
     def write(self, motion: Motion) -> None:
         """Put the motion of a control period into the verifier's record."""
-        self._motion = motion
         self.verifier.write(motion)
 
     def think(self, events: int) -> Judgement:
         """Say what became of a control period, given the events of `judge_motion`."""
-        verifier = self.verifier
-        self.outcome = outcome = verifier.read()
+        verifier, outcome = self.verifier, self.outcome
         if not events:
             return Judgement(outcome.progress, False, False, False)
         was_over = verifier.over
         completed = verifier.think(events)
+        self.verdicts = verifier.verdicts
         ended = verifier.over and not was_over
         success = ended and verifier.success
         progress = outcome.progress
@@ -79,20 +78,28 @@ class EpisodeJudge:
         verifier.head_along(NO_DISTANCES if follower.done else ways.distances)
 
     @property
+    def outcome(self) -> Outcome:
+        """What the verifier's record says of the last control period."""
+        return self.verifier.read()
+
+    @property
     def remaining(self) -> float:
         """Length of the shortest way to the goal under way, metres; 0 when all is done."""
-        return self.verifier.read().remaining
+        return self.outcome.remaining
 
     @property
     def info(self) -> dict[str, Any]:
         """What is known after each step, for `info`."""
-        assert self._motion is not None, "call update(motion) first"
+        return self.info_of(self.outcome)
+
+    def info_of(self, outcome: Outcome) -> dict[str, Any]:
+        """What is known after a step, given the `outcome`."""
         return {
-            "verdicts": self.verifier.verdicts,
-            "collisions": self.outcome.collisions,
-            "path_length": self.outcome.path_length,
-            "in_contact": self._motion.in_contact,
-            "pose": self._motion.pose,
+            "verdicts": self.verdicts,
+            "collisions": outcome.collisions,
+            "path_length": outcome.path_length,
+            "in_contact": outcome.in_contact != 0,
+            "pose": (outcome.x, outcome.y, outcome.heading),
         }
 
     def conclude(self, truncated: bool) -> dict[str, Any]:
@@ -100,6 +107,7 @@ class EpisodeJudge:
         verifier = self.verifier
         if truncated:
             verifier.out_of_time()
+            self.verdicts = verifier.verdicts
         return {
             "is_success": verifier.success,
             "crossed_doors": tuple(verifier.crossed),

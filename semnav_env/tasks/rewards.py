@@ -85,15 +85,20 @@ class RewardWeights:
 
     def terms(self, tick: Tick) -> dict[str, float]:
         """The terms of a step by name, each times its weight."""
-        progress, clause, success, failure, motion = tick[:5]
-        if not (clause or success or failure or motion.in_contact):
+        return self.weigh(*tick[:4], tick.motion.in_contact)
+
+    def weigh(
+        self, progress: float, clause: bool, success: bool, failure: bool, in_contact: bool
+    ) -> dict[str, float]:
+        """The terms, given all that they depend on; see `Tick`."""
+        if not (clause or success or failure or in_contact):
             return self._uneventful | {"progress": self.progress * progress}
         return {
             "progress": self.progress * progress,
             "clause": self.clause * clause,
             "success": self.success * success,
             "failure": self.failure * failure,
-            "contact": self.contact * motion.in_contact,
+            "contact": self.contact * in_contact,
             "time": self.time,
         }
 

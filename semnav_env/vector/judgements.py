@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,20 +61,11 @@ def judge(envs: Sequence[SemNavEnv], periods: np.ndarray, driven: Mask) -> Judge
     carries = np.array([env.payload is not None for env in envs])
     thought = driven & ((events != 0) | carries)
     for k in np.flatnonzero(thought).tolist():
-        progress[k], clause[k], success[k], failure[k] = _think(envs[k], periods[k])
+        judgement = envs[k].think(int(periods["understood"][k]), int(periods["judged"][k]))
+        progress[k], clause[k], success[k], failure[k] = judgement
         terminated[k] = envs[k].judge.verifier.over
     latest = np.array([env.max_steps for env in envs])
     truncated = driven & ~terminated & (periods["steps"] >= latest)
     in_contact = driven & periods["in_contact"]
     flags = (clause, success, failure, in_contact, terminated, truncated)
     return Judgements(driven, thought, progress, *flags)
-
-
-def _think(env: SemNavEnv, period: Any) -> Judgement:
-    """Do what the events of one robot call for."""
-    understood = int(period["understood"])
-    if understood:
-        env.tracker.think(understood)
-    if env.payload is not None:
-        env.payload.update(env.simulator.motion, env.tracker)
-    return env.judge.think(int(period["judged"]))

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.scratch import Scratch, allocate_scratch
-from semnav_env.vector.robot_arrays import RobotArrays, join_robot, list_of, put
+from semnav_env.robot_loop import RobotArrays, join_robot
+from semnav_env.vector.robot_list import list_of, put
 from semnav_env.vector.tick import PERIOD, tick, write_command_rows, write_rows
 
 LEAST_SHARE = 8
@@ -51,6 +52,8 @@ class Team:
         self._scratch: list[Scratch] = []
         for first, last in self._parts:
             self._scratch += [allocate_scratch(beams)] * (last - first)
+        self._trackers = [env.tracker for env in envs]
+        self._need_python = np.zeros(count, dtype=bool)
         self._robots = list_of(_arrays(envs[0]), count)
         for k in range(count):
             self.renew(k)
@@ -59,6 +62,7 @@ class Team:
         """Take in a robot whose environment has been reset."""
         env = self._envs[index]
         env.tracker.use_scratch(self._scratch[index])
+        self._trackers[index], self._need_python[index] = env.tracker, env.world.needs_python
         put(self._robots, index, _arrays(env))
         self.periods[index] = np.zeros(1, PERIOD)[0]
         self.periods["pose"][index] = env.world.pose
@@ -71,10 +75,10 @@ class Team:
             twists: demanded velocities, shape (n, 3).
             driven: which robots take part, shape (n,).
         """
-        among = [env for env, go in zip(self._envs, driven, strict=True) if go]
-        for env in among:
-            env.tracker.let_go()
-        by_python = np.array([env.world.needs_python for env in self._envs]) & driven
+        for k, tracker in enumerate(self._trackers):
+            if tracker.belief is not None and driven[k]:
+                tracker.let_go()
+        by_python = self._need_python & driven
         for k in np.flatnonzero(by_python).tolist():
             self._envs[k].simulator.demand(tuple(twists[k].tolist()))
         self._note(twists, driven & ~by_python)

@@ -11,14 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.belief.understand import understand
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.observations.memory_row import write_command_row
 from semnav_env.observations.row import write_row
-from semnav_env.simulator.sensing import TOUCHED, sense
-from semnav_env.vector.robot_arrays import RobotArrays
-from semnav_env.verifier.judge_record import judge_motion
+from semnav_env.robot_loop import RobotArrays, run_period
 
 PERIOD = np.dtype(
     [(name, "i8") for name in ("understood", "judged", "steps", "collisions")]
@@ -72,40 +69,12 @@ def write_command_rows(robots: Any, first: int, last: int, rows: NDArray[np.floa
         write_command_row(rows[k], robots[k].senses)
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def _tick_robot(robot: RobotArrays, twist: FloatArray, seconds: float, period: Any) -> None:
-    command = robot.simulator.drive[0].command
-    command.forward, command.left, command.turn = twist[0], twist[1], twist[2]
-    touched = sense(robot.simulator) & TOUCHED
-    _hand_over(robot, touched, seconds)
-    period.understood = understand(robot.senses)
-    period.judged = judge_motion(robot.judge)
+    events = run_period(robot, True, twist[0], twist[1], twist[2], seconds)
+    period.understood, period.judged = events
     motion, judged = robot.simulator.sensing[0], robot.judge.state[0]
     period.pose[0], period.pose[1], period.pose[2] = judged.x, judged.y, judged.heading
     period.steps, period.in_contact = motion.step, judged.in_contact != 0
     period.collisions, period.path_length = judged.collisions, judged.path_length
     period.progress = judged.progress
-
-
-@kernel(counts_references=True)
-def _hand_over(robot: RobotArrays, in_contact: int, seconds: float) -> None:
-    """Give what was sensed to the robot's mind, and the true motion to its judge."""
-    sensing, estimate, state = (
-        robot.simulator.sensing[0],
-        robot.senses.estimate[0],
-        robot.judge.state[0],
-    )
-    robot.senses.ranges[:] = robot.simulator.ranges
-    driven = robot.simulator.drive[0]
-    estimate.contact_count = driven.contact_count
-    for k in range(driven.contact_count):
-        for i in range(3):
-            estimate.contacts[k, i] = driven.contacts[k, i]
-    pose, velocity, odometry = sensing.pose, sensing.velocity, sensing.odometry
-    estimate.odometry[0], estimate.odometry[1] = odometry.x, odometry.y
-    estimate.odometry[2], estimate.seconds = odometry.heading, seconds
-    estimate.velocity[0], estimate.velocity[1] = velocity.forward, velocity.left
-    estimate.velocity[2] = velocity.turn
-    state.x, state.y, state.heading = pose.x, pose.y, pose.heading
-    state.speed, state.yaw_rate = sensing.speed, velocity.turn
-    state.in_contact, state.seconds = in_contact, seconds

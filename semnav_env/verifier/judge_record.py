@@ -80,7 +80,7 @@ def set_distances(record: JudgeRecord, distances: FloatArray) -> None:
     record.state[0].remaining = _remaining(record, record.state[0])
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def judge_motion(record: JudgeRecord) -> int:
     """Take the motion of one control period into account; returns the events as bits."""
     state = record.state[0]
@@ -108,7 +108,7 @@ def judge_motion(record: JudgeRecord) -> int:
     return events
 
 
-@kernel(counts_references=True)
+@kernel(borrows=True)
 def _remaining(record: JudgeRecord, state: Any) -> float:
     """Length of the way to the goal, metres."""
     if record.distances.size == 0:

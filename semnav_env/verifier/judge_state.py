@@ -19,6 +19,13 @@ class Outcome(NamedTuple):
     """What a record says after a control period.
 
     Attributes:
+        x: of the robot's centre, world frame, metres.
+        y: likewise.
+        heading: of the robot, radians.
+        speed: m/s.
+        yaw_rate: rad/s.
+        in_contact: 1 if the body touches anything, else 0.
+        seconds: duration of the period.
         progress: by how much the shortest way to the goal got shorter, metres.
         path_length: driven in the episode, metres.
         collisions: contacts begun in the episode.
@@ -27,6 +34,13 @@ class Outcome(NamedTuple):
         remaining_before: the same one period ago.
     """
 
+    x: float
+    y: float
+    heading: float
+    speed: float
+    yaw_rate: float
+    in_contact: int
+    seconds: float
     progress: float
     path_length: float
     collisions: int
@@ -35,26 +49,25 @@ class Outcome(NamedTuple):
     remaining_before: float
 
 
-_MOTION = ("x", "y", "heading", "speed", "yaw_rate", "in_contact", "seconds")
 _INTEGERS = ("in_contact", "was_in_contact", "collisions", "crossed_door")
 _FLOATS = (
     *("last_x", "last_y", "still_seconds", "west", "south"),
     *("still_speed", "still_yaw_rate", "longest_still", "missed_beyond"),
     *("corridor_x", "corridor_y", "corridor_cos", "corridor_sin"),
 )
-_NAMES = (*_MOTION, *Outcome._fields, "was_in_contact", *_FLOATS)
+_NAMES = (*Outcome._fields, "was_in_contact", *_FLOATS)
 
 JUDGE_STATE = np.dtype([(name, "i8" if name in _INTEGERS else "f8") for name in _NAMES])
 """The numbers of a record, shape (1,); SI units, world frame.
 
-First the `Motion` of the period, which is written before each call, and the `Outcome`. Then:
+First the `Outcome`, which begins with the `Motion` of the period, written before each call. Then:
 last_x, last_y, was_in_contact, still_seconds: of the period before, the latter how long the robot
 has stood still. west, south: origin of the field of distances. still_speed, still_yaw_rate: below
 both the robot stands still; longest_still: for how long it may. missed_beyond: see `missed_beyond`.
 corridor_x to corridor_sin: frame of the corridor of the goal.
 """
 
-_MOTION_FORMAT, _OUTCOME_FORMAT = Struct("5dqd"), Struct("2d2q2d")
+_MOTION_FORMAT, _OUTCOME_FORMAT = Struct("5dqd"), Struct("5dqd2d2q2d")
 """Faster than NumPy by far for a few numbers of one row."""
 
 
@@ -86,4 +99,4 @@ def put_motion(numbers: memoryview, motion: Motion) -> None:
 
 def outcome(numbers: memoryview) -> Outcome:
     """Read from the bytes of a state what it says."""
-    return Outcome(*_OUTCOME_FORMAT.unpack_from(numbers, _MOTION_FORMAT.size))
+    return Outcome._make(_OUTCOME_FORMAT.unpack_from(numbers))

@@ -156,6 +156,10 @@ class World:
         """Whether `demand` and `arrive` have to be called, and not the compiled `drive` alone."""
         return self.moving is not None or not self._compiled
 
+    def note_command(self, velocity: Twist) -> None:
+        """Take in a command that is carried out without `demand`."""
+        self._journal.extend(velocity)
+
     def note_commands(self, commands: FloatArray) -> None:
         """Take in the commands that were carried out without `demand`, shape (k, 3), in order."""
         self._journal.extend(commands.ravel().tolist())

@@ -78,15 +78,18 @@ judge.
 
 ## Three walks
 
-**A scan.** `Simulator.step` (`semnav_env/simulator/simulator.py`) makes one compiled call, `sense`
-(`semnav_env/simulator/sensing.py`), which drives the body (`semnav_env/world/drive.py`), reckons
-(`semnav_env/simulator/odometry.py`) and scans. Its `Sensed` goes to `BeliefTracker.update`
-(`semnav_env/belief/tracker.py`). One compiled call, `understand`
-(`semnav_env/belief/understand.py`), extracts the features (`features/kernels/chain.py`),
+**A scan.** `SemNavEnv.step` (`semnav_env/env.py`) makes one compiled call, `run_period`
+(`semnav_env/robot_loop.py`), which calls three others. `sense`
+(`semnav_env/simulator/sensing.py`) drives the body (`semnav_env/world/drive.py`), reckons
+(`semnav_env/simulator/odometry.py`) and scans. `understand`
+(`semnav_env/belief/understand.py`) extracts the features (`features/kernels/chain.py`),
 corrects the drift (`features/kernels/drift.py`), remembers walls and doors
 (`features/kernels/memory.py`) and notes how far the clause under way has come
-(`semnav_env/grounding/clause_progress.py`). It returns events, such as a completed clause; only
-where there is one does `BeliefTracker.think` ground anew. `EntryObservation.observe`
+(`semnav_env/grounding/clause_progress.py`). `judge_motion`
+(`semnav_env/verifier/judge_record.py`) keeps the judge's count. They return events, such as a
+completed clause; only where there is one does `BeliefTracker.think`
+(`semnav_env/belief/tracker.py`) ground anew. On a real robot `BeliefTracker.update` calls
+`understand` with what was sensed. `EntryObservation.observe`
 (`semnav_env/observations/observer.py`) makes the arrays that an agent gets.
 
 **A command.** `parse` (`semnav_env/commands/parser.py`) turns text into a `Command`, a tuple of

@@ -30,18 +30,17 @@ COMMAND = "turn left at the intersection and go in the first door on the right"
 def recorded(options: dict[str, object], seed: int = 3) -> tuple[Recorded, list[str]]:
     """What a robot sensed in an episode of the scripted agent, and what it believed."""
     env = SemNavEnv(observation="all")
-    sensed, believed, update = [], [], env.tracker.update
+    sensed, believed = [], []
 
-    def noted(ranges, odometry, velocity, bumps):
-        sensed.append((ranges.copy(), odometry, velocity, list(bumps)))
-        belief = update(ranges, odometry, velocity, bumps)
-        believed.append(described(belief))
-        return belief
+    def note() -> None:
+        last = env.simulator.last
+        sensed.append((last.ranges.copy(), last.odometry, last.velocity, list(last.bumps)))
+        believed.append(described(env.belief))
 
-    env.tracker.update = noted
     begun = env.reset(seed=seed, options=options)
+    note()
     for _ in steps(env, make_agent("scripted"), *begun):
-        pass
+        note()
     command = str(env.judge.verifier.mission.command)
     return Recorded(command, env.robot.lidar_mount, sensed), believed
 

@@ -6,6 +6,7 @@ import pickle
 import subprocess
 import sys
 import time
+from weakref import ref
 
 import numpy as np
 import pytest
@@ -14,7 +15,14 @@ from semnav_env.features.kernels import cache_folder as folders
 from semnav_env.features.kernels.compile_notice import PATIENCE, CompileNotice
 from semnav_env.features.kernels.compiling import kernel
 from tests.support.paths import ROOT
-from tests.support.small_kernels import counting, increased_twice, sum_of_twice, twice
+from tests.support.small_kernels import (
+    counting,
+    increased_twice,
+    paired,
+    sum_of_pair,
+    sum_of_twice,
+    twice,
+)
 
 
 def test_a_kernel_gives_the_same_to_python_and_to_kernels():
@@ -48,6 +56,17 @@ def test_arrays_and_errors_of_a_kernel_reach_python():
     assert all(array.tolist() == [0, 1, 2] for array in kept)
     with pytest.raises(ValueError, match="negative"):
         counting(-1)
+
+
+def test_borrowed_arrays_live_as_long_as_their_structure():
+    first, second = np.arange(3.0), np.full(1, 10.0)
+    pair, watched = paired(first, second), ref(first)
+    assert [sum_of_pair(pair) for _ in range(100)] == [sum_of_twice(first[1:]) + 10.0] * 100
+    del first, second
+    assert watched() is not None
+    assert sum_of_pair(pair) == sum_of_twice(np.array((1.0, 2.0))) + 10.0
+    del pair
+    assert watched() is None
 
 
 def test_a_kernel_is_pickled_and_copied_by_its_name():

@@ -31,6 +31,17 @@ def test_tables_hold_the_features_of_the_scan_in_the_robot_frame() -> None:
     assert table(observation, "corners") == pytest.approx(np.array(corners), abs=1e-4)
 
 
+def test_features_that_are_not_observed_are_found_when_asked_for() -> None:
+    """Corners and corridors as well, which stand in no belief."""
+    scenes = []
+    for mode in ("semantic", "raw"):
+        env = fresh(mode)
+        list(rollout(env, actions(12, 2)))
+        scenes.append(to_scene(env.tracker.features))
+    assert scenes[0] == scenes[1]
+    assert len(scenes[1].corners) > 1
+
+
 def test_an_unknown_table_is_an_error_that_lists_the_known_ones() -> None:
     with pytest.raises(ValueError, match="walls, doors, corners"):
         table(fresh("semantic").reset(seed=0)[0], "windows")

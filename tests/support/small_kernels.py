@@ -1,8 +1,10 @@
 """Kernels that compile in no time."""
 
 import numpy as np
+from numba.experimental import structref
 
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.structures import ArraysType
 
 
 @kernel
@@ -28,6 +30,29 @@ def counting(n):
 @kernel(counts_references=True)
 def sum_of_counting(n):
     return counting(n).sum()
+
+
+@structref.register
+class PairOfArraysType(ArraysType):
+    pass
+
+
+class PairOfArrays(structref.StructRefProxy):
+    pass
+
+
+structref.define_proxy(PairOfArrays, PairOfArraysType, ["first", "both"])
+
+
+@kernel(counts_references=True)
+def paired(first, second):
+    return PairOfArrays(first, (first, second))
+
+
+@kernel(borrows=True)
+def sum_of_pair(pair):
+    _, second = pair.both
+    return sum_of_twice(pair.first[1:]) + second[0]
 
 
 @kernel(inline=True)

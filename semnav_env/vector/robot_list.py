@@ -1,0 +1,25 @@
+"""The arrays of many robots in a list, as compiled loops take them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numba.typed.typedlist import List
+
+from semnav_env.features.kernels.compiling import kernel
+from semnav_env.robot_loop import RobotArrays
+
+
+@kernel(counts_references=True)
+def list_of(robot: RobotArrays, count: int) -> Any:
+    """A list that holds the same robot as often as said, to be replaced."""
+    robots: Any = List()
+    for _ in range(count):
+        robots.append(robot)
+    return robots
+
+
+@kernel(counts_references=True)
+def put(robots: Any, index: int, robot: RobotArrays) -> None:
+    """Put another robot into a list."""
+    robots[index] = robot
