@@ -17,7 +17,6 @@ from semnav_env.robots import RobotSpec
 from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.rules import Rules
 from semnav_env.tasks.request import EpisodeRequest
-from semnav_env.tasks.sampling import sample_feasible, sample_start
 from semnav_env.verifier import Mission, plan_goals, plan_mission
 
 MOST_DRAWS = 200
@@ -66,6 +65,8 @@ class MissionMaker:
         """Draw what is missing until the command can be carried out."""
         if pose is not None and command is not None:
             return pose, command
+        from semnav_env.tasks.sampling import sample_feasible, sample_start  # only to draw
+
         objections: Counter[str] = Counter()
         for _ in range(MOST_DRAWS):
             start = pose or sample_start(self.floor_plan, self.robot, rng, self.rules)
