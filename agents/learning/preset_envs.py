@@ -69,16 +69,18 @@ def preset_envs(preset: Preset, **options: Any) -> CompactVecEnv:
         preset: what to learn.
         options: more of `as_sb3_vec_env`.
     """
+    return CompactVecEnv(as_sb3_vec_env(preset.envs, **preset_options(preset), **options))
+
+
+def preset_options(preset: Preset) -> dict[str, Any]:
+    """The arguments of `SemNavVectorEnv` for the environments of a preset."""
     robot, trials = robot_spec(preset.robot), preset.trials
-    envs = as_sb3_vec_env(
-        preset.envs,
-        robot=robot,
-        floor_plan=trials[0].floor_plan if trials else preset.floor_plan,
-        observation="all",
-        rewards=preset.rewards,
-        task=TrialTask(trials, robot) if trials else None,
-        max_seconds=preset.max_seconds,
-        repeat=preset.repeat,
-        **options,
-    )
-    return CompactVecEnv(envs)
+    return {
+        "robot": robot,
+        "floor_plan": trials[0].floor_plan if trials else preset.floor_plan,
+        "observation": "all",
+        "rewards": preset.rewards,
+        "task": TrialTask(trials, robot) if trials else None,
+        "max_seconds": preset.max_seconds,
+        "repeat": preset.repeat,
+    }
