@@ -5,12 +5,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple, Protocol
 
 from semnav_env.features.checked_fields import Bounds, check_fields
 
 if TYPE_CHECKING:  # stable-baselines3 is optional
-    from semnav_env.agents.learning.training import Trainer, TrainingReport
+    from semnav_env.agents.learning.training import TrainingReport
 
 CHECKPOINT_INTERVAL = 30.0
 """Time between checkpoints, seconds: as much as a crash may cost."""
@@ -43,6 +43,27 @@ class TrainingLimits:
         return max(by_steps, seconds / (60 * self.minutes) if self.minutes else 0.0)
 
 
+class Learner(Protocol):
+    """A training, whatever it runs on."""
+
+    @property
+    def steps(self) -> int:
+        """Number of decisions so far."""
+        ...
+
+    def advance(self) -> TrainingReport:
+        """Drive one rollout and learn from it."""
+        ...
+
+    def save(self) -> None:
+        """Write the files of the agent, each in one move."""
+        ...
+
+    def close(self) -> None:
+        """Finish the curves and close the environments."""
+        ...
+
+
 class SessionProgress(NamedTuple):
     """The state of a session after an update.
 
@@ -58,7 +79,7 @@ class SessionProgress(NamedTuple):
 
 
 def train(
-    trainer: Trainer, limits: TrainingLimits, stopped: Callable[[], bool]
+    trainer: Learner, limits: TrainingLimits, stopped: Callable[[], bool]
 ) -> Iterator[SessionProgress]:
     """Learn until a limit is reached or `stopped` says so; the agent is saved at the end, too."""
     first, start = trainer.steps, time.monotonic()

@@ -51,6 +51,7 @@ ABOUT = {
     "agents": "scripted, oracle and learned agents, and floors, behind one protocol",
     "agents/evaluation": "suites of episodes, driven and judged",
     "agents/learning": "training and its files",
+    "agents/learning/rllib": "training on more than one machine, with RLlib on Ray",
     "agents/planning": "the planner of the scripted agent and the oracle",
     "agents/searching": "searching a house: where to look from, and whom to go to",
     "scripts": "the `semnav` command",

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box
-from gymnasium.vector import VectorEnv, VectorWrapper
+from gymnasium.vector import VectorWrapper
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
@@ -26,13 +26,14 @@ class RunnerVectorEnv(VectorWrapper):
     RLlib keeps every info and sends it to the learner, so all that is not logged is left out.
 
     Args:
-        env: environments with `observation="all"` that reset in the step after an episode's end.
+        envs: environments with `observation="all"` that reset in the step after an episode's end.
     """
 
-    def __init__(self, env: VectorEnv[Any, Any, Any]) -> None:
-        super().__init__(env)
+    def __init__(self, envs: SemNavVectorEnv) -> None:
+        super().__init__(envs)
+        self._envs = envs
         self.single_observation_space = Box(-1.0, 1.0, (COMPACT_SIZE,), np.float32)
-        self.observation_space = batch_space(self.single_observation_space, env.num_envs)
+        self.observation_space = batch_space(self.single_observation_space, envs.num_envs)
 
     def reset(
         self,
@@ -50,12 +51,12 @@ class RunnerVectorEnv(VectorWrapper):
         """
         if isinstance(seed, int):
             seed = np.random.SeedSequence(seed).generate_state(self.num_envs).tolist()
-        observations, _ = self.env.reset(seed=seed, options=options)
+        observations, _ = self._envs.reset(seed=seed, options=options)
         return compact(observations), {}
 
     def step(self, actions: Array) -> tuple[Array, Array, Array, Array, dict[str, Any]]:
         """Drive all robots for one decision."""
-        observations, rewards, terminated, truncated, infos = self.env.step(actions)
+        observations, rewards, terminated, truncated, infos = self._envs.step(actions)
         over = terminated | truncated
         ended = {name: infos[name] for name in LOGGED_KEYS} if over.any() else {}
         masks = {f"_{name}": over for name in ended}

@@ -1,0 +1,147 @@
+"""Training by RLlib's PPO on the machines of a Ray cluster."""
+# pyright: reportMissingImports=false
+
+from __future__ import annotations
+
+import os
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import ray
+import torch
+from ray.rllib.core import DEFAULT_MODULE_ID
+from torch.utils.tensorboard import SummaryWriter
+
+from semnav_env.agents.learning.files import (
+    POLICY_FILE,
+    AgentDescription,
+    load_tensors,
+    save_tensors,
+)
+from semnav_env.agents.learning.presets import Preset
+from semnav_env.agents.learning.rllib.algorithm import MEASURES, build_algorithm
+from semnav_env.agents.learning.rllib.options import RayOptions
+from semnav_env.agents.learning.rllib.weights import (
+    beginning,
+    policy_from,
+    read_state,
+    write_state,
+)
+from semnav_env.agents.learning.training import TrainingReport, plain
+
+RLLIB_FILE = "rllib.safetensors"
+"""File with the state from which a training on RLlib continues."""
+
+SAMPLED = "num_env_steps_sampled_lifetime"
+"""RLlib's name for the number of decisions of all runners."""
+
+
+class RayTrainer:
+    """One training on RLlib, kept in one folder; Ray must run, see `start_training`.
+
+    Args:
+        preset: what to learn.
+        folder: for the agent and, in `tensorboard`, the curves; made if it does not exist.
+        seed: of weights, trials, noise and exploration.
+        options: in how many processes robots are driven.
+        steps: number of decisions that were trained before; 0 starts anew.
+    """
+
+    def __init__(
+        self, preset: Preset, folder: Path, seed: int, options: RayOptions, steps: int = 0
+    ) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        torch.set_num_threads(1)  # a small network is slower with more
+        self.preset, self.folder, self.seed = preset, folder, seed
+        self._first = self.steps = steps
+        drawn = np.random.SeedSequence((seed, steps)).generate_state(1)[0]
+        self.algorithm = build_algorithm(preset, int(drawn) // 2, options)
+        self._curves = SummaryWriter(str(folder / "tensorboard"))
+        self._put(beginning(self._weights(), preset.ppo.log_std), {})
+
+    @classmethod
+    def resume(cls, preset: Preset, folder: Path, options: RayOptions) -> RayTrainer:
+        """Continue the training in a folder.
+
+        Weights, the optimizer's state, the number of decisions and the seed are restored; episodes
+        that were under way, the random numbers and the weight of the divergence are not.
+
+        Raises:
+            ValueError: the folder holds no training on RLlib, a damaged one or one of another
+                preset.
+        """
+        description = AgentDescription.read(folder)
+        if description.preset != plain(preset):
+            raise ValueError(
+                f"{folder} was trained with another preset than the present {preset.name!r}; "
+                "start anew with another --out"
+            )
+        path = folder / RLLIB_FILE
+        if not path.is_file():
+            raise ValueError(f"{folder} was not trained with --engine ray: no {RLLIB_FILE} in it")
+        tensors = load_tensors(path)
+        trainer = cls(preset, folder, description.seed, options, description.steps)
+        try:
+            trainer._put(*read_state(tensors, trainer._weights()))
+        except ValueError as error:
+            trainer.close()
+            raise ValueError(f"{path}: {error}") from None
+        return trainer
+
+    def advance(self) -> TrainingReport:
+        """Let all runners drive one rollout, and learn from it."""
+        start, before = time.perf_counter(), self.steps
+        result = self.algorithm.train()["env_runners"]
+        self.steps = self._first + int(result.get(SAMPLED, before - self._first))
+        seconds = time.perf_counter() - start
+        shares = {name: float(result.get(name, np.nan)) for name in MEASURES}
+        reward = float(result.get("episode_return_mean", np.nan))
+        for name, value in (shares | {"ep_rew_mean": reward}).items():
+            self._curves.add_scalar(f"rollout/{name}", value, self.steps)
+        return TrainingReport(self.steps, (self.steps - before) / seconds, **shares, reward=reward)
+
+    def save(self) -> None:
+        """Write the files of the folder, each in one move."""
+        weights = self._weights()
+        policy = policy_from(weights, len(self.preset.ppo.hidden))
+        save_tensors(self.folder / RLLIB_FILE, write_state(weights, self._optimizer()["state"]))
+        save_tensors(self.folder / POLICY_FILE, policy.tensors())
+        widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
+        AgentDescription(
+            robot=self.preset.robot,
+            repeat=self.preset.repeat,
+            widths=widths,
+            preset=plain(self.preset),
+            seed=self.seed,
+            steps=self.steps,
+        ).write(self.folder)
+
+    def close(self) -> None:
+        """Finish the curves, and end the runners and, if it was started here, Ray."""
+        self._curves.close()
+        self.algorithm.stop()
+        with suppress(OSError):
+            os.rmdir(self.algorithm.logdir)  # RLlib makes one, which stays empty
+        ray.shutdown()
+
+    def _weights(self) -> dict[str, Any]:
+        state = self.algorithm.learner_group.get_state(components="learner/rl_module")
+        return dict(state["learner"]["rl_module"][DEFAULT_MODULE_ID])
+
+    def _optimizer(self) -> dict[str, Any]:
+        """The state dictionary of Adam."""
+        state = self.algorithm.learner_group.get_state(components="learner/optimizer")
+        (optimizer,) = state["learner"]["optimizer"].values()
+        return dict(optimizer["state"])
+
+    def _put(self, weights: dict[str, Any], adam: dict[int, Any]) -> None:
+        """Set the weights, here and in all runners, and the state of Adam."""
+        group = self.algorithm.learner_group
+        state = group.get_state(components="learner/optimizer")["learner"]
+        for optimizer in state["optimizer"].values():
+            optimizer["state"] = optimizer["state"] | {"state": adam}
+        group.set_state({"learner": state | {"rl_module": {DEFAULT_MODULE_ID: weights}}})
+        self.algorithm.env_runner_group.sync_weights(from_worker_or_learner_group=group)
