@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from semnav_env.agents.learning.files import AgentDescription, load_tensors
 from semnav_env.agents.learning.presets import Preset
 from semnav_env.agents.learning.rllib.options import RayOptions
+from semnav_env.agents.learning.rllib.weights import RLLIB_FILE, Tensors
 
 if TYPE_CHECKING:  # Ray is optional
     from semnav_env.agents.learning.rllib.trainer import RayTrainer
@@ -26,9 +30,11 @@ def start_training(
 
     Raises:
         ImportError: Ray is not installed.
-        ValueError: as `RayTrainer.resume` and `connect`.
+        ValueError: the folder holds no training on Ray, a damaged one or one of another preset; or
+            there are fewer cores than the runners reserve.
         RuntimeError, ConnectionError: as `connect`.
     """
+    saved = _saved(preset, folder) if resume else None
     try:
         from semnav_env.agents.learning.rllib.cluster import connect, warm_nodes
 
@@ -40,6 +46,19 @@ def start_training(
             "of its own, for Ray takes an older Gymnasium than the rest"
         ) from None
     warm_nodes(preset)
-    if resume:
-        return RayTrainer.resume(preset, folder, options)
-    return RayTrainer(preset, folder, seed, options)
+    if saved is None:
+        return RayTrainer(preset, folder, seed, options)
+    return RayTrainer.resume(preset, folder, options, *saved)
+
+
+def _saved(preset: Preset, folder: Path) -> tuple[AgentDescription, Tensors]:
+    """What a folder holds of an earlier training on Ray."""
+    description = AgentDescription.read(folder)
+    if description.preset != json.loads(json.dumps(asdict(preset))):
+        raise ValueError(
+            f"{folder} was trained with another preset than the present {preset.name!r}; "
+            "start anew with another --out"
+        )
+    if not (folder / RLLIB_FILE).is_file():
+        raise ValueError(f"{folder} was not trained with --engine ray: no {RLLIB_FILE} in it")
+    return description, load_tensors(folder / RLLIB_FILE)

@@ -7,7 +7,6 @@ import os
 import time
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import ray
@@ -18,22 +17,21 @@ from torch.utils.tensorboard import SummaryWriter
 from semnav_env.agents.learning.files import (
     POLICY_FILE,
     AgentDescription,
-    load_tensors,
     save_tensors,
 )
 from semnav_env.agents.learning.presets import Preset
 from semnav_env.agents.learning.rllib.algorithm import MEASURES, build_algorithm
 from semnav_env.agents.learning.rllib.options import RayOptions
 from semnav_env.agents.learning.rllib.weights import (
+    RLLIB_FILE,
+    Moments,
+    RLlibState,
+    Tensors,
+    Weights,
     beginning,
     policy_from,
-    read_state,
-    write_state,
 )
 from semnav_env.agents.learning.training import TrainingReport, plain
-
-RLLIB_FILE = "rllib.safetensors"
-"""File with the state from which a training on RLlib continues."""
 
 SAMPLED = "num_env_steps_sampled_lifetime"
 """RLlib's name for the number of decisions of all runners."""
@@ -56,39 +54,43 @@ class RayTrainer:
         folder.mkdir(parents=True, exist_ok=True)
         torch.set_num_threads(1)  # a small network is slower with more
         self.preset, self.folder, self.seed = preset, folder, seed
-        self._first = self.steps = steps
+        self.steps: int
+        self._first: int
         drawn = np.random.SeedSequence((seed, steps)).generate_state(1)[0]
         self.algorithm = build_algorithm(preset, int(drawn) // 2, options)
         self._curves = SummaryWriter(str(folder / "tensorboard"))
-        self._put(beginning(self._weights(), preset.ppo.log_std), {})
+        self._put(RLlibState(beginning(self._weights(), preset.ppo.log_std), {}, steps))
 
     @classmethod
-    def resume(cls, preset: Preset, folder: Path, options: RayOptions) -> RayTrainer:
-        """Continue the training in a folder.
+    def resume(
+        cls,
+        preset: Preset,
+        folder: Path,
+        options: RayOptions,
+        description: AgentDescription,
+        tensors: Tensors,
+    ) -> RayTrainer:
+        """Continue a training.
 
         Weights, the optimizer's state, the number of decisions and the seed are restored; episodes
         that were under way, the random numbers and the weight of the divergence are not.
 
+        Args:
+            preset: what to learn.
+            folder: of the training.
+            options: in how many processes robots are driven.
+            description: of the agent in the folder.
+            tensors: of the file `RLLIB_FILE` in the folder.
+
         Raises:
-            ValueError: the folder holds no training on RLlib, a damaged one or one of another
-                preset.
+            ValueError: the tensors do not fit the preset.
         """
-        description = AgentDescription.read(folder)
-        if description.preset != plain(preset):
-            raise ValueError(
-                f"{folder} was trained with another preset than the present {preset.name!r}; "
-                "start anew with another --out"
-            )
-        path = folder / RLLIB_FILE
-        if not path.is_file():
-            raise ValueError(f"{folder} was not trained with --engine ray: no {RLLIB_FILE} in it")
-        tensors = load_tensors(path)
         trainer = cls(preset, folder, description.seed, options, description.steps)
         try:
-            trainer._put(*read_state(tensors, trainer._weights()))
+            trainer._put(RLlibState.from_tensors(tensors, trainer._weights()))
         except ValueError as error:
             trainer.close()
-            raise ValueError(f"{path}: {error}") from None
+            raise ValueError(f"{folder / RLLIB_FILE}: {error}") from None
         return trainer
 
     def advance(self) -> TrainingReport:
@@ -107,7 +109,8 @@ class RayTrainer:
         """Write the files of the folder, each in one move."""
         weights = self._weights()
         policy = policy_from(weights, len(self.preset.ppo.hidden))
-        save_tensors(self.folder / RLLIB_FILE, write_state(weights, self._optimizer()["state"]))
+        state = RLlibState(weights, self._moments(), self.steps)
+        save_tensors(self.folder / RLLIB_FILE, state.tensors())
         save_tensors(self.folder / POLICY_FILE, policy.tensors())
         widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
         AgentDescription(
@@ -127,21 +130,27 @@ class RayTrainer:
             os.rmdir(self.algorithm.logdir)  # RLlib makes one, which stays empty
         ray.shutdown()
 
-    def _weights(self) -> dict[str, Any]:
+    def _weights(self) -> Weights:
         state = self.algorithm.learner_group.get_state(components="learner/rl_module")
         return dict(state["learner"]["rl_module"][DEFAULT_MODULE_ID])
 
-    def _optimizer(self) -> dict[str, Any]:
-        """The state dictionary of Adam."""
+    def _moments(self) -> Moments:
+        """What Adam keeps."""
         state = self.algorithm.learner_group.get_state(components="learner/optimizer")
-        (optimizer,) = state["learner"]["optimizer"].values()
-        return dict(optimizer["state"])
+        (adam,) = state["learner"]["optimizer"].values()
+        moments: Moments = adam["state"]["state"]
+        return moments
 
-    def _put(self, weights: dict[str, Any], adam: dict[int, Any]) -> None:
-        """Set the weights, here and in all runners, and the state of Adam."""
+    def _put(self, begun: RLlibState) -> None:
+        """Set the weights, here and in all runners, the state of Adam and the count."""
         group = self.algorithm.learner_group
         state = group.get_state(components="learner/optimizer")["learner"]
-        for optimizer in state["optimizer"].values():
-            optimizer["state"] = optimizer["state"] | {"state": adam}
-        group.set_state({"learner": state | {"rl_module": {DEFAULT_MODULE_ID: weights}}})
-        self.algorithm.env_runner_group.sync_weights(from_worker_or_learner_group=group)
+        for adam in state["optimizer"].values():
+            adam["state"] = adam["state"] | {"state": begun.adam}
+        weights = {"rl_module": {DEFAULT_MODULE_ID: begun.weights}}
+        group.set_state({"learner": state | weights})
+        # RLlib's own sync_weights drops these while those of a new algorithm are on their way.
+        self.algorithm.env_runner_group.foreach_env_runner(
+            "set_state", kwargs={"state": weights}, local_env_runner=False
+        )
+        self._first = self.steps = begun.steps

@@ -1,29 +1,33 @@
-"""RLlib's weights and the state of Adam as named tensors, and the policy in them; needs no Ray."""
+"""What RLlib has learned, as named tensors, and the policy in it; needs no Ray."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.learning.policy import Policy, check_tensors
 
-Array = NDArray[np.float32]
+Weights = Mapping[str, NDArray[np.float32]]
 Tensors = dict[str, NDArray[Any]]
+Moments = Mapping[int, Mapping[str, Any]]
+
+RLLIB_FILE = "rllib.safetensors"
+"""File with the state from which a training on RLlib continues."""
 
 ACTOR, ACTION, LOG_STD = "encoder.actor_encoder.net.mlp.", "pi.net.mlp.", "pi.log_std"
 """First parts of the names of RLlib's tensors: hidden layers, last layer, spread of the actions."""
 
-WEIGHT_PREFIX, ADAM_PREFIX = "weights.", "adam."
-"""First parts of the names of our tensors."""
+STEPS_NAME, WEIGHT_PREFIX, ADAM_PREFIX = "steps", "weights.", "adam."
+"""Name of the number of decisions; first parts of the names of weights and of Adam's tensors."""
 
 ADAM_MOMENTS = ("step", "exp_avg", "exp_avg_sq")
 """What Adam keeps for each parameter."""
 
 
-def policy_from(weights: Mapping[str, Array], hidden: int) -> Policy:
+def policy_from(weights: Weights, hidden: int) -> Policy:
     """The part of RLlib's weights that gives the mean action.
 
     Args:
@@ -37,7 +41,7 @@ def policy_from(weights: Mapping[str, Array], hidden: int) -> Policy:
     )
 
 
-def beginning(weights: Mapping[str, Array], log_std: float) -> dict[str, Array]:
+def beginning(weights: Weights, log_std: float) -> Weights:
     """Weights with which a training begins: actions about zero, with a given spread.
 
     The last layer is a hundredth of RLlib's, as Andrychowicz et al. (2021) recommend.
@@ -52,46 +56,60 @@ def beginning(weights: Mapping[str, Array], log_std: float) -> dict[str, Array]:
     return begun
 
 
-def write_state(weights: Mapping[str, Array], adam: Mapping[int, Mapping[str, Any]]) -> Tensors:
-    """Weights and the state of Adam, one tensor each.
+class RLlibState(NamedTuple):
+    """The state from which a training continues.
 
-    Args:
+    Attributes:
         weights: by RLlib's names.
         adam: the moments of each parameter, by its index; empty before the first update.
+        steps: number of decisions so far.
     """
-    tensors: Tensors = {WEIGHT_PREFIX + name: weight for name, weight in weights.items()}
-    for name, moments in zip(_parameters(weights) if adam else (), adam.values(), strict=True):
-        for moment in ADAM_MOMENTS:
-            tensors[f"{ADAM_PREFIX}{name}.{moment}"] = np.asarray(moments[moment], np.float32)
-    return tensors
+
+    weights: Weights
+    adam: Moments
+    steps: int
+
+    def tensors(self) -> Tensors:
+        """The state as named tensors."""
+        named: Tensors = {STEPS_NAME: np.array(self.steps, np.int64)}
+        named |= {WEIGHT_PREFIX + name: weight for name, weight in self.weights.items()}
+        for i, moments in self.adam.items():
+            name = _parameters(self.weights)[i]
+            for moment in ADAM_MOMENTS:
+                named[f"{ADAM_PREFIX}{name}.{moment}"] = np.asarray(moments[moment], np.float32)
+        return named
+
+    @classmethod
+    def from_tensors(cls, tensors: Mapping[str, NDArray[Any]], weights: Weights) -> RLlibState:
+        """The opposite of `tensors`.
+
+        Args:
+            tensors: by name.
+            weights: of a fresh model: what shapes there must be.
+
+        Raises:
+            ValueError: a tensor is missing, too many, of another shape or type, or not finite.
+        """
+        rest = dict(tensors)
+        steps = rest.pop(STEPS_NAME, None)
+        if steps is None or steps.shape != () or steps.dtype != np.int64 or steps < 0:
+            raise ValueError(
+                f"tensor {STEPS_NAME!r} must be one whole number of 64 bits, at least 0"
+            )
+        learned = any(name.startswith(ADAM_PREFIX) for name in rest)
+        names = _parameters(weights) if learned else []
+        shapes = {WEIGHT_PREFIX + name: weight.shape for name, weight in weights.items()}
+        for name in names:
+            shapes[f"{ADAM_PREFIX}{name}.step"] = ()
+            shapes |= {f"{ADAM_PREFIX}{name}.{m}": weights[name].shape for m in ADAM_MOMENTS[1:]}
+        check_tensors(rest, shapes)
+        adam = {
+            i: {moment: rest[f"{ADAM_PREFIX}{name}.{moment}"] for moment in ADAM_MOMENTS}
+            for i, name in enumerate(names)
+        }
+        return cls({name: rest[WEIGHT_PREFIX + name] for name in weights}, adam, int(steps))
 
 
-def read_state(
-    tensors: Mapping[str, NDArray[Any]], weights: Mapping[str, Array]
-) -> tuple[dict[str, Array], dict[int, dict[str, Array]]]:
-    """The opposite of `write_state`: the weights, and the state of Adam.
-
-    Args:
-        tensors: of `write_state`.
-        weights: of a fresh model, by RLlib's names: what shapes there must be.
-
-    Raises:
-        ValueError: a tensor is missing, too many, of another shape or type, or not finite.
-    """
-    learned = any(name.startswith(ADAM_PREFIX) for name in tensors)
-    names = _parameters(weights) if learned else []
-    shapes = {WEIGHT_PREFIX + name: weight.shape for name, weight in weights.items()}
-    for name in names:
-        shapes[f"{ADAM_PREFIX}{name}.step"] = ()
-        shapes |= {f"{ADAM_PREFIX}{name}.{m}": weights[name].shape for m in ADAM_MOMENTS[1:]}
-    check_tensors(tensors, shapes)
-    adam = {
-        i: {moment: tensors[f"{ADAM_PREFIX}{name}.{moment}"] for moment in ADAM_MOMENTS}
-        for i, name in enumerate(names)
-    }
-    return {name: tensors[WEIGHT_PREFIX + name] for name in weights}, adam
-
-
-def _parameters(weights: Mapping[str, Array]) -> list[str]:
+def _parameters(weights: Weights) -> list[str]:
     """Names of what is learned, in the order in which Adam counts; constants are left out."""
     return [name for name in weights if not name.endswith("_const")]
