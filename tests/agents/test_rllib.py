@@ -49,9 +49,8 @@ def trainer(folder):
     trainer.close()
 
 
-@pytest.fixture
-def learned(trainer, monkeypatch):
-    """Decisions in each batch that the learner gets, counted there."""
+def counts_of(trainer):
+    """A list to which the decisions in each batch that the learner gets are added."""
     group, counts = trainer.algorithm.learner_group, []
     update = group.update
 
@@ -59,7 +58,7 @@ def learned(trainer, monkeypatch):
         counts.append(sum(len(episode) for episode in options["episodes"]))
         return update(*arguments, **options)
 
-    monkeypatch.setattr(group, "update", counted)
+    group.update = counted
     return counts
 
 
@@ -93,8 +92,8 @@ def listening_addresses(pid):
     }
 
 
-def test_every_decision_is_counted_once(trainer, learned):
-    before = trainer.steps
+def test_every_decision_is_counted_once(trainer):
+    before, learned = trainer.steps, counts_of(trainer)
     reports = [trainer.advance() for _ in range(3)]
     assert reports[-1].steps == trainer.steps == before + sum(learned)
     assert all(count >= TWO.decisions(TINY) for count in learned)
@@ -109,9 +108,9 @@ def test_no_other_machine_can_reach_a_local_ray(trainer):
     assert found <= loopback
 
 
-def test_training_goes_on_when_a_runner_is_killed(trainer, learned):
+def test_training_goes_on_when_a_runner_is_killed(trainer):
     """A second one starts in its place, with the weights of the learner; no decision is lost."""
-    before, (killed, _) = trainer.steps, runners(trainer)[0]
+    before, learned, (killed, _) = trainer.steps, counts_of(trainer), runners(trainer)[0]
     os.kill(killed, signal.SIGKILL)
     for _ in range(200):
         report = trainer.advance()
@@ -142,7 +141,7 @@ def test_the_agent_acts_as_rllib_does(trainer, folder):
 
 
 def test_resuming_restores_weights_optimizer_and_count(trainer, folder):
-    """It comes last: it ends the Ray of the others."""
+    """It comes after all that need `trainer`, whose Ray it ends."""
     trainer.save()
     steps, kept = trainer.steps, load_tensors(folder / RLLIB_FILE)
     trainer.close()
@@ -156,3 +155,23 @@ def test_resuming_restores_weights_optimizer_and_count(trainer, folder):
         assert all(np.array_equal(weights[name], kept[f"weights.{name}"]) for name in weights)
     assert resumed.advance().steps > steps
     resumed.close()
+
+
+def test_training_goes_on_when_a_machine_is_lost(tmp_path):
+    """Two machines that are one; their cluster is joined by its address."""
+    from ray.cluster_utils import Cluster
+
+    here = {"num_cpus": 1, "node_ip_address": "127.0.0.1"}
+    cluster = Cluster(initialize_head=True, head_node_args=here)
+    lost = cluster.add_node(**here)
+    trainer = start_training(TINY, tmp_path, 0, RayOptions(address=cluster.address))
+    learned = counts_of(trainer)
+    trainer.advance()
+    assert len(runners(trainer)) == 2
+    cluster.remove_node(lost, allow_graceful=False)
+    for _ in range(3):
+        assert trainer.advance().steps == sum(learned)
+    assert len(learned) == 4
+    assert len(runners(trainer)) == 1
+    trainer.close()
+    cluster.shutdown()

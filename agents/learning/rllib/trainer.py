@@ -73,7 +73,7 @@ class RayTrainer:
         """Continue a training.
 
         Weights, the optimizer's state, the number of decisions and the seed are restored; episodes
-        that were under way, the random numbers and the weight of the divergence are not.
+        that were under way and the random numbers are not.
 
         Args:
             preset: what to learn.
