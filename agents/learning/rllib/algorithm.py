@@ -50,7 +50,8 @@ def build_algorithm(preset: Preset, seed: int, options: RayOptions) -> PPO:
     """RLlib's PPO for a preset, as near to that of stable-baselines3 as can be; Ray must run.
 
     RLlib cannot stop an update at `max_kl`. Its penalty on the divergence, which is meant for that,
-    is left out: with it, one training needed twice as many decisions (docs/cluster.md).
+    is left out, and hidden layers begin orthogonal: with RLlib's ways, one training needed twice as
+    many decisions (docs/cluster.md).
     """
     logging.getLogger("ray.rllib").setLevel(logging.ERROR)
     register_env(ENVIRONMENT, partial(_envs, preset, options.threads))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from typing import Any
 
 from semnav_env.agents.learning.presets import Preset
@@ -83,8 +84,8 @@ def warm_nodes(preset: Preset) -> None:
 
 def warm_kernels(preset: Preset) -> None:
     """Compile, or load, the kernels that robots of a preset need."""
-    envs = runner_envs(preset, 1)
+    envs = runner_envs(replace(preset, max_seconds=1.0), 1)
     envs.reset(seed=0)
-    for _ in range(3):
+    for _ in range(20):  # some episodes from their beginning to their end
         envs.step(envs.action_space.sample())
     envs.close()
