@@ -174,3 +174,19 @@ def test_what_cannot_be_resumed_is_said_before_ray_starts(capsys, tmp_path, monk
     assert (tmp_path / AGENT_FILE).exists()
     capsys.readouterr()
     assert "was not trained with --engine ray" in run(capsys, "--resume", "--out", tmp_path)[1]
+
+
+@pytest.mark.parametrize(
+    ("address", "message"),
+    [
+        ("somewhere", "--ray.address is 'somewhere'; it must be HOST:PORT or auto"),
+        ("ray://127.0.0.1:6379", "it must be HOST:PORT or auto"),
+        ("127.0.0.1:1", "no Ray cluster answers at 127.0.0.1:1: "),
+        ("127.0.0.1:99999", "no Ray cluster answers at 127.0.0.1:99999: "),
+    ],
+)
+def test_an_address_without_a_cluster_is_refused_at_once(capsys, tmp_path, address, message):
+    code, err = run(capsys, "--ray.address", address, "--out", tmp_path / "none")
+    assert code == 2
+    assert message in err
+    assert not (tmp_path / "none").exists()

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import socket
 from dataclasses import replace
 from typing import Any
 
@@ -22,11 +23,15 @@ CACHE_VARIABLE = "SEMNAV_CACHE_DIR"
 """Environment variable with the folder of compiled kernels, which runners take over."""
 
 
+CONNECT_SECONDS = 10.0
+"""Time that the first machine of a cluster has to answer, seconds."""
+
+
 def connect(options: RayOptions) -> None:
     """Start Ray on this machine, or join the cluster at an address.
 
     Raises:
-        ValueError: there are fewer cores than the runners reserve.
+        ValueError: not an address, or there are fewer cores than the runners reserve.
         RuntimeError: Ray would have listened beyond this machine.
         ConnectionError: there is no cluster at the address.
     """
@@ -45,6 +50,8 @@ def connect(options: RayOptions) -> None:
 def _join(address: str | None) -> None:
     if address is None:
         os.environ.update(LOCAL_SWITCHES)
+    elif address != "auto":
+        check_reachable(address)
     import ray
 
     folder = os.environ.get(CACHE_VARIABLE)
@@ -62,6 +69,22 @@ def _join(address: str | None) -> None:
             f"Ray took the address {found}, not {LOOPBACK}: it was imported before "
             f"{' and '.join(LOCAL_SWITCHES)} were set to 0"
         )
+
+
+def check_reachable(address: str) -> None:
+    """Refuse an address where nothing answers; Ray itself would wait for minutes.
+
+    Raises:
+        ValueError: it is not HOST:PORT.
+        ConnectionError: nothing answers there.
+    """
+    host, _, port = address.rpartition(":")
+    if not host or "/" in host or not port.isdigit():
+        raise ValueError(f"--ray.address is {address!r:.80}; it must be HOST:PORT or auto")
+    try:
+        socket.create_connection((host.strip("[]"), int(port)), CONNECT_SECONDS).close()
+    except (OSError, OverflowError) as error:
+        raise ConnectionError(f"no Ray cluster answers at {address}: {error}") from None
 
 
 def warm_nodes(preset: Preset) -> None:
