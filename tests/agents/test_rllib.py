@@ -92,6 +92,29 @@ def listening_addresses(pid):
     }
 
 
+def test_training_goes_on_when_a_machine_is_lost(tmp_path):
+    """Two machines that are one; their cluster is joined by its address.
+
+    It comes before all that need `trainer`, which has a Ray of its own.
+    """
+    from ray.cluster_utils import Cluster
+
+    here = {"num_cpus": 1, "node_ip_address": "127.0.0.1"}
+    cluster = Cluster(initialize_head=True, head_node_args=here)
+    lost = cluster.add_node(**here)
+    trainer = start_training(TINY, tmp_path, 0, RayOptions(address=cluster.address))
+    learned = counts_of(trainer)
+    trainer.advance()
+    assert len(runners(trainer)) == 2
+    cluster.remove_node(lost, allow_graceful=False)
+    for _ in range(3):
+        assert trainer.advance().steps == sum(learned)
+    assert len(learned) == 4
+    assert len(runners(trainer)) == 1
+    trainer.close()
+    cluster.shutdown()
+
+
 def test_every_decision_is_counted_once(trainer):
     before, learned = trainer.steps, counts_of(trainer)
     reports = [trainer.advance() for _ in range(3)]
@@ -155,23 +178,3 @@ def test_resuming_restores_weights_optimizer_and_count(trainer, folder):
         assert all(np.array_equal(weights[name], kept[f"weights.{name}"]) for name in weights)
     assert resumed.advance().steps > steps
     resumed.close()
-
-
-def test_training_goes_on_when_a_machine_is_lost(tmp_path):
-    """Two machines that are one; their cluster is joined by its address."""
-    from ray.cluster_utils import Cluster
-
-    here = {"num_cpus": 1, "node_ip_address": "127.0.0.1"}
-    cluster = Cluster(initialize_head=True, head_node_args=here)
-    lost = cluster.add_node(**here)
-    trainer = start_training(TINY, tmp_path, 0, RayOptions(address=cluster.address))
-    learned = counts_of(trainer)
-    trainer.advance()
-    assert len(runners(trainer)) == 2
-    cluster.remove_node(lost, allow_graceful=False)
-    for _ in range(3):
-        assert trainer.advance().steps == sum(learned)
-    assert len(learned) == 4
-    assert len(runners(trainer)) == 1
-    trainer.close()
-    cluster.shutdown()
