@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types slow soak docs clean
+.PHONY: demo test lint types slow soak docs policies clean
 
 demo: $(VENV)/.demo
 	$(BIN)/semnav demo "go through the second door on the right" --map heidelberg_hallway \
@@ -44,6 +44,9 @@ $(VENV)/.test: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install -q -c constraints.txt -e ".[render,rl,ros,dev]"
 	touch $@
+
+policies: $(VENV)/.test
+	$(BIN)/semnav train listener --seed 0 --out out/policies/listener
 
 clean:
 	rm -rf $(VENV) build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache out

@@ -9,10 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
-from semnav_env.agents.learning.compact import COMPACT_SIZE, compact
+from semnav_env.agents.learning.actions import for_body
+from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver
 from semnav_env.agents.learning.files import AGENT_FILE, POLICY_FILE, AgentDescription, load_tensors
 from semnav_env.agents.learning.policy import Policy
-from semnav_env.robots import robot_spec
+from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.observations.layout import GOAL
+from semnav_env.robots import RobotSpec, robot_spec
+
+_STOP = GOAL.columns.index("stop")
+"""Where in the goal it says that the robot is to stand still."""
 
 PRETRAINED_FOLDER = Path(__file__).with_name("pretrained")
 """Folder of the trained agents that come with the package."""
@@ -23,20 +29,40 @@ def pretrained_names() -> tuple[str, ...]:
     return tuple(sorted(path.parent.name for path in PRETRAINED_FOLDER.glob(f"*/{AGENT_FILE}")))
 
 
+def agent_label(name: str) -> dict[str, object]:
+    """How the results of an agent name it: a trained one by its preset and its seed.
+
+    Returns:
+        "agent" and "training_seed", which is -1 for an agent that is not trained.
+    """
+    folder = _folder(name)
+    if not (folder / AGENT_FILE).is_file():
+        return {"agent": name, "training_seed": -1}
+    description = AgentDescription.read(folder)
+    label = description.preset.get("name", folder.name)
+    return {"agent": str(label), "training_seed": description.seed}
+
+
+def _folder(name: str | Path) -> Path:
+    return PRETRAINED_FOLDER / name if name in pretrained_names() else Path(name)
+
+
 class LearnedAgent:
     """A trained policy, without the noise with which it explored.
 
     Args:
         policy: from a compact observation to an action.
-        robot: name of the body that it was trained on.
+        robots: names of the bodies that it was trained on.
         repeat: steps for which an action holds.
     """
 
     observation = "all"
 
-    def __init__(self, policy: Policy, robot: str, repeat: int) -> None:
-        self.policy, self.robot, self.repeat = policy, robot, repeat
+    def __init__(self, policy: Policy, robots: tuple[str, ...], repeat: int) -> None:
+        self.policy, self.robots, self.repeat = policy, robots, repeat
         self._held = 0
+        self._observer: CompactObserver
+        self._robot: RobotSpec
         self._action: NDArray[np.float32]
 
     @classmethod
@@ -48,12 +74,13 @@ class LearnedAgent:
             OSError: a file cannot be read.
             ImportError: safetensors is not installed.
         """
-        folder = PRETRAINED_FOLDER / path if path in pretrained_names() else Path(path)
+        folder = _folder(path)
         description = AgentDescription.read(folder)
         try:
-            fitting = (COMPACT_SIZE, robot_spec(description.robot).action_size)
+            sizes = [robot_spec(robot).action_size for robot in description.robots]
         except ValueError as error:
             raise ValueError(f"{folder / AGENT_FILE}: {error}") from None
+        fitting = (COMPACT_SIZE, max(sizes))
         widths = description.widths
         if (widths[0], widths[-1]) != fitting:
             raise ValueError(
@@ -65,7 +92,7 @@ class LearnedAgent:
             policy = Policy.from_tensors(tensors, widths)
         except ValueError as error:
             raise ValueError(f"{folder / POLICY_FILE}: {error}") from None
-        return cls(policy, description.robot, description.repeat)
+        return cls(policy, description.robots, description.repeat)
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode.
@@ -73,14 +100,20 @@ class LearnedAgent:
         Raises:
             ValueError: the robot is not the one that it was trained on.
         """
-        robot = info["robot"]["name"]
-        if robot != self.robot:
-            raise ValueError(f"this agent was trained on {self.robot!r}, not {robot!r}")
+        self._robot = RobotSpec(**info["robot"])
+        if self._robot.name not in self.robots:
+            trained = " and ".join(map(repr, self.robots))
+            raise ValueError(f"this agent was trained on {trained}, not {self._robot.name!r}")
+        self._observer = CompactObserver([self._robot], LidarSpec(**info["lidar"]))
         self._held = 0
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
-        """The action; a new one is chosen every `repeat` steps."""
+        """The action; the policy chooses a new one every `repeat` steps, unless it is to stop."""
+        if observation["goal"][_STOP]:
+            return np.zeros(self._robot.action_size, np.float32)
         if self._held == 0:
-            self._action = self.policy.act(compact(observation))
+            row = {name: observation[name][None] for name in ("goal", "odometry", "scan")}
+            action = self.policy.act(self._observer.observe(row)[0])
+            self._action = for_body(action, self._robot.action_size)
         self._held = (self._held + 1) % self.repeat
         return self._action.copy()

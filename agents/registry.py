@@ -9,6 +9,7 @@ from typing import TypeAlias
 from semnav_env.agents.base import Agent
 from semnav_env.agents.custom import agent_factory, checked_agent
 from semnav_env.agents.floors import BlindAgent, RandomAgent
+from semnav_env.agents.hearing.agent import HearingAgent, hearing_names, hears
 from semnav_env.agents.learned import LearnedAgent, pretrained_names
 from semnav_env.agents.oracle import OracleAgent
 from semnav_env.agents.scripted import ScriptedAgent
@@ -32,9 +33,8 @@ def make_agent(source: AgentSource) -> Agent:
 
     Args:
         source: "scripted", "oracle", "blind", "random", "searcher", "explorer" or a name of
-            `pretrained_names`; the folder of a trained agent; "package.module:Class"; or a class or
-            function that is called
-            without arguments.
+            `pretrained_names` or `hearing_names`; the folder of a trained agent;
+            "package.module:Class"; or a class or function that is called without arguments.
 
     Raises:
         ValueError: there is no such agent, or what was made is none; says what would be right.
@@ -45,11 +45,13 @@ def make_agent(source: AgentSource) -> Agent:
         return checked_agent(source())
     if source in _BUILT_IN:
         return _BUILT_IN[source]()
+    if hears(source):
+        return HearingAgent.load(source)
     if source in pretrained_names() or Path(source).exists():
         return LearnedAgent.load(source)
     if ":" in source:
         return _imported_agent(source)
-    names = ", ".join((*_BUILT_IN, *pretrained_names()))
+    names = ", ".join((*_BUILT_IN, *pretrained_names(), *hearing_names()))
     more = "the folder of a trained one, or package.module:Class"
     raise ValueError(f"no agent {source!r}; there are: {names}, {more}")
 

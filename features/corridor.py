@@ -161,19 +161,27 @@ def corridor_at(scene: Scene, pose: Pose) -> Corridor:
     """
     if not isinstance(scene, StillScene):
         named = np.array([door.name is not None for door in scene.doors], dtype=np.bool_)
-        return _surveyed(ends_of(scene.walls), ends_of(scene.doors), named, pose)
+        return corridor_along(ends_of(scene.walls), ends_of(scene.doors), named, pose)
     views = scene.known_views
     if pose not in views:
         if len(views) >= MAX_KNOWN_VIEWS:
             views.clear()
-        views[pose] = _surveyed(scene.wall_ends, scene.door_ends, scene.named_doors, pose)
+        views[pose] = corridor_along(scene.wall_ends, scene.door_ends, scene.named_doors, pose)
     known: Corridor = views[pose]
     return known
 
 
-def _surveyed(
+def corridor_along(
     walls: FloatArray, doors: FloatArray, named: NDArray[np.bool_], pose: Pose
 ) -> Corridor:
+    """As `corridor_at`, from arrays.
+
+    Args:
+        walls: x and y of both ends, metres, shape (n, 4).
+        doors: the same of the jambs, shape (m, 4).
+        named: which doors are known to be doors, shape (m,).
+        pose: in the same frame.
+    """
     (x, y, heading), half_width, end, (left, right), rows = survey(walls, doors, named, *pose)
     openings = [SideOpening(*row) for row in rows.tolist()]
     frame = x, y, wrap_angle(heading)

@@ -26,6 +26,7 @@ from semnav_env.agents.evaluation import (
     suite,
     summarise,
 )
+from semnav_env.agents.learned import agent_label
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.metrics import WORST_SHARES
@@ -51,7 +52,7 @@ class Arguments:
     Attributes:
         suite: heidelberg, office_cross, or "all" of these; a split (`semnav episodes list`); or a
             file of episodes.
-        agent: scripted, oracle, blind, random, quick, office (trained ones), the folder of a
+        agent: scripted, oracle, blind, random, drive, listener (trained), the folder of a
             trained agent, or package.module:Class.
         robot: wheelchair or spot.
         seeds: number of start poses, each with its own noise, for every command of a suite.
@@ -108,13 +109,14 @@ class Arguments:
     def _drive(self, episodes: Iterator[Result], total: int) -> list[Result]:
         """All results; each is written at once, so that an interruption loses none."""
         results: list[Result] = []
+        who = agent_label(self.agent) | {"split": Path(self.suite).name, "robot": self.robot}
         with JsonLines(self.out) if self.out else nullcontext() as out:
             for result in tracked(
                 episodes, lambda n: f"{n} episodes", lambda: len(results) / total
             ):
                 results.append(result)
                 if out:
-                    out.write(result.row())
+                    out.write(who | result.row())
         return results
 
     def _trials(self) -> Sequence[Trial | Episode]:

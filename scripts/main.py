@@ -23,6 +23,7 @@ SEMNAV = CommandTable(
             "episodes": "list, check and generate the frozen episodes, import others",
             "evaluate": "measure an agent on a suite of commands",
             "evaluate language": "count how much of people's commands is understood",
+            "leaderboard": "make a table of agents from kept results",
             "train": "teach an agent, and keep what it learned",
             "bench": "time a step of the environment and its parts",
             "doctor": "check the installation, mend its cache, say what a bug report needs",

@@ -14,12 +14,15 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from tyro.conf import Positional
 
+from semnav_env.agents.hearing.card import CARD_FILE
+from semnav_env.agents.hearing.presets import HEARING_PRESETS
 from semnav_env.agents.learning.files import AGENT_FILE
 from semnav_env.agents.learning.presets import Preset, preset
 from semnav_env.agents.learning.rllib.options import RayOptions
 from semnav_env.agents.learning.rllib.start import start_training
-from semnav_env.agents.learning.session import Learner, TrainingLimits, train
+from semnav_env.agents.learning.session import Training, TrainingLimits, train
 from semnav_env.scripts.dispatch import INTERRUPTED
+from semnav_env.scripts.train_hearing import train_hearing
 
 if TYPE_CHECKING:
     from semnav_env.agents.learning.training import TrainingReport
@@ -33,9 +36,10 @@ class Arguments:
     the current update; what was learned is saved, and --resume continues from there.
 
     Attributes:
-        preset: what to learn: quick or office.
+        preset: what to learn: quick, drive, or listener, which hears the command.
         out: folder of the agent; runs/PRESET if not given.
-        steps: number of decisions in all, at the end; that of the preset if not given.
+        steps: number of decisions in all, at the end; that of the preset if not given. The length
+            of listener is fixed.
         minutes: time limit of this run.
         seed: of weights, trials, noise and exploration; a resumed training keeps its own.
         resume: continue the training in the folder.
@@ -54,9 +58,12 @@ class Arguments:
 
     def run(self) -> int:
         """Train, save and say how it went."""
+        folder = self.out or Path("runs") / self.preset
+        if self.preset in HEARING_PRESETS:
+            self._check(folder, CARD_FILE)
+            return train_hearing(self.preset, folder, self.seed, self.minutes)
         wanted = preset(self.preset)
-        folder = self.out or Path("runs") / wanted.name
-        self._check(folder)
+        self._check(folder, AGENT_FILE)
         trainer = self._trainer(wanted, folder)
         console = Console(stderr=True)
         limits = TrainingLimits(wanted.steps if self.steps is None else self.steps, self.minutes)
@@ -67,19 +74,19 @@ class Arguments:
         print(f"{interrupted}{trainer.steps} decisions{_learned(report)}; saved in {folder}")
         return INTERRUPTED if stop else 0
 
-    def _check(self, folder: Path) -> None:
+    def _check(self, folder: Path, file: str) -> None:
         if self.steps is not None and self.steps < 0:
             raise ValueError(f"--steps is {self.steps}; it must be at least 0")
         if self.minutes is not None and not 0 < self.minutes < float("inf"):
             raise ValueError(f"--minutes is {self.minutes}; it must be positive and finite")
         if self.seed < 0:
             raise ValueError(f"--seed is {self.seed}; it must be at least 0")
-        if not self.resume and (folder / AGENT_FILE).exists():
+        if not self.resume and (folder / file).exists():
             raise ValueError(
                 f"{folder} holds a trained agent; go on with it by --resume, or give another --out"
             )
 
-    def _trainer(self, wanted: Preset, folder: Path) -> Learner:
+    def _trainer(self, wanted: Preset, folder: Path) -> Training:
         if self.engine == "ray":
             return start_training(wanted, folder, self.seed, self.ray, self.resume)
         try:
@@ -92,7 +99,7 @@ class Arguments:
 
 
 def _train(
-    trainer: Learner, limits: TrainingLimits, stop: list[int], bar: Progress
+    trainer: Training, limits: TrainingLimits, stop: list[int], bar: Progress
 ) -> TrainingReport | None:
     """Learn, show how far it is, and return the last report."""
     task = bar.add_task("learning", total=1.0)
@@ -109,7 +116,9 @@ def _bar(console: Console) -> Progress:
     return Progress(TextColumn("{task.description}"), *columns, console=console)
 
 
-def _line(report: TrainingReport) -> str:
+def _line(report: TrainingReport | None) -> str:
+    if report is None:
+        return "driving demonstrations"
     return (
         f"{report.steps} decisions, {report.rate:.0f}/s, "
         f"success {report.success:.0%}, no contact {report.contact_free:.0%}, "

@@ -20,6 +20,7 @@ STUDIES = CommandTable(
         "ray_cost": ("studies.ray_cost", "what a training on Ray costs"),
         "search": ("studies.search.command", "houses searched with their plan and without"),
         "segmentation": ("studies.segmentation.command", "how walls are cut into pieces"),
+        "speech": ("studies.speech.command", "the speech parser, with fillers and without commas"),
         "tour": ("studies.tour.command", "ten rooms with drift, with each correction"),
         "train_doors": ("studies.door_scorer.train_doors", "train the scorer of doors"),
         "unsaid": ("studies.unsaid.command", "what implicit steps are good for"),

@@ -1,14 +1,17 @@
 """The files of a trained agent: JSON and safetensors, which run no code when they are read.
 
 A folder holds `agent.json` (what was trained), `policy.safetensors` (the network that the agent
-runs) and `training.safetensors` (the state from which training continues). Each file is complete by
-itself and is replaced in one move, so an interruption at any moment leaves a folder that works.
+runs) and `training.safetensors` (the state from which training continues; that of the checkpoint
+before is in `training.previous.safetensors`). Each file is complete by itself and is replaced in
+one move, so an interruption at any moment leaves a folder that works.
 """
 
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -17,17 +20,18 @@ from numpy.typing import NDArray
 
 from semnav_env.features.reading import read_bytes
 from semnav_env.features.validation import clipped
-from semnav_env.features.writing import write_file
+from semnav_env.features.writing import replacing, write_file
 
 Array = NDArray[Any]
 
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 """Version of the files in the folder; other versions are refused."""
 
 MAX_FILE_SIZE = 64 * 2**20
 """Largest file that is read, bytes; a small agent needs far less."""
 
 AGENT_FILE, POLICY_FILE, TRAINING_FILE = "agent.json", "policy.safetensors", "training.safetensors"
+PREVIOUS_FILE = "training.previous.safetensors"
 
 
 @dataclass(frozen=True)
@@ -35,7 +39,7 @@ class AgentDescription:
     """The content of `agent.json`.
 
     Attributes:
-        robot: name of the body that was driven.
+        robots: names of the bodies that were driven.
         repeat: steps of the environment for which a decision holds.
         widths: of the observation, the hidden layers and the action.
         preset: the preset that was trained, as plain data.
@@ -44,7 +48,7 @@ class AgentDescription:
         format: version of the files.
     """
 
-    robot: str
+    robots: tuple[str, ...]
     repeat: int
     widths: tuple[int, ...]
     preset: dict[str, Any]
@@ -94,11 +98,14 @@ def _checked(path: Path, document: Any) -> dict[str, Any]:
         raise ValueError(f"{path}: 'widths' must be two or more whole numbers from 1 to 4096")
     if fields["repeat"] < 1 or fields["steps"] < 0 or fields["seed"] < 0:
         raise ValueError(f"{path}: 'repeat' must be at least 1, 'steps' and 'seed' at least 0")
-    return {**fields, "widths": tuple(widths)}
+    robots = fields["robots"]
+    if not robots or not all(type(robot) is str for robot in robots):
+        raise ValueError(f"{path}: 'robots' must be one or more names")
+    return {**fields, "widths": tuple(widths), "robots": tuple(robots)}
 
 
 _FIELD_TYPES: dict[str, type] = {
-    "robot": str,
+    "robots": list,
     "repeat": int,
     "widths": list,
     "preset": dict,
@@ -107,11 +114,39 @@ _FIELD_TYPES: dict[str, type] = {
 }
 
 
-def save_tensors(path: Path, tensors: Mapping[str, Array]) -> None:
-    """Write named tensors in one move."""
+def save_checkpoint(folder: Path, tensors: Mapping[str, Array]) -> None:
+    """Write the state from which training continues; the one before it is kept beside it."""
+    content = _serialised(tensors)
+    with replacing(folder / TRAINING_FILE) as part:
+        part.write_bytes(content)
+        with suppress(FileNotFoundError):
+            os.replace(folder / TRAINING_FILE, folder / PREVIOUS_FILE)
+
+
+def load_checkpoint(folder: Path) -> dict[str, Array]:
+    """The newest state that can be read.
+
+    Raises:
+        ValueError: neither can.
+        OSError: the newest one cannot be read.
+    """
+    try:
+        return load_tensors(folder / TRAINING_FILE)
+    except (ValueError, FileNotFoundError):
+        if not (folder / PREVIOUS_FILE).exists():
+            raise
+        return load_tensors(folder / PREVIOUS_FILE)
+
+
+def _serialised(tensors: Mapping[str, Array]) -> bytes:
     from safetensors.numpy import save
 
-    write_file(path, save({name: tensor.copy() for name, tensor in tensors.items()}))
+    return save({name: tensor.copy() for name, tensor in tensors.items()})
+
+
+def save_tensors(path: Path, tensors: Mapping[str, Array]) -> None:
+    """Write named tensors in one move."""
+    write_file(path, _serialised(tensors))
 
 
 def load_tensors(path: Path) -> dict[str, Array]:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 from semnav_env.agents.evaluation.suites import Trial, suite
-from semnav_env.features.checked_fields import Count, Share, check_fields
+from semnav_env.features.checked_fields import Bounds, Count, Share, check_fields
+from semnav_env.robots import robot_spec
 from semnav_env.tasks import RewardWeights
 
 
@@ -25,6 +27,8 @@ class PPOSettings:
         entropy: weight of the entropy bonus.
         log_std: logarithm of the initial standard deviation of the actions.
         max_kl: divergence from the old policy at which an update stops early.
+        stretch: updates between two checkpoints; each checkpoint ends all episodes.
+        anneal: whether the step size falls to zero over the decisions of the preset.
     """
 
     hidden: tuple[Count, ...] = (64, 64)
@@ -38,6 +42,8 @@ class PPOSettings:
     entropy: float = 0.0
     log_std: float = -0.5
     max_kl: float = 0.05
+    stretch: Annotated[int, Bounds(1, 10_000)] = 16
+    anneal: bool = False
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -49,29 +55,38 @@ class Preset:
 
     Attributes:
         name: as in `semnav train NAME`.
-        robot: name of the body.
-        floor_plan: where random commands are given, if there are no trials.
+        robots: names of the bodies, all of which one policy drives.
+        floor_plan: where commands are given; not used with `episodes`.
         trials: commands and start poses, one of which is drawn for each episode; none for random
             commands.
+        episodes: split whose episodes are drawn instead; empty for none.
         max_seconds: time limit of an episode, simulated seconds.
         repeat: steps of the environment (1/15 s each) for which one decision holds.
-        envs: number of environments that are driven at once.
+        envs: number of environments of each body that are driven at once.
         steps: number of decisions to train for, unless told otherwise.
         ppo: hyperparameters.
+        demonstrations: number of drives of the scripted agent that are imitated first.
         rewards: weights of the rewards. Contact costs more than in the environment itself:
             otherwise a policy soon learns to slide along the jambs.
     """
 
     name: str
-    robot: str
+    robots: tuple[str, ...]
     floor_plan: str
-    trials: tuple[Trial, ...]
     max_seconds: float
     repeat: int
     envs: int
     steps: int
+    trials: tuple[Trial, ...] = ()
+    episodes: str = ""
+    demonstrations: int = 0
     ppo: PPOSettings = PPOSettings()
     rewards: RewardWeights = RewardWeights(contact=-0.5)
+
+    @property
+    def action_size(self) -> int:
+        """Number of values in an action of the policy: as many as the largest of its bodies has."""
+        return max(robot_spec(robot).action_size for robot in self.robots)
 
 
 PRESETS = {
@@ -79,7 +94,7 @@ PRESETS = {
     for preset in (
         Preset(
             name="quick",
-            robot="wheelchair",
+            robots=("wheelchair",),
             floor_plan="heidelberg_hallway",
             trials=suite("heidelberg"),
             max_seconds=45.0,
@@ -88,14 +103,27 @@ PRESETS = {
             steps=2_000_000,
         ),
         Preset(
-            name="office",
-            robot="wheelchair",
-            floor_plan="office_cross",
-            trials=(),
-            max_seconds=60.0,
+            name="drive",
+            robots=("wheelchair", "spot"),
+            floor_plan="",
+            episodes="train",
+            max_seconds=150.0,
             repeat=3,
-            envs=64,
-            steps=5_000_000,
+            envs=120,
+            steps=3_500_000,
+            demonstrations=400,
+            ppo=PPOSettings(
+                hidden=(128, 128),
+                batch_size=1024,
+                epochs=6,
+                learning_rate=3e-4,
+                gamma=0.99,
+                log_std=-1.3,
+                max_kl=0.03,
+                stretch=12,
+                anneal=True,
+            ),
+            rewards=RewardWeights(contact=-1.0),
         ),
     )
 }

@@ -12,9 +12,6 @@ from semnav_env.features.checked_fields import Bounds, check_fields
 if TYPE_CHECKING:  # stable-baselines3 is optional
     from semnav_env.agents.learning.training import TrainingReport
 
-CHECKPOINT_INTERVAL = 30.0
-"""Time between checkpoints, seconds: as much as a crash may cost."""
-
 
 @dataclass(frozen=True)
 class TrainingLimits:
@@ -43,12 +40,21 @@ class TrainingLimits:
         return max(by_steps, seconds / (60 * self.minutes) if self.minutes else 0.0)
 
 
-class Learner(Protocol):
+class Training(Protocol):
     """A training, whatever it runs on."""
 
     @property
     def steps(self) -> int:
         """Number of decisions so far."""
+        ...
+
+    @property
+    def is_resumable(self) -> bool:
+        """Whether a checkpoint can be made now."""
+        ...
+
+    def prepare(self) -> Iterator[float]:
+        """Do what comes before the first rollout; yields the share that is done."""
         ...
 
     def advance(self) -> TrainingReport:
@@ -69,31 +75,36 @@ class SessionProgress(NamedTuple):
 
     Attributes:
         fraction: share of the session that is done, at most 1.
-        report: of the training.
+        report: of the training; None while demonstrations are driven.
         saved: whether a checkpoint was just written.
     """
 
     fraction: float
-    report: TrainingReport
+    report: TrainingReport | None
     saved: bool
 
 
 def train(
-    trainer: Learner, limits: TrainingLimits, stopped: Callable[[], bool]
+    trainer: Training, limits: TrainingLimits, stopped: Callable[[], bool]
 ) -> Iterator[SessionProgress]:
-    """Learn until a limit is reached or `stopped` says so; the agent is saved at the end, too."""
+    """Learn until a limit is reached or `stopped` says so.
+
+    A checkpoint is written at the end of each stretch, and the agent as it is at the end.
+    """
     first, start = trainer.steps, time.monotonic()
-    saved_at = start
 
     def fraction() -> float:
         return limits.fraction(first, trainer.steps, time.monotonic() - start)
 
     trainer.save()
+    demonstrated = trainer.prepare() if fraction() < 1.0 else ()
+    for share in demonstrated:
+        if stopped():
+            return
+        yield SessionProgress(share, None, False)
     while not stopped() and fraction() < 1.0:
         report = trainer.advance()
-        is_due = time.monotonic() - saved_at > CHECKPOINT_INTERVAL
-        if is_due:
+        if trainer.is_resumable:
             trainer.save()
-            saved_at = time.monotonic()
-        yield SessionProgress(min(fraction(), 1.0), report, is_due)
+        yield SessionProgress(min(fraction(), 1.0), report, trainer.is_resumable)
     trainer.save()

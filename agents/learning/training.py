@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -14,13 +15,16 @@ from stable_baselines3 import PPO
 from stable_baselines3.common.logger import configure
 from stable_baselines3.common.vec_env import VecMonitor
 
+from semnav_env.agents.learning.cloning import clone
 from semnav_env.agents.learning.files import (
     POLICY_FILE,
     TRAINING_FILE,
     AgentDescription,
-    load_tensors,
+    load_checkpoint,
+    save_checkpoint,
     save_tensors,
 )
+from semnav_env.agents.learning.imitation import demonstrations, load_demonstrations
 from semnav_env.agents.learning.policy import Policy
 from semnav_env.agents.learning.preset_envs import preset_envs
 from semnav_env.agents.learning.presets import Preset
@@ -59,43 +63,59 @@ class Trainer:
         preset: what to learn.
         folder: for the agent and, in `tensorboard`, the curves; made if it does not exist.
         seed: of weights, trials, noise and exploration.
-        steps: number of decisions that were trained before; 0 starts anew.
     """
 
-    def __init__(self, preset: Preset, folder: Path, seed: int, steps: int = 0) -> None:
+    def __init__(self, preset: Preset, folder: Path, seed: int) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         torch.set_num_threads(1)  # a small network is slower with more
         self.preset, self.folder, self.seed = preset, folder, seed
         self._envs = VecMonitor(preset_envs(preset), info_keywords=LOGGED_KEYS)
-        self.model = _model(preset, self._envs, _seed_from(seed, steps))
+        self.model = _model(preset, self._envs, _seed_from(seed, 0))
+        if preset.ppo.anneal:
+            self.model.lr_schedule = self._step_size
+        self._imitated = False
         self.model.set_logger(configure(str(folder / "tensorboard"), ["tensorboard"]))
 
     @classmethod
     def resume(cls, preset: Preset, folder: Path) -> Trainer:
         """Continue the training in a folder.
 
-        Weights, the optimizer's state, the number of decisions and the seed are restored. Episodes
-        that were under way are not: all environments start new ones. Random numbers are drawn from
-        a generator seeded with the seed and the number of decisions. An interrupted training and an
-        uninterrupted one therefore end with different weights.
+        It goes on from the last checkpoint, whose number of decisions it takes over, and learns
+        bit for bit what the training would have learned had it not been interrupted.
 
         Raises:
             ValueError: the folder holds no training, a damaged one or one of another preset.
         """
         description = AgentDescription.read(folder)
         _check_same(preset, description, folder)
-        path = folder / TRAINING_FILE
-        tensors = load_tensors(path)
-        trainer = cls(preset, folder, description.seed, description.steps)
+        tensors = load_checkpoint(folder)
+        trainer = cls(preset, folder, description.seed)
         try:
             read_state(trainer.model, tensors)
         except ValueError as error:
-            raise ValueError(f"{path}: {error}") from None
+            raise ValueError(f"{folder / TRAINING_FILE}: {error}") from None
         return trainer
+
+    def prepare(self) -> Iterator[float]:
+        """Imitate the demonstrations of the preset, if it has any and nothing was learned yet.
+
+        Yields:
+            The share of the demonstrations that have been driven.
+        """
+        count = self.preset.demonstrations
+        if not count or self.steps:
+            return
+        folder = self.folder / "demonstrations"
+        for driven in demonstrations(self.preset, self.seed, folder):
+            yield driven / count
+        self._imitated = True
+        clone(self.model, load_demonstrations(folder), self.seed)
 
     def advance(self) -> TrainingReport:
         """Drive one rollout and learn from it."""
         start, before = time.perf_counter(), self.steps
+        if self.is_resumable or not before:
+            self._begin_stretch()
         size = self.model.n_steps * self.model.n_envs
         # log_interval=None: the curves are written below, together with measures that SB3 lacks
         self.model.learn(size, reset_num_timesteps=False, log_interval=None)  # type: ignore[arg-type]
@@ -115,13 +135,14 @@ class Trainer:
         return report
 
     def save(self) -> None:
-        """Write the files of the folder, each in one move."""
+        """Write the agent as it is and, where training can be resumed from here, a checkpoint."""
         policy = _actor(self.model)
-        save_tensors(self.folder / TRAINING_FILE, write_state(self.model))
+        if self.is_resumable:
+            save_checkpoint(self.folder, write_state(self.model))
         save_tensors(self.folder / POLICY_FILE, policy.tensors())
         widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
         AgentDescription(
-            robot=self.preset.robot,
+            robots=self.preset.robots,
             repeat=self.preset.repeat,
             widths=widths,
             preset=plain(self.preset),
@@ -133,6 +154,22 @@ class Trainer:
     def steps(self) -> int:
         """Number of decisions so far."""
         return int(self.model.num_timesteps)
+
+    @property
+    def is_resumable(self) -> bool:
+        """Whether a stretch has ended, so that a checkpoint can be made."""
+        stretch = self.preset.ppo.stretch * self.model.n_steps * self.model.n_envs
+        return self.steps % stretch == 0 and not (self._imitated and self.steps == 0)
+
+    def _begin_stretch(self) -> None:
+        """Reset all robots and all generators, with seeds that follow from seed and decisions."""
+        self.model.set_random_seed(_seed_from(self.seed, self.steps))
+        self.model._last_obs = None  # so that SB3 resets the environments
+
+    def _step_size(self, _: float) -> float:
+        """The step size now: it falls linearly, to a hundredth."""
+        left = max(0.01, 1.0 - self.steps / self.preset.steps)
+        return left * self.preset.ppo.learning_rate
 
     def close(self) -> None:
         """Finish the curves and close the environments."""

@@ -20,6 +20,7 @@ from semnav_env.agents.searching.house_plan import KNOWN_MARGIN, HousePlan
 from semnav_env.agents.searching.search_map import FREE, SearchMap
 from semnav_env.agents.searching.searcher import Searcher
 from semnav_env.agents.searching.settings import SearchSettings
+from semnav_env.agents.searching.views import Looker
 from semnav_env.features.frames import (
     FloatArray,
     Pose,
@@ -81,16 +82,18 @@ class Explorer:
         """
         if "person_detector" not in info:
             raise ValueError("a search needs a person detector: make semnav_env:SearchAndRescue-v0")
-        self._pilot, self._lidar = Pilot(RobotSpec(**info["robot"])), LidarSpec(**info["lidar"])
+        self._pilot, self._lidar = (
+            Pilot(RobotSpec(**info["robot"])),
+            LidarSpec(**info["lidar"]),
+        )
         self._pilot.driver.planner = CAREFUL
         self._detector = PersonDetectorSettings(**info["person_detector"])
         self._beams = self._lidar.directions
         self._obstacles.reset()
         self._chart = self._new_chart(info)
         detector = self._detector
-        self._searcher = Searcher(
-            self._chart, self._pilot.robot, detector.field_of_view, detector.range_max
-        )
+        looker = Looker(self._pilot.robot, detector.field_of_view, detector.range_max)
+        self._searcher = Searcher(self._chart, looker)
         self._steps = 0
         self._unseen: FloatArray = np.empty((0, 2))
 

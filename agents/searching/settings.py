@@ -19,20 +19,24 @@ class SearchSettings:
         short_range: beams make the floor safe up to here, metres: so near, nothing hides between
             two beams (Visser et al. 2007 have two such ranges).
         long_range: beams show free floor up to here, metres.
-        clearance: least distance from a place to stand at to anything solid, metres.
+        clearance: least distance from the body where it is to stand to anything solid, metres.
         candidate_spacing: between places to look from, metres.
         rays: directions in which the gain of a place is estimated.
+        fine_spacing: as `candidate_spacing`, once a coarse lattice finds no place, metres.
+        fine_rays: as `rays` there.
         least_gain: least area that is worth a look, m^2.
         speed: with which ways are counted, m/s.
         turn_rate: with which turns are counted, rad/s.
         look_seconds: cost of a look besides the way there.
         other_room: factor on the cost of a place in another room while a plan is known: a room is
             finished before it is left.
-        tries: a cell is given up after so many places that could not be reached to see it; a look
-            that did not show it counts for two.
+        tries: a cell is given up after so many places from which it ought to have been seen, or
+            that could not be reached; a look that ought to have shown it counts for two.
         refused_distance: no place nearer to one that could not be reached is tried, metres.
         recheck: control periods between two questions whether a view is still worth its way.
-        patience: control periods without getting on after which a view is given up.
+        patience: control periods without moving after which a target is given up.
+        long_patience: control periods without getting nearer after which it is given up.
+        settle: control periods that a look takes.
         person_range: least and largest distance from which a person is looked at, metres.
         person_looks: control periods of standing before somebody who may be a person.
         person_tries: places from which somebody is looked at before being left aside.
@@ -43,9 +47,11 @@ class SearchSettings:
     half_side: Length = 20.0
     short_range: Length = 3.0
     long_range: Length = 9.0
-    clearance: Length = 0.35
+    clearance: Length = 0.05
     candidate_spacing: Length = 0.35
     rays: Count = 60
+    fine_spacing: Length = 0.15
+    fine_rays: Count = 120
     least_gain: Annotated[float, Bounds(0.0, 1e6)] = 0.06
     speed: Annotated[float, Bounds(0.0, 20.0, "m/s")] = 0.6
     turn_rate: Annotated[float, Bounds(0.0, 20.0, "rad/s")] = 0.8
@@ -55,6 +61,8 @@ class SearchSettings:
     refused_distance: Length = 0.4
     recheck: Count = 12
     patience: Count = 50
+    long_patience: Count = 450
+    settle: Count = 6
     person_range: tuple[Length, Length] = (0.9, 1.7)
 
     def __post_init__(self) -> None:
@@ -63,5 +71,5 @@ class SearchSettings:
     person_looks: int = 40
     person_tries: int = 3
     suspicion: float = 0.1
-    position_tolerance: float = 0.25
-    heading_tolerance: float = math.radians(14.0)
+    position_tolerance: float = 0.22
+    heading_tolerance: float = math.radians(10.0)

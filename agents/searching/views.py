@@ -11,15 +11,27 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from semnav_env.agents.searching.search_map import FREE, LOOKED, SAFE, Mask, SearchMap
-from semnav_env.features.frames import FloatArray, Point, Pose, wrap_angle
-from semnav_env.features.kernels.compiling import kernel
+from semnav_env.agents.searching.view_kernels import (
+    fits,
+    mark_wanted,
+    ray_gains,
+    seconds_to_look,
+)
+from semnav_env.features.frames import FloatArray, Point, Pose, compose, relative, wrap_angle
 from semnav_env.features.kernels.grid_search import least_costs
+from semnav_env.robots import RobotSpec
 
 COMFORT = 0.8
 """Distance from everything solid beyond which a way costs no more than its length, metres."""
 
 CROWDING = 2.0
 """Extra cost of a metre right beside something solid."""
+
+EDGE = 0.1
+"""Share of the field of view at its edge that is not counted on: a look may be turned a little."""
+
+Circle = tuple[float, float, float]
+"""x, y and radius, metres."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +47,45 @@ class View:
     pose: Pose
     gain: float
     cells: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Looker:
+    """A body with a detector.
+
+    Attributes:
+        robot: the body, with the mount of the detector.
+        fov: field of view of the detector, radians.
+        view_range: of the detector, metres.
+    """
+
+    robot: RobotSpec
+    fov: float
+    view_range: float
+
+    @property
+    def half_angle(self) -> float:
+        """Angle to each side of its heading within which a look is counted on, radians."""
+        return 0.5 * (1.0 - EDGE) * self.fov
+
+    def half_size(self, margin: float) -> tuple[float, float]:
+        """Half of length and width of the body with a margin around it, metres."""
+        return self.robot.length / 2 + margin, self.robot.width / 2 + margin
+
+
+@dataclass(frozen=True)
+class ViewGrid:
+    """How finely looks are tried out.
+
+    Attributes:
+        spacing: between places of the detector, metres.
+        rays: directions in which the gain of a place is estimated.
+        room: number of the plan's room that alone is looked at, from inside; None for all.
+    """
+
+    spacing: float
+    rays: int
+    room: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,10 +135,9 @@ def best_view(
     chart: SearchMap,
     ways: Ways,
     pose: Pose,
-    fov: float,
-    view_range: float,
-    current: int,
-    refused: Sequence[Point] = (),
+    looker: Looker,
+    grid: ViewGrid,
+    refused: Sequence[Circle] = (),
 ) -> View | None:
     """The pose to look from that shows most for its cost; None where nothing is worth it.
 
@@ -95,53 +145,74 @@ def best_view(
         chart: the map.
         ways: from where the robot is.
         pose: of the robot.
-        fov: field of view of the detector, radians.
-        view_range: of the detector, metres.
-        current: number of the room that the robot is in; -1 for none.
-        refused: places that could not be reached.
+        looker: body and detector.
+        grid: of places and directions to try.
+        refused: around places that could not be reached, or that showed less than expected.
     """
-    s, wanted = chart.settings, wanted_cells(chart)
+    s, wanted, rays = chart.settings, wanted_cells(chart), grid.rays
+    if grid.room is not None:
+        wanted &= chart.rooms == grid.room
     if not wanted.any():
         return None
-    cells = _candidates(chart, ways, pose[:2], refused)
-    args = *chart.lower, s.spacing, s.rays
-    gains = ray_gains(chart.points(cells), wanted, chart.solid, *args, view_range)
-    window = max(1, round(fov / math.tau * s.rays) - 2)
+    window = max(1, round(looker.half_angle / math.pi * rays))
+    headings = math.tau * (np.arange(rays) + (window - 1) / 2) / rays
+    where = *chart.lower, s.spacing
+    eyes = _eyes(chart, grid)
+    back = relative(looker.robot.lidar_mount, (0.0, 0.0, 0.0))
+    seconds = _seconds(chart, ways, grid, pose, refused)
+    costs = seconds_to_look(
+        eyes, headings, back, looker.half_size(s.clearance), seconds, ways.room, *where
+    )
+    some = np.isfinite(costs).any(axis=1)
+    eyes, costs = eyes[some], costs[some]
+    if not len(eyes):
+        return None
+    gains = ray_gains(eyes, wanted, chart.solid, *where, rays, looker.view_range)
     sums = _window_sums(gains, window)
-    seconds = _costs(chart, ways, cells, pose, current)
-    headings = math.tau * (np.arange(s.rays) + (window - 1) / 2) / s.rays
-    turns = np.abs(np.angle(np.exp(1j * (headings - pose[2])))) / s.turn_rate
-    worth = np.where(sums > s.least_gain, sums / (seconds[:, None] + turns[None, :]), 0.0)
+    turns = np.abs(np.angle(np.exp(1j * (headings + back[2] - pose[2])))) / s.turn_rate
+    worth = np.where(sums > s.least_gain, sums / (costs + turns[None, :]), 0.0)
     k, best = np.unravel_index(int(np.argmax(worth)), worth.shape)
     if worth[k, best] <= 0.0:
         return None
-    x, y = chart.points(cells[k : k + 1])[0].tolist()
-    seen = np.zeros(wanted.shape, np.bool_)
-    mark_wanted((x, y), int(best), window, wanted, chart.solid, *args, view_range, seen)
-    there = wrap_angle(float(headings[best]))
-    return View((x, y, there), float(sums[k, best]), np.flatnonzero(seen))
+    place = compose((*eyes[k].tolist(), wrap_angle(float(headings[best]))), back)
+    shown = np.flatnonzero(shown_from(chart, place, looker) & wanted)
+    return View(place, float(sums[k, best]), shown)
 
 
-def place_before(chart: SearchMap, ways: Ways, person: Point, tried: list[Point]) -> Pose | None:
+def shown_from(chart: SearchMap, pose: Pose, looker: Looker) -> Mask:
+    """The cells still to be looked at that a look from a pose of the robot ought to show."""
+    seen, eye = np.zeros(chart.hits.shape, np.bool_), compose(pose, looker.robot.lidar_mount)
+    where = *chart.lower, chart.settings.spacing
+    wanted, solid = wanted_cells(chart), chart.solid
+    mark_wanted(eye, looker.half_angle, wanted, solid, *where, looker.view_range, seen)
+    return seen
+
+
+def place_before(
+    chart: SearchMap, ways: Ways, looker: Looker, person: Point, tried: list[Point]
+) -> Pose | None:
     """A pose near a person that looks at it and is reached soon; None where there is none.
 
     Args:
         chart: the map.
         ways: from where the robot is.
+        looker: body and detector.
         person: where somebody may be.
         tried: places from which it was looked at before.
     """
     s, (least, most) = chart.settings, chart.settings.person_range
-    cells = np.argwhere(np.isfinite(ways.costs) & (ways.room > s.clearance))
+    cells = np.argwhere(np.isfinite(ways.costs))
     points = chart.points(cells)
     away = np.hypot(*(points - person).T)
     good = (away > least) & (away < most)
     for place in tried:
         good &= np.hypot(*(points - place).T) > 0.6
     order = np.argsort(ways.costs[tuple(cells[good].T)])
-    for x, y in points[good][order][:200].tolist():
-        if _sees(chart, (x, y), person):
-            return x, y, math.atan2(person[1] - y, person[0] - x)
+    size = looker.half_size(s.clearance)
+    for x, y in points[good][order][:400].tolist():
+        pose = x, y, math.atan2(person[1] - y, person[0] - x)
+        if fits(pose, size, ways.room, *chart.lower, s.spacing) and _sees(chart, (x, y), person):
+            return pose
     return None
 
 
@@ -153,32 +224,31 @@ def _sees(chart: SearchMap, eye: Point, person: Point) -> bool:
     return not any(chart.solid_at((x, y)) for x, y in points.tolist())
 
 
-def _candidates(
-    chart: SearchMap, ways: Ways, here: Point, refused: Sequence[Point]
-) -> NDArray[np.int64]:
-    """Cells to look from: on a lattice, with room to stand; and where the robot is."""
-    s = chart.settings
-    step = max(1, round(s.candidate_spacing / s.spacing))
-    lattice = np.zeros(ways.costs.shape, np.bool_)
+def _eyes(chart: SearchMap, grid: ViewGrid) -> FloatArray:
+    """Places for the detector, on a lattice of floor that may be free, shape (n, 2)."""
+    step = max(1, round(grid.spacing / chart.settings.spacing))
+    lattice = np.zeros(chart.hits.shape, np.bool_)
     lattice[::step, ::step] = True
-    standing = np.isfinite(ways.costs) & (ways.room > s.clearance)
-    cells = np.argwhere(lattice & standing & (chart.has(FREE) | (chart.rooms >= 0)))
-    points = chart.points(cells)
-    kept = np.ones(len(cells), np.bool_)
-    for place in refused:
-        kept &= np.hypot(*(points - place).T) > s.refused_distance
-    cells = cells[kept]
-    return np.vstack((cells, [chart.cell(here)]))
+    lattice &= (chart.has(FREE) | (chart.rooms >= 0)) & ~chart.solid
+    return chart.points(np.argwhere(lattice))
 
 
-def _costs(
-    chart: SearchMap, ways: Ways, cells: NDArray[np.int64], pose: Pose, current: int
+def _seconds(
+    chart: SearchMap, ways: Ways, grid: ViewGrid, pose: Pose, refused: Sequence[Circle]
 ) -> FloatArray:
-    """Seconds to each of the cells, other rooms dearer."""
-    s = chart.settings
-    seconds = ways.costs[tuple(cells.T)] / s.speed
-    elsewhere = (chart.rooms[tuple(cells.T)] != current) & (current >= 0)
-    return np.asarray(np.where(elsewhere, s.other_room, 1.0) * seconds + s.look_seconds)
+    """Seconds that a look from each cell costs, other rooms dearer; infinite where none is."""
+    s, current = chart.settings, chart.rooms[chart.cell(pose[:2])]
+    elsewhere = (chart.rooms != current) & (current >= 0)
+    factor = np.where(elsewhere, s.other_room, 1.0)
+    if grid.room is not None:
+        factor[chart.rooms != grid.room] = np.inf
+    seconds = ways.costs / s.speed * factor + s.look_seconds
+    rows, columns = np.ogrid[: seconds.shape[0], : seconds.shape[1]]
+    for x, y, radius in refused:
+        row, column = chart.cell((x, y))
+        near = (rows - row) ** 2 + (columns - column) ** 2 <= (radius / s.spacing) ** 2
+        seconds[near] = np.inf
+    return np.asarray(seconds)
 
 
 def _window_sums(gains: FloatArray, window: int) -> FloatArray:
@@ -186,63 +256,3 @@ def _window_sums(gains: FloatArray, window: int) -> FloatArray:
     twice = np.hstack((np.zeros((len(gains), 1)), gains, gains[:, : window - 1]))
     summed = np.cumsum(twice, axis=1)
     return np.asarray(summed[:, window:] - summed[:, :-window])
-
-
-@kernel(counts_references=True)
-def ray_gains(
-    places: FloatArray,
-    wanted: Mask,
-    solid: Mask,
-    west: float,
-    south: float,
-    spacing: float,
-    rays: int,
-    view_range: float,
-) -> FloatArray:
-    """Area of wanted cells that rays from some places show, m^2, shape (places, rays).
-
-    A ray stands for its sector of the circle: at a distance r a step dr shows r dr dphi.
-    """
-    gains = np.zeros((len(places), rays))
-    rows, columns = wanted.shape
-    for k in range(len(places)):
-        for j in range(rays):
-            angle = 2.0 * math.pi * j / rays
-            dx, dy = math.cos(angle), math.sin(angle)
-            for i in range(1, int(view_range / spacing)):
-                away = i * spacing
-                column = round((places[k, 0] + away * dx - west) / spacing)
-                row = round((places[k, 1] + away * dy - south) / spacing)
-                if not (0 <= row < rows and 0 <= column < columns) or solid[row, column]:
-                    break
-                if wanted[row, column]:
-                    gains[k, j] += away * spacing * 2.0 * math.pi / rays
-    return gains
-
-
-@kernel
-def mark_wanted(
-    place: Point,
-    first: int,
-    window: int,
-    wanted: Mask,
-    solid: Mask,
-    west: float,
-    south: float,
-    spacing: float,
-    rays: int,
-    view_range: float,
-    seen: Mask,
-) -> None:
-    """Mark the wanted cells that a window of rays shows; four times as many rays are cast."""
-    rows, columns = wanted.shape
-    for j in range(4 * first, 4 * (first + window)):
-        angle = 2.0 * math.pi * j / (4 * rays)
-        dx, dy = math.cos(angle), math.sin(angle)
-        for i in range(1, int(view_range / spacing)):
-            column = round((place[0] + i * spacing * dx - west) / spacing)
-            row = round((place[1] + i * spacing * dy - south) / spacing)
-            if not (0 <= row < rows and 0 <= column < columns) or solid[row, column]:
-                break
-            if wanted[row, column]:
-                seen[row, column] = True

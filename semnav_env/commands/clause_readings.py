@@ -154,6 +154,7 @@ def on_condition(condition: IfThere, readings: Readings) -> Readings:
     Raises:
         ValueError: more than one clause would depend on it.
     """
-    if any(len(steps) != 1 for steps in readings):
+    readings = tuple(steps for steps in readings if len(steps) == 1)
+    if not readings:
         raise ValueError('one clause depends on a condition; begin the next with "in any case"')
     return tuple((condition, *steps) for steps in readings)

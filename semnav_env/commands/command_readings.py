@@ -9,9 +9,10 @@ from itertools import pairwise, product
 from typing import Any
 
 from semnav_env.commands.clause_readings import ClauseReadings
-from semnav_env.commands.clauses import Clause, Follow, GoToDoor
+from semnav_env.commands.clauses import Approach, Clause, Follow, GoToDoor, Leave
 from semnav_env.commands.command import Command, Link, links_of, may_count_on, reference_of
 from semnav_env.commands.one_reading import OutOfPlaceError, Reading, one_reading
+from semnav_env.commands.references import DoorReference
 
 MAX_READINGS = 16
 """The most readings of a command; nobody would choose among more, so the text is refused."""
@@ -69,12 +70,29 @@ def _countings(reading: Reading) -> list[tuple[Clause, ...]]:
     """
     countings: list[tuple[Clause, ...]] = [(reading[0].clause,)]
     links = links_of([each.clause for each in reading])
-    for (before, each), link in zip(pairwise(reading), links[1:], strict=True):
+    pairs = zip(pairwise(reading), links[1:], strict=True)
+    for number, ((before, each), link) in enumerate(pairs, 1):
         choices, first = [each.clause], before.clause
         if link is Link.NEXT and may_count_on(first, each.clause) and not each.anew:
             choices.append(_counted_on(first, each.clause))
+        elif link is Link.NEXT and not each.anew and _is_next_door(reading, number):
+            choices.append(_as_first(each.clause))
         countings = [(*clauses, choice) for clauses in countings for choice in choices]
     return countings
+
+
+def _is_next_door(reading: Reading, number: int) -> bool:
+    """Whether it can lead to the next door: "into the second room, out, and into the third"."""
+    match [each.clause for each in reading[max(0, number - 2) : number + 1]]:
+        case [GoToDoor(DoorReference(int(n), same), Approach.THROUGH), Leave(), GoToDoor(door)]:
+            return door.side == same and door.ordinal == n + 1 > 1
+    return False
+
+
+def _as_first(clause: Any) -> Clause:
+    """The clause with the first door of its side."""
+    first: Clause = replace(clause, door=replace(clause.door, ordinal=1))
+    return first
 
 
 def _counted_on(before: Clause, clause: Any) -> Clause:

@@ -68,7 +68,9 @@ class CommandError(ValueError):
 
 
 class AmbiguousCommandError(CommandError):
-    """A text that can mean several commands, or one that is doubtful because a word is misspelt.
+    """A text that can mean several commands, or one that is doubtful.
+
+    It is doubtful if a word is misspelt, or was left out because it is not understood.
 
     Attributes:
         readings: these commands, the likelier first.
@@ -81,13 +83,17 @@ class AmbiguousCommandError(CommandError):
         readings: tuple[Any, ...],
         differences: tuple[str, ...],
         suggestion: str | None = None,
+        unread: str = "",
     ) -> None:
         ways = " or ".join(f'"{difference}"' for difference in differences)
         if suggestion:
             super().__init__(f"did you mean {ways}?", text, suggestion=suggestion)
+        elif unread:
+            problem = f'"{unread}" is not understood: did you mean {ways}?'
+            super().__init__(problem, text, hint="say it without that")
         else:
             super().__init__(f"this can mean {ways}", text, hint="say which")
-        self.args = (text, readings, differences, suggestion)
+        self.args = (text, readings, differences, suggestion, unread)
         self.readings = readings
         self.differences = differences
 

@@ -79,9 +79,14 @@ def one_reading(found: Sequence[ClauseReadings], choice: Sequence[Steps]) -> Rea
         for number, step in enumerate(steps):
             match step:
                 case EnterMentionedDoor():
+                    if _has_entered(reading):
+                        return []
                     _enter(reading, index)
                 case StopBeforeMentioned():
                     _stop_before(reading, index)
+                case IntoDoorway(DoorReference(1, None)) if _is_at_door(reading):
+                    inside = replace(reading[-1].clause, approach=Approach.IN)  # type: ignore[type-var]
+                    reading[-1] = reading[-1]._replace(clause=inside)
                 case IntoDoorway(door):
                     doorway = len(reading)
                     reading.append(ReadingClause(GoToDoor(door)))
@@ -108,6 +113,10 @@ def one_reading(found: Sequence[ClauseReadings], choice: Sequence[Steps]) -> Rea
                     adverbs = (each.anew, each.in_any_case) if number == 0 else (False, False)
                     reading.append(ReadingClause(step, *adverbs))
     return reading
+
+
+def _is_at_door(reading: Reading) -> bool:
+    return bool(reading) and isinstance(reading[-1].clause, GoToDoor)
 
 
 def _stop_before(reading: Reading, index: int) -> None:
@@ -165,6 +174,15 @@ def _open_otherwise(reading: Reading, index: int) -> None:
     if not isinstance(condition, IfThere) or condition.otherwise:
         raise OutOfPlaceError("otherwise than what? begin with a condition", index)
     reading[-2] = reading[-2]._replace(clause=replace(condition, otherwise=True))
+
+
+def _has_entered(reading: Reading) -> bool:
+    """Whether one waits behind the door already: "through the door, wait, and then go in"."""
+    last = [each.clause for each in reading[-2:]]
+    match last:
+        case [GoToDoor(_, Approach.THROUGH), Stop()]:
+            return True
+    return False
 
 
 def _enter(reading: Reading, index: int) -> None:

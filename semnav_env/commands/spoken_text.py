@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from semnav_env.commands.clauses import Stop
 from semnav_env.commands.command import Command
 from semnav_env.commands.errors import AmbiguousCommandError
 from semnav_env.commands.language import Language
 from semnav_env.commands.languages import english
 from semnav_env.commands.normalise import normalise
 from semnav_env.commands.refusal import refusal
+from semnav_env.commands.repeats import told_once
 from semnav_env.commands.rooms import name_phrases
+from semnav_env.commands.speech.items import ItemKind
 from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of, spoken_pieces, without
 from semnav_env.commands.speech.recognition import lexicon_for, recognised
 from semnav_env.commands.speech.typos import corrected_words
@@ -41,20 +44,33 @@ def readings_of_text(
     understood = _understood(said, lexicon, names)
     if not understood.commands:
         understood = _without_slips(said, lexicon, names, text) or understood
+        _ask_without_unread(said, lexicon, names, text, understood)
         raise refusal(understood, said, normalised, lexicon, rooms, forced=language is not None)
-    return understood.commands
+    return _as_said(understood.commands, said, lexicon.language)
+
+
+def _as_said(
+    commands: Sequence[Command], said: Sequence[TextPiece], language: Language
+) -> tuple[Command, ...]:
+    """The command that is said in its canonical words, or what is said, each thing once."""
+    words = [piece.text for piece in said]
+    for command in commands:
+        canonical = pieces(normalise(command.say(language), language).text)
+        if [piece.text for piece in canonical] == words:
+            return (command,)
+    return tuple(dict.fromkeys(map(told_once, commands)))
 
 
 def _understood(
     said: Sequence[TextPiece], lexicon: SpeechLexicon, names: Mapping[tuple[str, ...], str]
 ) -> Understanding:
-    """What words mean; if nothing, what they mean without "just", "mal" and the like."""
-    found = understand([piece.text for piece in said], lexicon, names)
-    if not found.commands:
-        plain = without(said, lexicon, "softener")
-        again = understand([piece.text for piece in plain], lexicon, names)
-        return again if again.commands else found
-    return found
+    """What words mean without "just", "mal" and the like; if nothing, what they mean with them."""
+    plain = without(said, lexicon, "softener")
+    texts = [without(plain, lexicon, "softening verb"), plain, said]
+    tried = dict.fromkeys(tuple(piece.text for piece in text) for text in texts)
+    found = [understand(text, lexicon, names) for text in tried]
+    right = [each for each in found[:-1] if each.commands] or found[-1:]
+    return min(right, key=lambda each: each.cost)
 
 
 def _without_slips(
@@ -69,12 +85,36 @@ def _without_slips(
         AmbiguousCommandError: it would mean something.
     """
     words = [piece.text for piece in said]
+    if any(word in lexicon.of_class("beyond") - lexicon.words for word in words):
+        return None
     corrected = corrected_words(words, lexicon.words.union(*names))
     if corrected is None:
         return None
     meant = understand(corrected[0], lexicon, names).commands
-    if not meant:
+    if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
         return None
     word = next(iter(corrected[1].values()))
     ways = tuple(command.say(lexicon.language) for command in meant)
     raise AmbiguousCommandError(text[:200], meant, ways, suggestion=word)
+
+
+def _ask_without_unread(
+    said: Sequence[TextPiece],
+    lexicon: SpeechLexicon,
+    names: Mapping[tuple[str, ...], str],
+    text: str,
+    understood: Understanding,
+) -> None:
+    """Ask whether a text means what it would mean without words that are not understood.
+
+    Raises:
+        AmbiguousCommandError: it would mean something.
+    """
+    words = [piece.text for piece in said]
+    meant = understand(words, lexicon, names, leave_out=True).commands
+    if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
+        return
+    unread = next(item for item in understood.items if item.kind is ItemKind.UNKNOWN)
+    ways = tuple(command.say(lexicon.language) for command in meant)
+    unread_words = " ".join(words[unread.start : unread.stop])
+    raise AmbiguousCommandError(text[:200], meant, ways, unread=unread_words)

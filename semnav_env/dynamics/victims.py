@@ -22,6 +22,9 @@ VICTIM_SPACING = 1.5
 VICTIM_DISTANCE = 1.0
 """Largest distance of a victim's middle from where a robot can drive, metres: it comes near."""
 
+MAX_TRIES = 5
+"""How often all of them are laid down anew: draws at random may miss a small free place."""
+
 
 def with_victims(
     plan: FloorPlan, count: int, robot: RobotSpec, rng: np.random.Generator, keep: Point | None
@@ -40,13 +43,22 @@ def with_victims(
     """
     if count == 0:
         return plan
-    mover = FurnitureMover(plan, robot, keep)
+    for _ in range(MAX_TRIES):
+        if (laid := _with_all(plan, count, FurnitureMover(plan, robot, keep), rng)) is not None:
+            return laid
+    raise ValueError(f"{plan.name} has no free place for {count} people on the floor")
+
+
+def _with_all(
+    plan: FloorPlan, count: int, mover: FurnitureMover, rng: np.random.Generator
+) -> FloorPlan | None:
+    """The plan with all of the people; None if those laid first left no place for the others."""
     rooms = [region.polygon for region in (*plan.rooms, *plan.areas)]
     ways = max(free_ways(plan, mover.half_lane), key=lambda way: way.area)
     places = [room.intersection(ways.buffer(VICTIM_DISTANCE)) for room in rooms]
     for _ in range(count):
         if not any(_lay(mover, places[k], rng) for k in rng.permutation(len(places)).tolist()):
-            raise ValueError(f"{plan.name} has no free place for {count} people on the floor")
+            return None
         apart = victims_of(mover.plan)[-1].buffer(VICTIM_SPACING)
         places = [place.difference(apart) for place in places]
     return mover.plan

@@ -50,6 +50,7 @@ ABOUT = {
     "semnav_env/world": "the physics; the only folder that imports Pymunk",
     "agents": "scripted, oracle and learned agents, and floors, behind one protocol",
     "agents/evaluation": "suites of episodes, driven and judged",
+    "agents/hearing": "agents that hear the command: a learned grounding for the planner",
     "agents/learning": "training and its files",
     "agents/learning/rllib": "training on more than one machine, with RLlib on Ray",
     "agents/planning": "the planner of the scripted agent and the oracle",

@@ -18,7 +18,8 @@ class Arguments:
     A file of results is gone on with: what is in it already is not searched again.
 
     Attributes:
-        houses: how many; they are frozen by their seeds, from `FIRST_SEED` on.
+        houses: how many; they are frozen by their seeds, from `first` on.
+        first: seed of the first house; those below `FIRST_SEED` are for tuning.
         agents: searcher (knows the plan), explorer (does not), or both.
         robot: spot or wheelchair.
         out: file of results (.jsonl), a line for each search; none if not given.
@@ -26,6 +27,7 @@ class Arguments:
     """
 
     houses: int = 200
+    first: int = FIRST_SEED
     agents: tuple[str, ...] = tuple(AGENTS.values())
     robot: str = "spot"
     out: Path | None = None
@@ -37,7 +39,7 @@ class Arguments:
             raise ValueError(f"houses is {self.houses}; it must be 1 or more")
         found = self._known()
         known = {(each.agent, each.seed) for each in found}
-        seeds = range(FIRST_SEED, FIRST_SEED + self.houses)
+        seeds = range(self.first, self.first + self.houses)
         left = [(a, s) for s in seeds for a in self.agents if (a, s) not in known]
         searches = (search(agent, seed, self.robot) for agent, seed in left)
         begun = len(found)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
@@ -13,6 +15,9 @@ from semnav_env.rescue.environment import search_and_rescue
 
 FIRST_SEED = 10_000
 """Seeds from here on are for measuring; the agents were tuned on seeds below 1000."""
+
+BACK = 1.0
+"""Distance from where it came in at which a robot is back, metres."""
 
 AGENTS = {"with the plan": "searcher", "without": "explorer"}
 """The agents that are compared, by what they know."""
@@ -37,6 +42,8 @@ class Search:
         contacts: begun in the search.
         metres: driven.
         seconds: of simulated time.
+        from_start: distance of the robot from where it came in when it was over, metres.
+        cpu: processor time, seconds.
     """
 
     seed: int
@@ -53,14 +60,17 @@ class Search:
     contacts: int
     metres: float
     seconds: float
+    from_start: float
+    cpu: float
 
 
 def search(agent: str, seed: int, robot: str) -> Search:
     """Let an agent search the house of a seed."""
-    driver = make_agent(agent)
+    begun, driver = time.process_time(), make_agent(agent)
     env = search_and_rescue(robot=robot, observation=driver.observation)
     observation, start = env.reset(seed=seed)
     info = start
+    came_in = env.simulator.motion.pose
     for step in steps(env, driver, observation, start):
         info = step.info
     outcome = info["search"]
@@ -79,6 +89,8 @@ def search(agent: str, seed: int, robot: str) -> Search:
         info["collisions"],
         round(info["path_length"], 2),
         round(env.seconds, 1),
+        round(math.dist(came_in[:2], env.simulator.motion.pose[:2]), 2),
+        round(time.process_time() - begun, 1),
     )
 
 
@@ -96,17 +108,23 @@ def summary(searches: Sequence[Search]) -> dict[str, float]:
     return {
         "searches": len(searches),
         "success": _mean([each.success for each in searches]),
+        "rooms": len(rooms),
         "all rooms covered": _mean([min(each.coverage) >= 0.95 for each in searches]),
         "rooms covered": _mean([share >= 0.95 for share in rooms]),
+        "least coverage": min(rooms),
         "mean coverage": _mean(rooms),
         "mean coverage of all floor": _mean([s for each in searches for s in each.floor_coverage]),
         "all victims found": _mean([each.found == each.victims for each in searches]),
+        "victims found": sum(each.found for each in searches)
+        / max(sum(each.victims for each in searches), 1),
         "false reports a search": _mean([each.false_reports for each in searches]),
         "report error, m": _mean(errors),
         "contacts per 100 m": 100.0 * sum(each.contacts for each in searches) / max(metres, 1e-9),
         "metres": metres / len(searches),
         "seconds, median": float(np.median(seconds)),
         "seconds, most": float(seconds.max()),
+        "back at the start": _mean([each.from_start < BACK for each in searches]),
+        "CPU seconds, mean": _mean([each.cpu for each in searches]),
     }
 
 

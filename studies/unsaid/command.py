@@ -19,7 +19,7 @@ class Arguments:
 
     Attributes:
         map: a floor plan with rooms: a bundled name or a path.
-        agent: drives what is understood: scripted, oracle, quick, office (trained ones), or the
+        agent: drives what is understood: scripted, oracle, drive (a trained one), or the
             path of a trained one; with "none" it is only counted.
         robot: wheelchair or spot.
         trials: at most so many commands; 0 for all.

@@ -8,18 +8,20 @@ import pytest
 
 pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 
-from semnav_env.agents.learning.compact import COMPACT_SIZE, compact
+from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver
 from semnav_env.agents.learning.files import AGENT_FILE
-from semnav_env.agents.learning.preset_envs import preset_options
+from semnav_env.agents.learning.preset_envs import options_of_body
 from semnav_env.agents.learning.presets import PRESETS
 from semnav_env.agents.learning.rllib.options import RayOptions
 from semnav_env.agents.learning.rllib.runner_env import runner_envs
+from semnav_env.agents.learning.rllib.start import start_training
 from semnav_env.agents.learning.rllib.weights import (
     RLlibState,
     beginning,
     policy_from,
 )
 from semnav_env.agents.learning.training import LOGGED_KEYS
+from semnav_env.robots import robot_spec
 from semnav_env.scripts import main as cli
 from semnav_env.vector import SemNavVectorEnv
 
@@ -70,16 +72,27 @@ def test_bad_options_are_named(wrong):
 
 
 def test_a_runner_sees_what_the_policy_sees():
-    envs, native = runner_envs(BRIEF, 3), SemNavVectorEnv(3, **preset_options(BRIEF))
+    envs = runner_envs(BRIEF, 3)
+    native = SemNavVectorEnv(3, **options_of_body(BRIEF, robot_spec("wheelchair"), 3))
+    observer = CompactObserver([native.envs[0].robot] * 3, native.envs[0].lidar_spec)
     seeds = np.random.SeedSequence(7).generate_state(3).tolist()
     seen, expected = envs.reset(seed=7)[0], native.reset(seed=seeds)[0]
-    assert np.array_equal(seen, compact(expected))
+    observer.forget(np.ones(3, bool))
+    assert np.array_equal(seen, observer.observe(expected))
     assert envs.observation_space.contains(seen)
+    over = np.zeros(3, bool)
     for _ in range(5):
         action = envs.action_space.sample()
         (seen, *told, _), (expected, *known, _) = envs.step(action), native.step(action)
-        assert np.array_equal(seen, compact(expected))
+        observer.forget(over)
+        assert np.array_equal(seen, observer.observe(expected))
         assert all(np.array_equal(a, b) for a, b in zip(told, known, strict=True))
+        over = known[1] | known[2]
+
+
+def test_several_bodies_are_refused_before_ray_starts(tmp_path):
+    with pytest.raises(ValueError, match="several bodies"):
+        start_training(PRESETS["drive"], tmp_path, 0, RayOptions())
 
 
 def test_infos_are_those_of_ended_episodes():

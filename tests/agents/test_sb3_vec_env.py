@@ -13,11 +13,12 @@ sb3 = pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 from stable_baselines3.common.evaluation import evaluate_policy  # noqa: E402
 from stable_baselines3.common.vec_env import DummyVecEnv, VecEnv, VecMonitor  # noqa: E402
 
-from semnav_env.agents.learning.compact import COMPACT_SIZE, compact  # noqa: E402
-from semnav_env.agents.learning.preset_envs import preset_envs  # noqa: E402
+from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver  # noqa: E402
+from semnav_env.agents.learning.preset_envs import dealt, preset_envs  # noqa: E402
 from semnav_env.agents.learning.presets import PRESETS  # noqa: E402
 from semnav_env.agents.learning.sb3_vec_env import as_sb3_vec_env  # noqa: E402
 from semnav_env.env import SemNavEnv  # noqa: E402
+from semnav_env.episodes import load_episodes  # noqa: E402
 from semnav_env.vector import SemNavVectorEnv  # noqa: E402
 
 SHORT = {"floor_plan": "office_cross", "max_seconds": 1.5}
@@ -146,28 +147,69 @@ def test_the_environments_of_a_preset_draw_its_trials():
 
 @pytest.mark.parametrize("preset", PRESETS.values(), ids=PRESETS)
 def test_the_environments_of_a_preset_give_compact_observations(preset):
-    envs = preset_envs(replace(preset, envs=2, max_seconds=1.0))
+    preset = replace(preset, robots=preset.robots[:1], envs=2, max_seconds=1.0)
+    envs = preset_envs(preset)
     twins = as_sb3_vec_env(
         2,
         observation="all",
-        task=envs.get_attr("episode_source")[0].task,
-        floor_plan=envs.get_attr("floor_plan")[0],
+        each=[
+            {"task": source.task, "floor_plan": plan}
+            for source, plan in zip(
+                envs.get_attr("episode_source"), envs.get_attr("floor_plan"), strict=True
+            )
+        ],
         rewards=preset.rewards,
         max_seconds=1.0,
         repeat=preset.repeat,
     )
+    if preset.episodes:
+        for env, other in zip(twins.vector.envs, envs.get_attr("episode_source"), strict=True):
+            env.episode_source = other
+    observer = CompactObserver(twins.get_attr("robot"), twins.get_attr("lidar_spec")[0])
     envs.seed(1), twins.seed(1)
-    assert (envs.reset() == compact(twins.reset())).all()
+    assert (envs.reset() == observer.observe(twins.reset())).all()
     for action in np.full((8, 2, 2), 0.5, np.float32):
         seen, rewards, over, infos = envs.step(action)
         expected, same_rewards, same_over, same_infos = twins.step(action)
+        for k in np.flatnonzero(over):
+            last = same_infos[k]["terminal_observation"]
+            final = observer.observe({name: entry[None] for name, entry in last.items()}, [k])
+            assert (infos[k]["terminal_observation"] == final[0]).all()
+        observer.forget(over)
         assert seen.shape == (2, COMPACT_SIZE)
-        assert (seen == compact(expected)).all()
+        assert (seen == observer.observe(expected)).all()
         assert (rewards == same_rewards).all()
         assert (over == same_over).all()
-        for k in np.flatnonzero(over):
-            final = compact(same_infos[k]["terminal_observation"])
-            assert (infos[k]["terminal_observation"] == final).all()
+
+
+def test_joined_environments_are_their_parts():
+    preset = replace(PRESETS["drive"], envs=2, max_seconds=1.0)
+    joined = preset_envs(preset)
+    parts = [preset_envs(replace(preset, robots=(robot,))) for robot in preset.robots]
+    joined.seed(5), parts[0].seed(5), parts[1].seed(7)
+    assert (joined.reset() == np.concatenate([part.reset() for part in parts])).all()
+    assert joined.action_space.shape == (3,)
+    names = [robot.name for robot in joined.get_attr("robot")]
+    assert names == ["wheelchair"] * 2 + ["spot"] * 2
+    action = np.array([(0.5, 0.2, -0.1)] * 4, np.float32)
+    for _ in range(8):
+        seen, rewards, over, infos = joined.step(action)
+        first, second = parts[0].step(action[:2, [0, 2]]), parts[1].step(action[2:])
+        assert (seen == np.concatenate((first[0], second[0]))).all()
+        assert (rewards == np.concatenate((first[1], second[1]))).all()
+        assert (over == np.concatenate((first[2], second[2]))).all()
+        assert [info.keys() for info in infos] == [i.keys() for i in first[3] + second[3]]
+    joined.close()
+
+
+def test_each_environment_of_a_split_stays_in_its_floor_plans():
+    episodes = load_episodes("val_seen")
+    hands = dealt(episodes, 7)
+    assert sorted(each.id for hand in hands for each in hand) == [each.id for each in episodes]
+    plans = [{each.floor_plan for each in hand} for hand in hands]
+    assert sum(map(len, plans)) == len(set().union(*plans))
+    with pytest.raises(ValueError, match="40 floor plans are too few for 41 environments"):
+        dealt(episodes, 41)
 
 
 def test_without_stable_baselines3_the_extra_is_named():

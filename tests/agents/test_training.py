@@ -1,8 +1,10 @@
 """Training, what it keeps, and going on with it."""
 
+import errno
 import os
 import pickle
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -15,18 +17,21 @@ pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 torch = pytest.importorskip("torch", reason='needs the extra "rl"')
 
 from semnav_env.agents.learned import LearnedAgent  # noqa: E402
-from semnav_env.agents.learning.compact import compact  # noqa: E402
+from semnav_env.agents.learning.compact import CompactObserver  # noqa: E402
 from semnav_env.agents.learning.files import (  # noqa: E402
+    AGENT_FILE,
     POLICY_FILE,
     TRAINING_FILE,
     AgentDescription,
     load_tensors,
     save_tensors,
 )
+from semnav_env.agents.learning.imitation import load_demonstrations  # noqa: E402
 from semnav_env.agents.learning.presets import PRESETS, PPOSettings  # noqa: E402
 from semnav_env.agents.learning.training import Trainer  # noqa: E402
 from semnav_env.metrics import spl  # noqa: E402
 from semnav_env.scripts import main as cli  # noqa: E402
+from tests.support.paths import ROOT  # noqa: E402
 
 TINY = replace(
     PRESETS["quick"],
@@ -34,7 +39,7 @@ TINY = replace(
     max_seconds=3.0,
     envs=2,
     steps=128,
-    ppo=PPOSettings(hidden=(8,), rollout=32, batch_size=32, epochs=2),
+    ppo=PPOSettings(hidden=(8,), rollout=32, batch_size=32, epochs=2, stretch=1),
 )
 ROLLOUT = TINY.envs * TINY.ppo.rollout
 
@@ -44,9 +49,17 @@ def tiny(monkeypatch):
     monkeypatch.setitem(PRESETS, "tiny", TINY)
 
 
-def train(folder, rollouts=1, seed=0):
-    trainer = Trainer(TINY, folder, seed)
+LONG = replace(TINY, name="long", ppo=replace(TINY.ppo, stretch=3))
+"""A preset whose checkpoints are three updates apart."""
+
+
+def train(folder, rollouts=1, seed=0, preset=TINY):
+    return go_on(Trainer(preset, folder, seed), rollouts)
+
+
+def go_on(trainer, rollouts):
     for _ in range(rollouts):
+        trainer.save()
         trainer.advance()
     trainer.save()
     trainer.close()
@@ -94,6 +107,8 @@ def test_the_same_seed_learns_the_same(tmp_path):
 def test_a_loaded_agent_acts_as_the_trained_model_does(tmp_path):
     trainer = train(tmp_path)
     agent = LearnedAgent.load(tmp_path)
+    [env, *_] = trainer.model.get_env().get_attr("unwrapped")
+    info = {"robot": vars(env.robot), "lidar": vars(env.lidar_spec)}
     rng = np.random.default_rng(0)
     for _ in range(50):
         seen = {
@@ -101,8 +116,11 @@ def test_a_loaded_agent_acts_as_the_trained_model_does(tmp_path):
             "odometry": rng.normal(size=7).astype(np.float32),
             "goal": rng.normal(size=13).astype(np.float32),
         }
-        agent.reset({"robot": vars(trainer.model.get_env().get_attr("robot")[0])})
-        expected, _ = trainer.model.predict(compact(seen), deterministic=True)
+        seen["goal"][3] = 0.0  # where it is to stop it asks no model
+        agent.reset(info)
+        row = {name: entry[None] for name, entry in seen.items()}
+        compact = CompactObserver([env.robot], env.lidar_spec).observe(row)[0]
+        expected, _ = trainer.model.predict(compact, deterministic=True)
         assert np.allclose(agent.act(seen), expected, atol=1e-5)
 
 
@@ -118,6 +136,104 @@ def test_resuming_restores_weights_optimizer_and_count(tmp_path):
     assert all(torch.equal(old[i][name], new[i][name]) for i in old for name in old[i])
     assert resumed.advance().steps == 3 * ROLLOUT
     resumed.close()
+
+
+@pytest.mark.parametrize("done", [3, 4, 5, 6])
+def test_a_resumed_training_learns_bit_for_bit_what_an_uninterrupted_one_learns(tmp_path, done):
+    """Checkpoints are three updates apart; what came after the last one is done again."""
+    straight = train(tmp_path / "straight", 7, preset=LONG)
+    train(tmp_path / "broken", done, preset=LONG)
+    resumed = Trainer.resume(LONG, tmp_path / "broken")
+    assert resumed.steps == done // 3 * 3 * ROLLOUT
+    go_on(resumed, 7 - done // 3 * 3)
+    assert same(weights(straight), weights(resumed))
+    for name in (TRAINING_FILE, POLICY_FILE):
+        found = load_tensors(tmp_path / "straight" / name)
+        assert same(found, load_tensors(tmp_path / "broken" / name))
+
+
+def test_a_truncated_checkpoint_leaves_the_one_before(tmp_path):
+    trainer = train(tmp_path, 2)
+    whole = (tmp_path / TRAINING_FILE).read_bytes()
+    for size in (0, 7, 100, len(whole) - 1):
+        (tmp_path / TRAINING_FILE).write_bytes(whole[:size])
+        resumed = Trainer.resume(TINY, tmp_path)
+        assert resumed.steps == ROLLOUT
+    resumed.advance()
+    assert same(weights(trainer), weights(resumed))
+
+
+def test_a_full_disk_leaves_the_last_checkpoint(tmp_path, monkeypatch):
+    train(tmp_path, 1)
+    trainer = Trainer.resume(TINY, tmp_path)
+    trainer.advance()
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(OSError, match=f"No space left on device.*{TRAINING_FILE}"):
+        trainer.save()
+    monkeypatch.undo()
+    assert Trainer.resume(TINY, tmp_path).steps == ROLLOUT
+    trainer.save()
+    assert Trainer.resume(TINY, tmp_path).steps == 2 * ROLLOUT
+
+
+TRAIN_LONG = """
+import sys
+from dataclasses import replace
+from semnav_env.agents.learning.presets import PRESETS
+from tests.agents.test_training import LONG
+PRESETS["long"] = LONG
+from semnav_env.scripts.main import main
+sys.exit(main(["train", "long", "--out", sys.argv[1], "--steps", sys.argv[2], *sys.argv[3:]]))
+"""
+
+
+@pytest.mark.parametrize("kills", [2, pytest.param(20, marks=pytest.mark.slow)])
+def test_a_training_that_is_killed_at_random_moments_learns_the_same(tmp_path, kills):
+    """At most a stretch is lost with each kill, so training gets on whatever happens."""
+    rng, stretch = np.random.default_rng(kills), 3 * ROLLOUT
+    total, reached, folder = 4 * kills * stretch, 0, tmp_path / "killed"
+    for _ in range(kills):
+        resume = ["--resume"] if (folder / AGENT_FILE).exists() else []
+        words = [sys.executable, "-c", TRAIN_LONG, folder, str(total), *resume]
+        running = subprocess.Popen(list(map(str, words)), cwd=ROOT, stderr=subprocess.DEVNULL)
+        while not resume and not (folder / AGENT_FILE).exists():
+            time.sleep(0.01)
+        time.sleep(rng.uniform(0.0, 8.0))
+        running.kill()
+        running.wait()
+        now = Trainer.resume(LONG, folder).steps
+        assert now >= reached
+        assert now % stretch == 0
+        reached = now
+    resumed = Trainer.resume(LONG, folder)
+    end = max(reached, stretch) + stretch
+    go_on(resumed, (end - reached) // ROLLOUT)
+    straight = train(tmp_path / "straight", end // ROLLOUT, preset=LONG)
+    assert same(weights(straight), weights(resumed))
+
+
+def test_what_a_preset_demonstrates_is_imitated_first(tmp_path):
+    preset = replace(PRESETS["drive"], name="shown", envs=2, demonstrations=3, ppo=TINY.ppo)
+    trainer = Trainer(preset, tmp_path / "a", seed=0)
+    before = weights(trainer)
+    assert list(trainer.prepare()) == [1.0]
+    shown = load_demonstrations(tmp_path / "a" / "demonstrations")
+    assert len(shown["observations"]) == len(shown["actions"]) == len(shown["returns"]) > 50
+    again = Trainer(preset, tmp_path / "a", seed=0)  # from the file that is there
+    assert same(before, weights(again))
+    errors = [
+        np.abs(each.model.predict(shown["observations"], deterministic=True)[0] - shown["actions"])
+        for each in (trainer, again)
+    ]
+    assert errors[0].mean() < 0.9 * errors[1].mean()
+    assert list(again.prepare()) == [1.0]
+    assert same(weights(trainer), weights(again))
+    trainer.save()
+    assert not (tmp_path / "a" / TRAINING_FILE).exists()
 
 
 def test_resuming_at_once_starts_from_the_same_weights(tmp_path):
@@ -165,12 +281,12 @@ def test_a_damaged_training_is_not_resumed(tmp_path):
 
 
 def test_an_interruption_leaves_a_folder_that_works(tmp_path, monkeypatch):
-    """Whichever of the three files was the last one written, both uses of the folder go on."""
+    """Whichever file was the last one moved, both uses of the folder go on."""
     train(tmp_path)
     trainer = Trainer.resume(TINY, tmp_path)
     trainer.advance()
     real = os.replace
-    for last in range(3):
+    for last in range(4):
         moves = []
 
         def stop(source, target, moves=moves, last=last):
@@ -184,7 +300,7 @@ def test_an_interruption_leaves_a_folder_that_works(tmp_path, monkeypatch):
             trainer.save()
         monkeypatch.setattr("os.replace", real)
         LearnedAgent.load(tmp_path)
-        assert Trainer.resume(TINY, tmp_path).steps == ROLLOUT * (1 if last == 0 else 2)
+        assert Trainer.resume(TINY, tmp_path).steps == ROLLOUT * (1 if last < 2 else 2)
 
 
 def run(capsys, *words):

@@ -23,10 +23,14 @@ from semnav_env.scripts.main import main
 FROZEN = {
     "english": "c6715a0370b6e6dec67ecacbe6edee88a9997e0dc590327c044b2aa12eaa3c81",
     "german": "12132d91284b2455446fdde016a53c2e97c7e6b7baeba1ceab6e9e11400cd26d",
-    "held_out_english": "0782ba75a720d58a4f01ac989d689380cde9373281f64f0e4ac611edee776507",
-    "held_out_german": "1654cfef85a8fc453b9a31402a5af4f0438aed32bf1808664d79a2146f62d4f1",
+    "second_english": "0782ba75a720d58a4f01ac989d689380cde9373281f64f0e4ac611edee776507",
+    "second_german": "1654cfef85a8fc453b9a31402a5af4f0438aed32bf1808664d79a2146f62d4f1",
+    "third_english": "1b00c91f6d6462157902e5950e404103e278150a729d71a3316cf6e57b8d93e1",
+    "third_german": "8318723764e1701ae464d5c9d220dab74d005358f2367a51bb7ff2c0b65e214e",
 }
-SIZES = {"english": 330, "german": 330, "held_out_english": 170, "held_out_german": 170}
+SIZES = {"english": 330, "german": 330} | dict.fromkeys(
+    ("second_english", "second_german", "third_english", "third_german"), 170
+)
 
 EQUAL = """
 past intersection, door = through door(1,after intersection) = hallway past intersection; through door(1)
@@ -38,6 +42,11 @@ cross = cross = hallway until end
 the wall ahead = hallway until wall = hallway until end
 closed is none = if closed door(1,left): stop end = if no door(1,left): stop end
 stop at the end = through door(1); stop = through door(1)
+passed places add up = hallway past intersection; hallway past intersection = hallway past intersection#2
+a door that is reached = hallway until door(2); stop = to door(2)
+a stop before a wait = stop; wait 5 = wait 5
+a turn that depends on a place = if corner: turn left end = if corner: turn left at corner end
+a room is open at its door = if open room(lab): room(lab) end = to room(lab); if door(1): through door(1) end
 the first open one = if closed door(1): through door(2) else: through door(1) end = through door(1)
 """  # noqa: E501
 
@@ -93,7 +102,7 @@ def test_most_of_the_development_sets_is_understood_or_asked(path: Path) -> None
     feasible = [v.outcome for v in found if v.sentence.kind == "feasible"]
     right = [outcome in (ParseOutcome.UNDERSTOOD, ParseOutcome.ASKED) for outcome in feasible]
     assert sum(right) >= 0.85 * len(feasible)
-    assert feasible.count(ParseOutcome.MISREAD) <= 0.02 * len(feasible)
+    assert feasible.count(ParseOutcome.MISREAD) <= 0.01 * len(feasible)
     refused = [v.outcome is ParseOutcome.REFUSED for v in found if v.sentence.kind == "infeasible"]
     assert sum(refused) >= 0.97 * len(refused)
 

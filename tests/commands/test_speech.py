@@ -36,6 +36,27 @@ go geradeaus and then turn rechts = go down the hallway and turn right
 with your back to the door go straight = face the first door, turn around and go down the hallway
 stop in the doorway = stop in the first door
 Fahren Sie bitte an zwei Türen vorbei und halten Sie vor der nächsten links = go down the hallway past the second door, go to the first door on the left and stop
+walk past the first door, turn right into the second = go down the hallway past the first door and go through the second door on the right / go down the hallway past the first door and go through the first door on the right
+enter the second room on the left, come out and enter the third room on the left = go through the second door on the left, leave the room and go through the third door on the left / go through the second door on the left, leave the room and go through the first door on the left
+skip the next door and go in the one after = go through the second door
+count four doors on the right and go in the fourth = go through the fourth door on the right
+go left, I mean right, at the intersection = turn right at the first intersection / turn right and go down the hallway until the first intersection
+you'll see two doors on the left, you want the second = go to the second door on the left / go through the second door on the left
+go to the second door on the right and stop in front of it = go to the second door on the right and stop
+get out of here, out of this room I mean = leave the room
+keep going until you pass two doors = go down the hallway past the second door
+when you come out of the room turn left = leave the room and turn left
+turn right where the hallway ends = turn right at the end of the hallway
+fahr nicht in die erste Tür rechts, sondern in die zweite = go through the second door on the right
+wenn du aus dem Zimmer kommst, bieg rechts ab = leave the room and turn right
+in die Tür rechts nicht, in die linke = go through the first door on the left
+an der Gabelung rechts halten = turn right at the first intersection
+durch die zweite Tür nach der Kreuzung, rechte Seite = go down the hallway past the first intersection and go through the second door on the right
+bis der Gang einen Knick macht und dann links = go down the hallway until the first corner and turn left
+bieg rechts ab und sieh nach, ob die Tür links offen ist, und wenn ja, fahr rein, sonst halt an = turn right, if you see the first door on the left, go through the first door on the left, otherwise stop
+dreh dich eine Vierteldrehung nach rechts = turn right by 90 degrees
+take the door you came in by = leave the room
+turn at the corner = turn left at the first corner / turn right at the first corner
 """  # noqa: E501
 CASES = [tuple(line.split(" = ")) for line in MEANT.strip().splitlines()]
 
@@ -101,3 +122,48 @@ def test_no_content_word_is_dropped() -> None:
 def test_a_text_with_too_many_clauses_says_so() -> None:
     with pytest.raises(CommandError, match=f"at most {MAX_WORDS}"):
         parse("turn left " * MAX_WORDS)
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        (
+            "zorgle to the corner and turn left",
+            "go down the hallway until the first corner and turn left",
+        ),
+        ("I'm so tired, turn left", "turn left"),
+        ("Lucy, turn left at the corner", "turn left at the first corner"),
+    ],
+)
+def test_words_that_say_nothing_of_the_way_are_asked_about(text: str, meant: str) -> None:
+    with pytest.raises(AmbiguousCommandError, match="is not understood: did you mean") as caught:
+        parse(text)
+    assert [str(command) for command in caught.value.readings] == [meant]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "go to the elevator and turn left",
+        "open the door on the left and go in",
+        "turn left and take the blue door",
+        "fahr mit dem Aufzug nach oben",
+        "bring mir ein Glas Wasser",
+    ],
+)
+def test_words_for_what_the_robot_cannot_do_are_never_left_out(text: str) -> None:
+    with pytest.raises(CommandError) as caught:
+        parse(text)
+    assert not isinstance(caught.value, AmbiguousCommandError)
+
+
+def test_what_is_said_in_canonical_words_is_taken_literally() -> None:
+    text = "leave the room and leave the room"
+    assert str(parse(text)) == text
+    assert str(parse("get out of here, out of the room")) == "leave the room"
+
+
+def test_separable_verbs_and_compounds_are_taken_apart() -> None:
+    text = "an der Gangkreuzung rechts, dann an zwei Türen vorbeischlendern"
+    meant = "turn right at the first intersection and go down the hallway past the second door"
+    assert str(parse(text)) == meant

@@ -6,7 +6,7 @@ import re
 
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import MODES
-from studies.figures import approach, architecture, observation_table
+from studies.figures import approach, architecture, leaderboard, observation_table
 
 
 def test_the_page_of_entries_is_what_the_layout_declares() -> None:
@@ -24,6 +24,13 @@ def test_the_page_of_approaches_has_the_tables_as_computed() -> None:
     """If this fails: `python -m studies.figures approach`."""
     shown = approach.PAGE.read_text(encoding="utf-8")
     assert shown == approach.page(shown)
+
+
+def test_the_leaderboard_is_that_of_the_kept_results() -> None:
+    """If this fails: `python -m studies.figures leaderboard`."""
+    shown = leaderboard.PAGE.read_text(encoding="utf-8")
+    assert "| `val_unseen` | wheelchair | `drive` |" in shown
+    assert shown == leaderboard.page(shown)
 
 
 def test_the_files_of_the_three_walks_exist() -> None:

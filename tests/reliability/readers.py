@@ -121,7 +121,7 @@ def _tensors(folder: Path) -> Path:
 def _agent(folder: Path) -> Path:
     import semnav_env.agents
 
-    bundled = Path(semnav_env.agents.__file__).parent / "pretrained" / "quick"
+    bundled = Path(semnav_env.agents.__file__).parent / "pretrained" / "drive"
     for file in bundled.iterdir():
         (folder / file.name).write_bytes(file.read_bytes())
     return folder / "agent.json"

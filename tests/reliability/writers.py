@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import h5py
 from safetensors.numpy import load
 
+from semnav_env.agents.evaluation.attempts import Attempt, write_attempts
 from semnav_env.agents.learning.files import AGENT_FILE, POLICY_FILE, TRAINING_FILE
 from semnav_env.episodes import SPLITS
 from semnav_env.lidar import Lidar
@@ -124,6 +125,11 @@ WRITERS = (
         named=("rows.jsonl", ".png"),
     ),
     Writer(
+        "leaderboard",
+        "leaderboard {inputs}/results.jsonl.gz --keep {out}",
+        ("random.val_seen.wheelchair.jsonl.gz",),
+    ),
+    Writer(
         "demonstrate",
         f"demonstrate {SPLIT} --episodes 2 --agent random --failures --max-seconds 8"
         " --out {out}/data",
@@ -153,7 +159,7 @@ def shorten() -> None:
 
 
 def make_inputs(folder: Path) -> None:
-    """Write what the commands read: a map, a floor plan and a log of a short drive."""
+    """Write what the commands read: a map, a floor plan, a log of a short drive, and results."""
     write_map(folder, two_rooms())
     plan = load_floor_plan(HALL)
     save_floor_plan(load_floor_plan("office_cross"), folder / "floor.geojson")
@@ -164,3 +170,5 @@ def make_inputs(folder: Path) -> None:
         place = " ".join(f"{value:.3f}" for value in pose)
         lines.append(f"FLASER {len(ranges.split())} {ranges} {place} {place} {k} robot {k}\n")
     (folder / "drive.log").write_text("".join(lines))
+    attempt = Attempt("random", -1, SPLIT, "wheelchair", "one", 1, True, True, 1.0)
+    write_attempts([attempt], folder / "results.jsonl.gz")

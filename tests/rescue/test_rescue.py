@@ -122,6 +122,14 @@ def test_a_false_alarm_is_forgotten_when_looked_at() -> None:
     assert known.tracks == []
 
 
+def test_large_furniture_that_is_no_person_is_forgotten() -> None:
+    known, outline = people(), np.full(TIM561.beams, 1.7)  # 0.8 m before its middle
+    known.update(np.array([[2.2, 0.0]]), ORIGIN, OPEN)
+    for _ in range(30):
+        known.update(np.empty((0, 2)), ORIGIN, outline)
+    assert known.tracks == []
+
+
 def test_who_is_hidden_is_not_forgotten() -> None:
     known, near_wall = people(), np.full(TIM561.beams, 0.5)
     known.update(np.array([[2.5, 0.0]]), ORIGIN, OPEN)

@@ -30,10 +30,16 @@ def start_training(
 
     Raises:
         ImportError: Ray is not installed.
-        ValueError: the folder holds no training on Ray, a damaged one or one of another preset; or
-            there are fewer cores than the runners reserve.
+        ValueError: the preset has several bodies or demonstrations; the folder holds no training
+            on Ray, a damaged one or one of another preset; or there are fewer cores than the
+            runners reserve.
         RuntimeError, ConnectionError: as `connect`.
     """
+    if len(preset.robots) > 1 or preset.demonstrations:
+        raise ValueError(
+            f"--engine ray trains one body from nothing; {preset.name!r} has several bodies or "
+            "begins with demonstrations: train it with --engine local"
+        )
     saved = _saved(preset, folder) if resume else None
     try:
         from semnav_env.agents.learning.rllib.cluster import connect, warm_nodes

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -93,6 +94,13 @@ class RayTrainer:
             raise ValueError(f"{folder / RLLIB_FILE}: {error}") from None
         return trainer
 
+    is_resumable = True
+    """Whether a checkpoint can be made."""
+
+    def prepare(self) -> Iterator[float]:
+        """Nothing comes before the first rollout."""
+        return iter(())
+
     def advance(self) -> TrainingReport:
         """Let all runners drive one rollout, and learn from it."""
         start, before = time.perf_counter(), self.steps
@@ -114,7 +122,7 @@ class RayTrainer:
         save_tensors(self.folder / POLICY_FILE, policy.tensors())
         widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
         AgentDescription(
-            robot=self.preset.robot,
+            robots=self.preset.robots,
             repeat=self.preset.repeat,
             widths=widths,
             preset=plain(self.preset),

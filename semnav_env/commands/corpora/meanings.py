@@ -12,7 +12,11 @@ The equivalences, each true by the rules of docs/commands.md:
 8. A corner and the end are where the hallway ends, so "before" them limits nothing; a door
    "at end" is the one ahead, or the last one of its side.
 9. "back to P" is to turn around and to go on until the next P.
-10. "leave D" is "through D"; a "stop" at the end adds nothing.
+10. "leave D" is "through D"; a "stop" at the end adds nothing, nor does one before a "wait".
+11. A turn that depends on a place is made there.
+12. Places of a kind that are passed one after the other add up.
+13. "until D" is "to D" at the end and before a stop: the door is reached.
+14. Whether a room is open is seen in front of it, and its door is then the first one.
 """
 
 from __future__ import annotations
@@ -44,6 +48,8 @@ from semnav_env.commands.references import (
     Unit,
 )
 from semnav_env.commands.rooms import plain_name
+
+_FIRST = ("door", 1, None, None, None)
 
 ENDS = ("corner", "end", "t-junction")
 """Places at which a hallway ends, so that no door lies behind them."""
@@ -120,6 +126,9 @@ def normal(steps: Steps) -> Steps:
         _append(found, step)
     while len(found) > 1 and found[-1] == ("stop",):
         found.pop()
+    match found[-1:]:
+        case [("hallway", "until", ("door", *_) as door)]:
+            found[-1] = ("to", tuple(door))
     if found and found[-1] == ("hallway",):
         found[-1] = ("hallway", "until", ("end", 1))
     return tuple(found)
@@ -155,7 +164,12 @@ def _unfolded(step: Step) -> list[Step]:
         case ("turn", way, ("door", *_) as door):
             return [*_with_door(("hallway", "until"), tuple(door)), ("turn", way, None)]
         case ("if", word, what, then, otherwise):
+            if what[0] == "room":
+                inside = tuple(("through", _FIRST) if each == what else each for each in then)
+                there = ("if", word, _FIRST, inside, otherwise)
+                return [("to", what), *_unfolded(there)]
             absent = {"closed": "no", "open": "there"}.get(word, word)
+            then = _turned_at(what, then) if absent == "there" else then
             if absent == "no" and otherwise:
                 absent, then, otherwise = "there", otherwise, then
             first = _plain(what)[1]
@@ -165,6 +179,14 @@ def _unfolded(step: Step) -> list[Step]:
                     return [("through", first)]  # the first open one
             return [("if", absent, _plain(what)[1], normal(then), normal(otherwise))]
     return [step]
+
+
+def _turned_at(place: Step, then: Steps) -> Steps:
+    """The steps of a condition with a turn at the place that it asks for."""
+    match then:
+        case (("turn", "left" | "right" as way, None),) if place[0] not in ("door", "room"):
+            return (("turn", way, place),)
+    return then
 
 
 def _with_door(verb: tuple[str, ...], door: Step) -> list[Step]:
@@ -201,6 +223,8 @@ def _append(found: list[Step], step: Step) -> None:
             found[-1:] = [("turn", way, ("turning", 1))]
         case ("to" | "in", _), ("stop",):
             pass
+        case ("stop",), ("wait", _):
+            found[-1:] = [step]
         case ("wait", float(first)), ("wait", seconds):
             found[-1:] = [("wait", first + seconds)]
         case ("turn", "around", None), ("turn", "around", None):
@@ -217,6 +241,10 @@ def _append(found: list[Step], step: Step) -> None:
             same in (kind, "turning") and kind != "room"
         ):
             found[-1:] = [("turn", way, place)]
+        case ("hallway", "past", (kind, int(n))), ("hallway", "past", (other, int(m))) if (
+            kind == other and n > 0 and m > 0
+        ):
+            found[-1:] = [("hallway", "past", (kind, n + m))]
         case ("hallway", "past", ("door", int(n), side, None, None)), (
             *verb,
             ("door", int(m), other, relation, places),

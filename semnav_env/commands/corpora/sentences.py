@@ -35,14 +35,18 @@ class Sentence:
 
 
 def development_corpora() -> tuple[Path, ...]:
-    """The files of the development corpora, English and German, which come with the package."""
-    folder = Path(str(files("semnav_env.commands.corpora")))
-    return folder / "english.jsonl", folder / "german.jsonl"
+    """The files of two authors on which the parser was tuned, which come with the package."""
+    names = ("english", "german", "second_english", "second_german")
+    return tuple(_folder() / f"{name}.jsonl" for name in names)
 
 
 def held_out_corpora() -> tuple[Path, ...]:
-    """The files of another author, on which nothing was developed, English and German."""
-    return tuple(path.with_name(f"held_out_{path.name}") for path in development_corpora())
+    """The files of a third author, on which nothing was tuned."""
+    return tuple(sorted(_folder().glob("third_*.jsonl")))
+
+
+def _folder() -> Path:
+    return Path(str(files("semnav_env.commands.corpora")))
 
 
 def load_sentences(path: Path) -> list[Sentence]:

@@ -11,17 +11,19 @@ from semnav_env.commands.clause_readings import (
     OtherwiseMarker,
     Readings,
     Step,
+    StopBeforeMentioned,
     on_condition,
 )
-from semnav_env.commands.clauses import Clause, GoToDoor, IfThere
-from semnav_env.commands.references import DoorReference, PlaceReference
+from semnav_env.commands.clauses import Approach, Clause, GoToDoor, GoToRoom, IfThere
+from semnav_env.commands.references import DoorReference, PlaceReference, RoomReference
 from semnav_env.commands.speech.frame import ClauseFrame
 from semnav_env.commands.speech.frames import readings_of
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
-from semnav_env.commands.speech.moves import landmark
+from semnav_env.commands.speech.moves import is_door, landmark
 
-VERBLESS_COST, COMMA_COST = 0.25, 0.15
-"""Costs of a clause's having no verb, and of a comma inside it."""
+VERBLESS_COST, COMMA_COST, SIDELESS_COST, LATE_PLACE_COST = 0.25, 0.15, 0.6, 0.5
+"""Costs of a clause's having no verb, of a comma inside it, of a turn without a side, and of a
+place behind a comma ("turn left, at the corner")."""
 
 PREFIXES = (ItemKind.OTHERWISE, ItemKind.IN_ANY_CASE, ItemKind.FROM_THERE, ItemKind.NO)
 """Items that say how a clause belongs to those before it."""
@@ -39,11 +41,12 @@ def read_clause(items: list[Item]) -> tuple[Readings, float] | None:
     for index, item in enumerate(items):
         if item.kind is ItemKind.SIGN and item.value in (",", ":"):
             if (
-                not (_is_context(kept) or _is_afterthought(items[index + 1 :]))
+                not (_is_context(kept) or _is_afterthought(kept, items[index + 1 :]))
                 or index == len(items) - 1
             ):
                 return None
-            cost += COMMA_COST
+            late = len(items) == index + 2 and "at" in items[index + 1].roles
+            cost += LATE_PLACE_COST if late and not _is_context(kept) else COMMA_COST
         elif (
             item.kind is ItemKind.THEN
             and kept
@@ -76,6 +79,10 @@ def read_clause(items: list[Item]) -> tuple[Readings, float] | None:
         return None
     if not any(item.kind is ItemKind.VERB for item in kept):
         cost += VERBLESS_COST
+    turns_nowhere = verbs == ["turn"] and all(
+        item.kind in (ItemKind.VERB, ItemKind.PARTICLE) for item in kept
+    )
+    cost += SIDELESS_COST if turns_nowhere else 0.0
     return readings_of(ClauseFrame(tuple(kept))), cost
 
 
@@ -86,6 +93,8 @@ def _is_context(items: Sequence[Item]) -> bool:
     """Whether what stands before a comma only says where the clause behind it is done."""
     if len(items) == 1 and items[0].value == "be":
         return True
+    if len(items) == 2 and items[0].value == "be":
+        items = items[1:]
     return (
         len(items) == 1
         and items[0].kind is ItemKind.REF
@@ -95,9 +104,23 @@ def _is_context(items: Sequence[Item]) -> bool:
     )
 
 
-def _is_afterthought(items: Sequence[Item]) -> bool:
-    """Whether what stands behind a comma only says where the door before it is."""
-    return len(items) == 1 and items[0].kind is ItemKind.REF and "after" in items[0].roles
+def _is_afterthought(before: Sequence[Item], items: Sequence[Item]) -> bool:
+    """Whether what stands behind a comma only says where the door or the turn before it is."""
+    if len(items) != 1:
+        return False
+    if items[0].kind is ItemKind.REF and "after" not in items[0].roles:
+        turns = len(before) and before[-1].kind is ItemKind.SIDE and not before[-1].roles
+        placed = any(item.kind is ItemKind.REF for item in before)
+        at_place = "at" in items[0].roles and not is_door(items[0].value)
+        return bool(turns) and at_place and not placed  # "turn right, at the corner"
+    if items[0].kind is ItemKind.REF:
+        return True
+    if items[0].kind is not ItemKind.SIDE or any(item.kind is ItemKind.SIDE for item in before):
+        return False
+    doors = [item for item in before if item.kind is ItemKind.REF and is_door(item.value)]
+    turns = any(item.kind is ItemKind.VERB and item.value == "turn" for item in before)
+    sideless = len(doors) == 1 and doors[0].value.side is None and bool(items[0].roles)
+    return sideless or (turns and not doors)
 
 
 def _is_verb_cluster(items: Sequence[Item]) -> bool:
@@ -134,6 +157,11 @@ def on_premise(premise: object, readings: Readings) -> Readings:
             if len(steps) == 1 and isinstance(steps[0], Clause):
                 return ((NextIfClosed(steps[0]),),)
     what = _door_of(readings) if noun is None else landmark(noun)
+    if isinstance(what, RoomReference) and premise.state:  # type: ignore[attr-defined]
+        there = GoToRoom(what.name, Approach.TO)
+        door = IfThere(DoorReference(), absent=premise.absent)  # type: ignore[attr-defined]
+        inside = tuple(tuple(_filled(step, DoorReference()) for step in s) for s in readings)
+        return tuple((there, *steps) for steps in on_condition(door, inside))
     if not isinstance(what, DoorReference | PlaceReference):
         raise ValueError("a condition is on doors and places ahead, not on rooms")
     if premise.state == "closed" and isinstance(what, DoorReference):  # type: ignore[attr-defined]
@@ -176,6 +204,10 @@ def _next_door(closed: DoorReference, readings: Readings) -> Readings | None:
 
 def otherwise_of(readings: Readings) -> Readings:
     """The readings of a clause for the other case of a condition."""
+    readings = tuple(
+        tuple(step for step in steps if not isinstance(step, StopBeforeMentioned))
+        for steps in readings
+    )
     if any(len(steps) != 1 for steps in readings):
         raise ValueError('one thing is done otherwise; begin the next with "in any case"')
     return tuple((OtherwiseMarker(), *steps) for steps in readings)

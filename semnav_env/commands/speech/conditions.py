@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from semnav_env.commands.references import Side
 from semnav_env.commands.speech.items import Item, ItemKind, Noun
@@ -39,6 +39,7 @@ def read_condition(
         return None
     here, noun, side = begin[1], None, None
     absent, state, exists, pronoun = unless is not None, "", False, False
+    at_end = False
     stop = here
     while here < len(words):
         found = _longest(words, here, lexicon)
@@ -62,6 +63,8 @@ def read_condition(
             exists = True
         elif kind == "pronoun":
             pronoun = True
+        elif kind == "at end":
+            at_end = True
         elif kind == "side" and noun is None:
             side = Side(value)
         elif kind != "filler" and kind != "here":
@@ -73,17 +76,31 @@ def read_condition(
             break
     if noun is None and not (pronoun and state):
         return None
+    if noun is not None and noun.kind == "named" and not (state or absent):
+        return None  # "when you see the kitchen" is a place
     if inverted and not state:
         return None
     if not (exists or state or absent):
         return None
     if noun is not None and side is not None and noun.side is None:
         noun = Noun(noun.kind, noun.ordinal, side, noun.name)
+    if noun is not None and at_end:
+        noun = replace(noun, at_end=True)
     closed = state == "closed"
     return Item(ItemKind.IF, at, stop, Premise(noun, absent is not closed, state))
 
 
-CLASSES = ("absent", "is open", "is closed", "exists", "here", "pronoun", "side", "filler")
+CLASSES = (
+    "at end",
+    "absent",
+    "is open",
+    "is closed",
+    "exists",
+    "here",
+    "pronoun",
+    "side",
+    "filler",
+)
 
 
 def _longest(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> tuple[str, int, str] | None:

@@ -47,7 +47,7 @@ def with_places_of_doors(frame: ClauseFrame) -> ClauseFrame:
     if ends:
         noun = replace(noun, at_end=True)
     for item in frame.of(ItemKind.PARTICLE):
-        if item.value in ("ahead", "behind") and noun.side is None:
+        if item.value in ("ahead", "behind") and noun.side is None and not frame.sides:
             noun = replace(noun, side=Side(item.value))
     sides = frame.of(ItemKind.SIDE) if "be" in frame.verbs and noun.side is None else ()
     if len(sides) == 1:

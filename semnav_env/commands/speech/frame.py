@@ -153,12 +153,16 @@ def contexts_of(frame: ClauseFrame) -> tuple[Steps, list[Item]]:
                 if r is not item
             ]
             return tuple(steps), rest
-        if "between" in roles or (
+        if frame.verbs == {"be"} and door and "after" in roles and len(frame.refs) == 1:
+            rest.append(replace(item, roles=("through",)))  # "I am behind the last door"
+        elif "between" in roles or (
             "after" in roles and (not door or len(frame.refs) > 1 or "past" not in roles)
         ):
             steps += _passed(item.value)
         else:
             rest.append(item)
+    if steps and not frame.verbs - {"be"}:  # "it's two doors past the kitchen"
+        rest = [replace(item, value=replace(item.value, counted=False)) for item in rest]
     return tuple(steps), rest
 
 

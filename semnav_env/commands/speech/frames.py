@@ -107,7 +107,7 @@ def _face(frame: ClauseFrame) -> Readings | None:
     if len(frame.refs) != 1:
         raise NoMeaningError("face")
     noun = frame.refs[0].value
-    if noun.kind in ("it", "hall", "start"):
+    if noun.kind in ("it", "hall", "start") or (noun.kind == "wall" and frame.sides):
         raise NoMeaningError("face")
     what = landmark(noun)
     if isinstance(what, DoorReference) and frame.sides:
@@ -122,7 +122,8 @@ def _turned_away(frame: ClauseFrame) -> Readings:
         noun = replace(noun, side=None)
         straight = Item(ItemKind.STRAIGHT, frame.refs[0].start, frame.refs[0].stop)
         frame = ClauseFrame((*frame.items, straight))
-    first: Steps = (Face(landmark(noun)), Turn(Turning.AROUND))
+    known = noun.kind == "entry"  # with it behind it the robot came in
+    first: Steps = () if known else (Face(landmark(noun)), Turn(Turning.AROUND))
     rest = tuple(item for item in frame.items if item is not frame.refs[0] and item.value != "away")
     plain = ClauseFrame(
         tuple(

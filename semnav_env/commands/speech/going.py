@@ -38,6 +38,7 @@ from semnav_env.commands.speech.moves import (
     is_door,
     landmark,
 )
+from semnav_env.commands.speech.turning import read_sideless_turn
 
 
 def read_go(frame: ClauseFrame) -> Readings | None:
@@ -46,8 +47,12 @@ def read_go(frame: ClauseFrame) -> Readings | None:
         frame.has(ItemKind.AROUND) and not goes_around(frame)
     ):
         raise NoMeaningError("back")
+    if "turn" in frame.verbs and not frame.particles - {"ab"}:
+        return read_sideless_turn(frame)
     if frame.verbs & {"turn", "make"}:
         raise NoMeaningError("turn where")
+    if _says_nothing(frame):
+        return ((),)
     contexts, rest = contexts_of(frame)
     steps: list[Step] = list(contexts)
     choices: Readings = ((),)
@@ -78,6 +83,19 @@ def read_go(frame: ClauseFrame) -> Readings | None:
     for choice in choices:
         check_destinations([*steps, *choice])
     return tuple(_joined((*steps, *choice)) for choice in choices)
+
+
+def _says_nothing(frame: ClauseFrame) -> bool:
+    """Of "You'll see two doors", "then you are in the lobby", "fahr da hin"."""
+    if frame.verbs == {"go"} and all(item.value in ("ab", "go") for item in frame.items):
+        return any(item.value == "ab" for item in frame.items)
+    stands = bool(frame.verbs) and not frame.verbs - {"be", "reach"} and len(frame.refs) == 1
+    plain = not frame.sides and not frame.has(ItemKind.IN, ItemKind.OUT)
+    noun = frame.refs[0].value if stands and plain else None
+    if noun is None:
+        return False
+    seen = is_door(noun) and noun.counted and not frame.roles(frame.refs[0])
+    return seen or (noun.kind == "area" and bool(frame.roles(frame.refs[0]) & {"in", "into"}))
 
 
 def _named(item: Item, frame: ClauseFrame, last: bool) -> Readings:

@@ -12,6 +12,8 @@ from semnav_env.commands.speech.nouns import NounReader
 from semnav_env.commands.speech.numerals import read_number
 
 UNITS = {"metres": 1.0, "half metres": 0.5, "cm": 0.01}
+SIGNS = frozenset(",;.!?:")
+
 SECONDS_OF = {"seconds": 1, "minutes": 60}
 
 
@@ -28,6 +30,7 @@ class ItemWords:
     words: Sequence[str]
     lexicon: SpeechLexicon
     nouns: NounReader
+    waits: bool
 
     def _skipped(self, at: int) -> int | None:
         """The word behind "to" before a verb, and behind words that break off before a comma."""
@@ -40,6 +43,12 @@ class ItemWords:
             behind += 1
         broken = self._is_small(at) and behind < len(words) and words[behind] == ","
         return behind if broken else None
+
+    def _end_of_remark(self, at: int) -> int:
+        """The sign behind a clause that says why: "so that we can see you"."""
+        while at < len(self.words) and self.words[at] not in SIGNS:
+            at += 1
+        return at
 
     def _is_small(self, at: int) -> bool:
         return any(
@@ -54,6 +63,37 @@ class ItemWords:
     def _may_wait(self, at: int) -> bool:
         """Whether words of correction can be a command: "wait", "hold on", "Moment"."""
         return self.words[at] in ("wait", "hold", "hang", "warte", "moment", "stay", "einen")
+
+    def _no_correction(self, at: int) -> int | None:
+        """The word behind "wait" and the like where they correct nothing."""
+        found = self.lexicon.find(self.words, at, "no")
+        return found[1] if found and self._may_wait(at) else None
+
+    def _is_no_correction(self, at: int, stop: int) -> bool:
+        """Whether words such as "wait" stand where nothing can be corrected."""
+        if not self._may_wait(at):
+            return False
+        if at == 0:
+            return True
+        behind = stop
+        while behind < len(self.words) and (
+            self.words[behind] == "," or self.lexicon.find(self.words, behind, "filler")
+        ):
+            behind += 1
+        if behind >= len(self.words):
+            return True
+        matches = list(self.lexicon.matches(self.words, behind))
+        verbs = [value for kind, value, _ in matches if kind == "verb"]
+        corrects = (
+            self.nouns._plain_side(behind) is not None
+            or "turn" in verbs
+            or any(kind == "no" for kind, _, _ in matches)
+            or (not verbs and next(self._nouns(behind, ()), None) is not None)
+        )
+        return self.waits or not corrects
+
+    def _nouns(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
+        raise NotImplementedError
 
     def _has_phrase(self, at: int) -> bool:
         """Whether a phrase with a comma begins at a comma: ", die vor dir ist"."""
@@ -90,6 +130,13 @@ class ItemWords:
             ["beside"],
         )
 
+    def _ends_clause(self, at: int) -> bool:
+        """Whether no side or place goes on with a clause: "where the kitchen is on the left"."""
+        if at >= len(self.words):
+            return True
+        kinds = {kind for kind, _, _ in self.lexicon.matches(self.words, at)}
+        return not kinds & {"where", "side", "particle", "is open", "is closed", "prep", "not"}
+
     def _has_verb(self, at: int) -> bool:
         return any(
             value == "reach" and stop == at
@@ -100,6 +147,8 @@ class ItemWords:
 
     def _amounts(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
         """Degrees, distances and times, with "for" or "by" before them."""
+        if angle := self.lexicon.find(self.words, at, "angle"):
+            yield Item(ItemKind.DEGREES, at, angle[1], float(angle[0]))
         prefix = self.nouns._preposition(at, "for")
         for start in dict.fromkeys((at, prefix or at)):
             here = start
@@ -127,17 +176,21 @@ class ItemWords:
                 return _distance(round(2 * metres) / 2, at, stop, Unit.METRES)
         return None
 
-    def _second(self, at: int) -> int | None:
-        """The end of the second noun of "between P and Q"."""
+    def _second(self, at: int) -> tuple[Noun, int] | None:
+        """The second noun of "between P and Q", and the word behind it."""
         conjunction = self.lexicon.find(self.words, at, "and")
-        noun = self.nouns.read(conjunction[1]) if conjunction else None
-        return noun[1] if noun else None
+        return self.nouns.read(conjunction[1]) if conjunction else None
 
     def _inner_preposition(self, at: int, roles: list[str]) -> tuple[int, list[str]]:
         """Words between "when" or "until" and its noun: "bis du an die", "wenn du zur"."""
         while (filler := self._filler(at)) and not self.nouns.read(at):
             at = filler
-        stops = [stop for kind, _, stop in self.lexicon.matches(self.words, at) if kind == "prep"]
+        found = [
+            (v, stop) for kind, v, stop in self.lexicon.matches(self.words, at) if kind == "prep"
+        ]
+        stops = [stop for _, stop in found]
+        if any(value == "out" for value, _ in found):
+            return len(self.words), roles  # "wenn du aus der Tür kommst" is no place
         if stops and self.nouns.read(stops[0]):
             return stops[0], roles
         return at, roles
@@ -163,6 +216,8 @@ class ItemWords:
                 here = at = max(stop for kind, _, stop in matches if kind == "is open")
             elif any(kind == "link" for kind, _, _ in matches) and not verb:
                 here = next(stop for kind, _, stop in matches if kind == "link")
+                if "when" in roles and self._ends_clause(here):
+                    return here, past  # "where the kitchen is"
             elif verb:
                 here = verb[0]
                 at = here

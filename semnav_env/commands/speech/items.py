@@ -56,7 +56,8 @@ class Noun:
     """A door, a room, a hallway or a place as it is named.
 
     Attributes:
-        kind: "door", "room", "hall", "named", "start", "wall", "it", "one", or a place's value.
+        kind: "door", "room", "area" (a lobby), "hall", "named", "start", "wall", "it", "one", or a
+            place's value.
         ordinal: as in `DoorReference`; None if it is not said.
         side: None if it is not said.
         name: of a named room.

@@ -85,6 +85,8 @@ def _back_to(noun: Noun, roles: frozenset[str]) -> Steps:
     """Back along the way to the last thing of a kind: the first one after turning around."""
     if noun.kind in ("start", "way back", "it"):
         return (GoBack(),)
+    if noun.kind == "entry":
+        return (TurnBack(), Follow(DoorReference()))
     if noun.kind == "hall":
         return (TurnBack(), Follow())
     if noun.kind == "named":
@@ -150,7 +152,8 @@ def read_leave(frame: ClauseFrame) -> Readings | None:
         return ((GoToDoor(door), *turns),)
     steps: Steps = (Leave(), *turns)
     for item in rest:
-        steps = (*steps, *moves(item.value, frame.roles(item), frozenset({"go"})))
+        if item.value.kind != "hall" or not frame.roles(item) & {"to", "into"}:
+            steps = (*steps, *moves(item.value, frame.roles(item), frozenset({"go"})))
     if frame.has(ItemKind.STRAIGHT):
         steps = (*steps, Follow())
     if (
@@ -180,7 +183,7 @@ def _is_left(item: Item, frame: ClauseFrame) -> bool:
         noun.kind in ("it", "one")
         or "out" in roles
         or (_is_bare_way_out(item, frame) and is_door(noun))
-        or (noun.kind in ("room", "named", "door") and not roles)
+        or (noun.kind in ("room", "named", "door", "area") and not roles)
     )
 
 

@@ -14,7 +14,14 @@ from importlib.resources import files
 from typing import TypeAlias
 
 from semnav_env.commands.language import Language
-from semnav_env.commands.words import TextPiece, pieces
+from semnav_env.commands.speech.phrases import (
+    Phrase,
+    PhraseCompiler,
+    ends_of,
+    first_words,
+    words_of,
+)
+from semnav_env.commands.words import TextPiece
 
 Match: TypeAlias = tuple[str, int]
 """The value of a phrase, and the number of the first word behind it."""
@@ -22,19 +29,21 @@ Match: TypeAlias = tuple[str, int]
 LONGEST_PHRASE = 12
 """The most words of a phrase."""
 
+MIN_COMPOUND = 6
+"""The fewest letters of a word that is taken apart."""
+
 
 @dataclass(frozen=True, eq=False)
 class SpeechLexicon:
     """The phrases of a language.
 
     Attributes:
-        by_first: for the first word of a phrase, the phrases with their class and value, longest
-            first.
+        by_first: the phrases with their class and value, by the words with which they can begin.
         words: every word of every phrase.
         language: of the phrases.
     """
 
-    by_first: dict[str, tuple[tuple[tuple[str, ...], str, str], ...]]
+    by_first: dict[str, list[tuple[Phrase, str, str]]]
     words: frozenset[str]
     language: Language
 
@@ -43,15 +52,25 @@ class SpeechLexicon:
         window = tuple(words[at : at + LONGEST_PHRASE])
         return ((kind, value, at + length) for kind, value, length in self._matches(window))
 
+    @cache  # noqa: B019 - as below
+    def of_class(self, kind: str) -> frozenset[str]:
+        """The single words of a class."""
+        return frozenset(
+            first
+            for first, phrases in self.by_first.items()
+            for phrase, each, _ in phrases
+            if each == kind and phrase == (first,)
+        )
+
     @lru_cache(maxsize=20_000)  # noqa: B019 - the few lexicons live as long as the process
     def _matches(self, window: tuple[str, ...]) -> tuple[tuple[str, str, int], ...]:
         """Class, value and length of every phrase with which some words begin, longest first."""
-        phrases = self.by_first.get(window[0], ()) if window else ()
-        return tuple(
-            (kind, value, len(phrase))
-            for phrase, kind, value in phrases
-            if window[: len(phrase)] == phrase
-        )
+        found = {
+            (kind, value, length): None
+            for phrase, kind, value in (self.by_first.get(window[0], ()) if window else ())
+            for length in ends_of(phrase, window, 0)
+        }
+        return tuple(sorted(found, key=lambda match: -match[2]))
 
     def find(self, words: Sequence[str], at: int, kind: str) -> Match | None:
         """Value and end of the longest phrase of a class at a word; None if there is none."""
@@ -66,12 +85,11 @@ def lexicon_of(language: Language) -> SpeechLexicon:
     """The lexicon of a language, read at the first call."""
     file = files("semnav_env.commands.speech") / f"{language.name}.json"
     table: dict[str, str] = json.loads(file.read_text("utf-8"))
-    phrases = [
-        (phrase, *_class_and_value(key)) for key, row in table.items() for phrase in row.split("|")
-    ]
+    rows = ((key, row) for key, row in table.items() if not key.startswith("<"))
+    phrases = [(phrase, *_class_and_value(key)) for key, row in rows for phrase in row.split("|")]
     phrases += [(word, "ordinal", str(n)) for word, n in _ordinals(language)]
     phrases += [(word, "number", str(n)) for word, n in _numbers(language)]
-    return SpeechLexicon(*_indexed(language, phrases), language)
+    return _indexed(phrases, PhraseCompiler(table, language), language)
 
 
 def _class_and_value(key: str) -> tuple[str, str]:
@@ -79,7 +97,7 @@ def _class_and_value(key: str) -> tuple[str, str]:
     return (kind, value) if kind in VALUED else (key, "")
 
 
-VALUED = ("number", "verb", "prep", "adj", "noun", "side", "where", "particle")
+VALUED = ("number", "verb", "prep", "adj", "noun", "side", "where", "particle", "angle")
 """Classes whose keys have a value behind them."""
 
 
@@ -106,29 +124,16 @@ def compound_numbers(language: Language) -> Iterator[tuple[str, float]]:
 
 
 def _indexed(
-    language: Language, phrases: Iterable[tuple[str, str, str]]
-) -> tuple[dict[str, tuple[tuple[tuple[str, ...], str, str], ...]], frozenset[str]]:
-    by_first: dict[str, dict[tuple[tuple[str, ...], str, str], None]] = {}
+    texts: Iterable[tuple[str, str, str]], compiler: PhraseCompiler, language: Language
+) -> SpeechLexicon:
+    by_first: dict[str, list[tuple[Phrase, str, str]]] = {}
     known: set[str] = set()
-    for phrase, kind, value in phrases:
-        words = plain_words(phrase, language)
-        known.update(words)
-        by_first.setdefault(words[0], {})[words, kind, value] = None
-    ordered = {
-        first: tuple(sorted(found, key=lambda entry: -len(entry[0])))
-        for first, found in by_first.items()
-    }
-    return ordered, frozenset(known)
-
-
-def plain_words(phrase: str, language: Language) -> tuple[str, ...]:
-    """The words of a phrase as they stand in a normalised text."""
-    folded = language.folded(phrase.casefold()).replace("ß", "ss")
-    return tuple(piece.text for piece in _pieces(folded))
-
-
-def _pieces(text: str) -> list[TextPiece]:
-    return pieces(text)
+    for text, kind, value in texts:
+        for phrase in compiler.compiled(text):
+            known.update(() if kind == "beyond" else words_of(phrase))
+            for first in first_words(phrase):
+                by_first.setdefault(first, []).append((phrase, kind, value))
+    return SpeechLexicon(by_first, frozenset(known.union(compiler.words())), language)
 
 
 @cache
@@ -141,24 +146,58 @@ def mixed(main: SpeechLexicon, other: SpeechLexicon) -> SpeechLexicon:
 
 
 def spoken_pieces(found: Sequence[TextPiece], lexicon: SpeechLexicon) -> list[TextPiece]:
-    """The words of a text without hesitations, and with "the door's" read as "the door is"."""
+    """The words of a text without hesitations, as the lexicon knows them.
+
+    "The door's" is read as "the door is", and unknown words are taken apart ("reinfahren").
+    """
     spoken: list[TextPiece] = []
     for piece in found:
         base = piece.text.removesuffix("'s")
         if base != piece.text and piece.text not in lexicon.words and base in lexicon.words:
             spoken += [piece._replace(text=base), piece._replace(text="is")]
         elif piece.text != "'":
-            spoken.append(piece)
+            spoken += [piece._replace(text=part) for part in parts_of(piece.text, lexicon)]
     return without(spoken, lexicon, "hesitation")
 
 
 def without(found: Sequence[TextPiece], lexicon: SpeechLexicon, kind: str) -> list[TextPiece]:
-    """The words of a text without those of a class, unless nothing would be left."""
+    """The words of a text without those of a class, unless nothing would be left.
+
+    Words of a longer phrase stay ("just past"), and so does a verb that begins a clause ("halt").
+    """
     words = [piece.text for piece in found]
-    kept, at = [], 0
+    kept: list[TextPiece] = []
+    at = 0
     while at < len(words):
         match = lexicon.find(words, at, kind)
-        if match is None:
-            kept.append(found[at])
-        at = match[1] if match else at + 1
+        longest = max((stop for _, _, stop in lexicon.matches(words, at)), default=at + 1)
+        longest = at + 1 if kind == "hesitation" else longest
+        begins = not kept or any(lexicon.find((kept[-1].text,), 0, c) for c in ("and", "then"))
+        is_verb = (begins or not kept[-1].text.isalnum()) and lexicon.find(words, at, "verb")
+        if match is not None and match[1] >= longest and not is_verb:
+            at = match[1]
+        else:
+            kept += found[at:longest]
+            at = longest
     return kept or list(found)
+
+
+def parts_of(word: str, lexicon: SpeechLexicon) -> tuple[str, ...]:
+    """The known words of which an unknown one is made; the word itself if it is made of none.
+
+    A separable verb is a particle and a verb, with "zu" between them or not ("hineinzufahren"). Of
+    a compound the last part says what it is ("Flurkreuzung").
+    """
+    if word in lexicon.words or len(word) < MIN_COMPOUND or not word.isalpha():
+        return (word,)
+    for first in sorted(lexicon.of_class("separable"), key=len, reverse=True):
+        rest = word.removeprefix(first)
+        if rest != word:
+            for verb in (rest, rest.removeprefix("zu")):
+                if lexicon.find((verb,), 0, "verb"):
+                    return verb, first
+    for first in lexicon.of_class("compound"):
+        rest = word.removeprefix(first)
+        if rest != word and lexicon.find((rest,), 0, "noun"):
+            return (rest,)
+    return (word,)

@@ -41,7 +41,7 @@ def landmark(noun: Noun) -> Landmark:
         if not noun.at_end:
             return DoorReference(ordinal, noun.side)
         if noun.side is None:
-            return DoorReference(ordinal, Side.AHEAD)
+            return DoorReference(ordinal, None if ordinal == LAST else Side.AHEAD)
         return DoorReference(LAST if ordinal == 1 else ordinal, noun.side)
     if noun.kind == "named":
         return RoomReference(plain_name(noun.name))
@@ -62,7 +62,7 @@ def is_door(noun: Noun) -> bool:
 def is_this_room(noun: Noun) -> bool:
     """Whether a noun can be the room in which the robot is."""
     bare = noun.ordinal is None and noun.side is None and not noun.at_end
-    return noun.kind == "room" and bare
+    return noun.kind in ("room", "area") and bare
 
 
 def moves(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
@@ -84,6 +84,10 @@ def moves(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
         return _hall(noun, roles, verbs)
     if noun.kind == "named":
         return _room(noun, roles, verbs)
+    if noun.kind == "area":
+        return _area(roles, verbs)
+    if noun.kind == "entry" and (roles & {"into", "through", "out"} or verbs & {"take", "leave"}):
+        return (Leave(),)
     if is_door(noun):
         return _door(noun, roles, verbs)
     return _place(noun, roles, verbs)
@@ -118,7 +122,12 @@ def _room(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     room = RoomReference(plain_name(noun.name))
     if roles & {"past", "after"} or verbs & {"pass"}:
         return (Follow(room, past=True),)
-    if roles & {"near", "opposite", "before"} and not roles & {"past", "front", "to", "into"}:
+    if roles & {"near", "opposite", "before", "from"} and not roles & {
+        "past",
+        "front",
+        "to",
+        "into",
+    }:
         raise NoMeaningError("beside a room")
     if "until" in roles and "front" not in roles:
         return (Follow(room),)
@@ -131,6 +140,17 @@ def _room(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     if "cross" in verbs or ("through" in roles and "cross" in verbs):
         return (GoToRoom(room.name), Follow(PlaceReference(Place.END)))
     return (GoToRoom(room.name),)
+
+
+def _area(roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
+    """A kind of room, such as a lobby, which is only known as the one around the robot."""
+    if "leave" in verbs or "out" in roles:
+        return (Leave(),)
+    if "cross" in verbs or roles & {"through", "across"}:
+        return (Follow(PlaceReference(Place.END)),)
+    if roles & {"in", "into"} and verbs and not verbs - {"be", "reach"}:
+        return ()  # "then you are in the lobby"
+    raise NoMeaningError("area")
 
 
 def _door(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
@@ -161,7 +181,7 @@ def _door(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
         return (Follow(door),)
     if "take" in verbs and not roles & {"to", "at"}:
         return (GoToDoor(door),)
-    if roles & {"to", "toward"} or verbs & {"find"}:
+    if roles & {"to", "toward"} or verbs & {"find", "reach"}:
         approach = Approach.THROUGH if noun.kind == "room" else Approach.TO
         return (GoToDoor(door, approach),)
     if not roles and not verbs - {"go", "be"}:

@@ -96,6 +96,16 @@ def _without(items: list[Item], at: int) -> list[Item]:
     rest = items[following:]
     verbs = [item for item in negated if item.kind is ItemKind.VERB]
     before = items[:at]
+    if not rest:
+        refs = [item for item in negated if item.kind is ItemKind.REF]
+        end = at - 1 if items[at - 1].kind is ItemKind.BUT else at
+        if verbs and refs and end > 0 and all(item.value.kind == "it" for item in refs):
+            return items[: cut_before(items, end)]  # "to the crossing, but don't cross it"
+        again = [i for i in range(at + 2, stop) if items[i].kind is ItemKind.VERB]
+        if again and items[again[0]].value != "be":  # "don't turn around go straight"
+            return [*items[:at], *items[again[0] :]]
+    if not negated and (said := _said_before(items, at)) is not None and following < len(items):
+        return [*items[:said], *rest]  # "durch die Tür rechts nicht, durch die linke"
     if not rest or not negated:
         if len(negated) == len(verbs) == 1 and verbs[0].value in ("go", "turn"):
             return [*before, replace(verbs[0], value="stop")]
@@ -106,8 +116,10 @@ def _without(items: list[Item], at: int) -> list[Item]:
         return items
     place = next((i for i in negated if i.kind is ItemKind.REF and "at" in i.roles), None)
     if place is not None and not is_door(place.value) and verbs:
-        return [*before, place, *rest]
+        return [*before, *rest] if _names_another(place, rest[0]) else [*before, place, *rest]
     refs = [item for item in negated if item.kind is ItemKind.REF]
+    if refs and rest[0].kind is ItemKind.REF and rest[0].value.kind == "it":
+        return [*before, replace(rest[0], value=refs[-1].value), *rest[1:]]
     if refs and rest[0].kind is ItemKind.REF and not verbs:
         merged = merged_items(refs[-1], rest[0]) if corrects(refs[-1], rest[0]) else rest[0]
         rest = [_next_of(refs[-1].value, merged), *rest[1:]]
@@ -117,6 +129,22 @@ def _without(items: list[Item], at: int) -> list[Item]:
     if before and before[-1].kind is ItemKind.VERB and rest[0].kind is ItemKind.VERB:
         before = before[:-1]
     return [*before, *rest]
+
+
+def _said_before(items: Sequence[Item], at: int) -> int | None:
+    """Where the clause begins that a "not" at its end negates; None if there is none."""
+    start = at
+    while start > 0 and items[start - 1].kind not in SOFT:
+        start -= 1
+    behind = items[at + 1] if at + 1 < len(items) else None
+    ends = behind is not None and behind.kind in (*SOFT, ItemKind.BUT)
+    named = any(item.kind is ItemKind.REF for item in items[start:at])
+    return start if ends and named and start < at else None
+
+
+def _names_another(place: Item, item: Item) -> bool:
+    """Of "Not at the first intersection, but at the second": counted from the same place."""
+    return item.kind is ItemKind.REF and corrects(place, item) and bool(set(item.roles) & {"at"})
 
 
 def _is_contrast(before: Sequence[Item], negated: Item) -> bool:

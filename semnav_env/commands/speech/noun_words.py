@@ -28,6 +28,12 @@ class NounWords:
         english = self.lexicon.language.code == "en"
         return english and noun is not None and noun[1] == at + 1 and len(self.words[at]) == 1
 
+    def _is_no_noun(self, at: int, counted: bool) -> bool:
+        """Whether a noun without an article is a verb or a slip: "turn left", "first turn left"."""
+        noun = self.find(at, "noun")
+        sided = noun is not None and self._plain_side(noun[1]) is not None
+        return (sided or not counted) and (self._is_verb(at) or self._is_lone_letter(at))
+
     def _is_verb(self, at: int) -> bool:
         verb, noun = self.find(at, "verb"), self.find(at, "noun")
         return verb is not None and noun is not None and verb[1] >= noun[1]
@@ -39,7 +45,8 @@ class NounWords:
         return Side(found[0]), word[1] if word else found[1]
 
     def _is_after_article(self, at: int) -> bool:
-        return at > 0 and any(stop == at for _, stop in filter(None, [self.find(at - 1, "det")]))
+        found = [self.find(at - 1, "det"), self.find(at - 1, "a")] if at > 0 else []
+        return any(stop == at for _, stop in filter(None, found))
 
     def _name(self, at: int) -> tuple[str, int] | None:
         """The longest name of a room at a word."""

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from semnav_env.commands.references import LAST, OTHER, Side
 from semnav_env.commands.speech.items import Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
+from semnav_env.commands.speech.noun_memory import NounMemory
 from semnav_env.commands.speech.noun_words import NounWords
 from semnav_env.commands.speech.numerals import read_number
-
-COUNTABLE = ("door", "room", "intersection", "corner", "t_junction", "turning")
-"""Kinds of nouns that "the second" can stand for."""
 
 DOORLIKE = ("door", "room", "one")
 """Kinds of nouns that have a side."""
 
-CHOOSING = ("open", "closed", "nearest", "any", "other", "next", "after next", "last")
+CHOOSING = ("open", "closed", "nearest", "any", "other", "next", "after next", "last", "middle")
 """Adjectives that say which one is meant."""
 
 
@@ -29,23 +27,30 @@ class NounReader(NounWords):
         words: of the text.
         lexicon: of its language.
         names: the spoken words of each room's name, and the name.
-        last: the noun that was named last; None at the beginning.
+        memory: what was named before.
     """
 
     words: Sequence[str]
     lexicon: SpeechLexicon
     names: Mapping[tuple[str, ...], str]
-    last: Noun | None = None
+    memory: NounMemory = field(default_factory=NounMemory)
 
-    def read(self, at: int) -> tuple[Noun, int] | None:
-        """The noun that begins at a word and the word behind it; None if none does."""
+    def read(self, at: int, determined: bool = False) -> tuple[Noun, int] | None:
+        """The noun that begins at a word and the word behind it; None if none does.
+
+        Args:
+            at: number of its first word.
+            determined: its article stands before it ("zur nächsten").
+        """
         noun, here = Noun(""), at
-        said_which = determined = False
+        said_which = is_article = False
         while here < len(self.words):
             rank, name = self.find(here, "ordinal"), self._name(here)
             plain = rank is None or (name is not None and name[1] > rank[1])
+            if here > at and self.find(here, "clause start"):
+                break
             if plain and (head := self._head(here, noun)):
-                if not determined and (self._is_verb(here) or self._is_lone_letter(here)):
+                if not determined and self._is_no_noun(here, noun.ordinal is not None):
                     return None  # "turn left" is no turning on the left
                 if self._is_elliptic_turn(here, noun):
                     break  # "at the second turn left", of intersections
@@ -55,8 +60,12 @@ class NounReader(NounWords):
                 return self._behind(noun, here)
             adjective = self.find(here, "adj")
             longest = adjective[1] if adjective else 0
+            was_article, is_article = is_article, False
             if (found := self.find(here, "det")) and found[1] >= longest:
-                determined = True
+                again = was_article and self.words[here] == self.words[here - 1]
+                if (was_article and not again) or (noun.side is not None and not determined):
+                    return None  # "that its the first door", "links den Gang hinunter"
+                determined = is_article = True
             elif (found := self.find(here, "a")) and found[1] >= longest:
                 noun, determined = replace(noun, definite=False), True
             elif modified := self._modifier(here, noun):
@@ -68,9 +77,9 @@ class NounReader(NounWords):
                     return None  # "open the door" is no open door
                 if found[0] in CHOOSING:
                     said_which = True
-                    ordinal = _adjective_ordinal(found[0], noun)
+                    ordinal = self.memory.chosen(found[0]) or _adjective_ordinal(found[0], noun)
                     noun = replace(noun, ordinal=ordinal, closed=found[0] == "closed")
-            elif not (here > at and (found := self.find(here, "filler"))):
+            elif not (determined and here > at and (found := self.find(here, "filler"))):
                 break
             here = found[1]
         told = self._without_head(noun, here) if said_which else None
@@ -79,7 +88,8 @@ class NounReader(NounWords):
 
     def _is_elliptic_turn(self, at: int, noun: Noun) -> bool:
         places = ("intersection", "corner", "t_junction")
-        named = self.last is not None and self.last.kind in places
+        last = self.memory.last
+        named = last is not None and last.kind in places
         return (
             named
             and noun.ordinal is not None
@@ -117,7 +127,8 @@ class NounReader(NounWords):
             return replace(noun, kind=kind), stop
         if (found := self.find(at, "one")) and found[1] <= len(self.words):
             plain = noun.ordinal is None and noun.side is None and not self._is_after_article(at)
-            if plain and not self._side_behind(replace(noun, kind="one"), found[1]):
+            german = self.lexicon.language.code == "de"
+            if plain and (german or not self._side_behind(replace(noun, kind="one"), found[1])):
                 return None
             after = self.find(at, "after that") is not None
             return replace(noun, kind="one", relative=after), found[1]
@@ -142,6 +153,8 @@ class NounReader(NounWords):
                 noun, at = replace(noun, at_end=True), end[1]
             elif is_doorlike(noun) and (state := self._state(at)):
                 at = state
+            elif is_doorlike(noun) and (came := self.find(at, "came by")):
+                noun, at = replace(noun, kind="entry"), came[1]
             elif noun.counted and noun.kind == "door" and (on := self.find(at, "further")):
                 noun, at = replace(noun, counted=False), on[1]
             elif noun.doorway and (door := self._of_door(at)):
@@ -150,7 +163,7 @@ class NounReader(NounWords):
                 at = hall
             else:
                 break
-        return self._resolved(noun), at
+        return self.memory.resolved(noun), at
 
     def _of_door(self, at: int) -> tuple[Noun, int] | None:
         """The door of a doorway: "of the second room", "der zweiten Tür"."""
@@ -172,6 +185,14 @@ class NounReader(NounWords):
             where = self.find(start, "where") if noun.kind in DOORLIKE else None
             if where and not self._names_more(start, where[1]):
                 return Side(where[0]), where[1]
+        if relative and noun.kind not in DOORLIKE:
+            found = self._side_at(noun, relative[1])
+            link = self.find(found[1], "link") if found else None
+            return (found[0], link[1] if link else found[1]) if found else None
+        return self._side_at(noun, at)
+
+    def _side_at(self, noun: Noun, at: int) -> tuple[Side, int] | None:
+        """A side with or without a preposition: "on your left", "left"."""
         here = at
         for kind in ("prep", "det", "det"):
             if kind == "prep" and (preposition := self._preposition(at, "on")):
@@ -192,9 +213,7 @@ class NounReader(NounWords):
         return any(end >= stop and self._is_noun(end) for end in preps)
 
     def _is_noun(self, at: int) -> bool:
-        remembered = self.last
         noun = self.read(at) if at < len(self.words) else None
-        self.last = remembered
         return noun is not None and noun[0].kind not in ("it", "one", "hall")
 
     def _of_hall(self, at: int) -> int | None:
@@ -215,52 +234,18 @@ class NounReader(NounWords):
 
     def _without_head(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
         """A noun that is left out: "the second on the left", "die rechte"."""
+        if noun.ordinal == OTHER and noun.side is not None:
+            return None  # "my other left"
         if noun.ordinal is not None and not noun.counted:
             if noun.side is not None and self.lexicon.language.code == "en":
-                turning = replace(noun, kind="turning")
-                self.last = turning
-                return turning, at
+                return replace(noun, kind="turning"), at
             return self._behind(replace(noun, kind="one", elliptic=True), at)
-        adjectives = [w for w in self.words[max(0, at - 2) : at] if w[:4] in ("link", "rech")]
+        adjectives = [w for w in self.words[at - 1 : at] if w[:4] in ("link", "rech")]
         if noun.side is not None and adjectives and adjectives[-1] not in ("links", "rechts"):
             german = self.lexicon.language.code == "de"
             if german and len(adjectives[-1]) < 8:
                 return self._behind(replace(noun, kind="one", elliptic=True), at)
         return None
-
-    def _resolved(self, noun: Noun) -> Noun:
-        """The noun with the kind that it stands for, and remembered."""
-        noun = self._counted_on(noun)
-        if noun.kind == "one" and self.last is None and not noun.elliptic:
-            noun = replace(noun, kind="door")
-        if noun.kind == "one" and self.last is not None and self.last.kind in COUNTABLE:
-            kind = self.last.kind
-            noun = replace(noun, kind=kind)
-            if noun.relative:
-                noun = self._following(noun)
-            elif noun.side is None and kind in ("door", "room", "turning") and noun.ordinal:
-                noun = replace(noun, side=self.last.side)
-        if noun.kind in COUNTABLE:
-            self.last = noun
-        return noun
-
-    def _counted_on(self, noun: Noun) -> Noun:
-        """Of "The fourth door" after "past three doors" is the next one."""
-        last = self.last
-        if last is None or not last.counted or last.ordinal is None or noun.counted:
-            return noun
-        same = (noun.kind in ("one", last.kind) and last.side in (None, noun.side)) or noun.elliptic
-        if same and noun.ordinal == last.ordinal + 1:
-            return replace(noun, ordinal=1, side=noun.side or last.side)
-        return noun
-
-    def _following(self, noun: Noun) -> Noun:
-        """The next one of the kind that was named last."""
-        assert self.last is not None
-        before = self.last.ordinal or 1
-        return replace(
-            noun, ordinal=before + 1 if before > 0 else None, side=noun.side or self.last.side
-        )
 
 
 def is_doorlike(noun: Noun) -> bool:
@@ -275,6 +260,3 @@ def _adjective_ordinal(adjective: str, noun: Noun) -> int | None:
     if adjective in _ADJECTIVE_ORDINALS:
         return _ADJECTIVE_ORDINALS[adjective]
     return noun.ordinal or 1 if adjective in ("any", "nearest", "next") else noun.ordinal
-
-
-__all__ = ["COUNTABLE", "LAST", "NounReader"]

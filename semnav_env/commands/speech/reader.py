@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from semnav_env.commands.references import Side
 from semnav_env.commands.speech.conditions import read_condition
-from semnav_env.commands.speech.item_words import ItemWords
-from semnav_env.commands.speech.items import Item, ItemKind, Noun
+from semnav_env.commands.speech.item_words import SIGNS, ItemWords
+from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
 from semnav_env.commands.speech.nouns import NounReader
 from semnav_env.commands.speech.numerals import read_number
@@ -44,7 +44,11 @@ PLAIN_CLASSES = (
 
 KIND_OF_CLASS = {"around alone": ItemKind.AROUND, "end until": ItemKind.TO_END}
 
-SIGNS = frozenset(",;.!?:")
+MAX_FIRST_THEN = 2
+"""The most words of "then" at the beginning of a text; "when you come out" is a clause there."""
+
+WITH_ARTICLE = frozenset({"zur", "zum", "im", "am", "ins", "ans", "beim", "vom", "vors", "durchs"})
+"""German prepositions that hold an article."""
 
 
 class ItemReader(ItemWords):
@@ -76,9 +80,12 @@ class ItemReader(ItemWords):
         opens = self.exact and list(self.words[:2]) == ["right", ","]
         at = 2 if opens else 0  # "right, so ..." is no turn
         while at < len(self.words):
+            if self.lexicon.find(self.words, at, "purpose"):
+                at = self._end_of_remark(at)
+                continue
             item = self._item(at, found)
             if item is None:
-                stop = self._filler(at) or self._skipped(at)
+                stop = self._filler(at) or self._skipped(at) or self._no_correction(at)
                 if stop is None:
                     found.append(Item(ItemKind.UNKNOWN, at, at + 1, self.words[at]))
                 at = stop or at + 1
@@ -97,7 +104,6 @@ class ItemReader(ItemWords):
     def _item(self, at: int, before: Sequence[Item]) -> Item | None:
         if self.words[at] in SIGNS and not self._has_phrase(at):
             return Item(ItemKind.SIGN, at, at + 1, self.words[at])
-        remembered = self.nouns.last
         best: Item | None = None
         for item in self._candidates(at, before):
             if best is None or item.stop > best.stop:
@@ -107,15 +113,10 @@ class ItemReader(ItemWords):
             best = Item(ItemKind.SIGN, at, at + 1, self.words[at])
         if best is not None and filler is not None and filler > best.stop:
             best = None
-        if best is None or not self._names_noun(best):
-            self.nouns.last = remembered
-        elif best.kind is ItemKind.REF and best.value.kind in ("door", "room"):
-            self.nouns.last = best.value
+        if best is not None:
+            noun = best.value.noun if best.kind is ItemKind.IF else best.value
+            self.nouns.memory.remember(noun)
         return best
-
-    @staticmethod
-    def _names_noun(item: Item) -> bool:
-        return item.kind in (ItemKind.REF, ItemKind.IF)
 
     def _candidates(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
         yield from self._amounts(at, before)
@@ -141,6 +142,8 @@ class ItemReader(ItemWords):
                 name = "to end" if name == "end until" else name
                 if name != kind or (kind == "no" and self._is_no_correction(at, stop)):
                     continue
+                if kind == "then" and not before and stop - at > MAX_FIRST_THEN:
+                    continue
                 if kind in ("in", "out", "before it") and self._begins_noun(stop):
                     continue
                 stops = (
@@ -159,12 +162,10 @@ class ItemReader(ItemWords):
                     and before[-1].kind not in (ItemKind.SIGN, ItemKind.AND, ItemKind.THEN)
                 ):
                     continue
-                if (
-                    kind == "here"
-                    and self.words[at] == "right"
-                    and before
-                    and before[-1].value in ("turn", "make")
-                ):
+                turns = bool(before) and before[-1].value in ("turn", "make")
+                if kind == "here" and self.words[at] == "right" and turns:
+                    continue
+                if kind == "here" and self.words[at] == "right" and not self.exact:
                     continue
                 if kind == "around alone" and self._is_corner(stop):
                     continue
@@ -175,38 +176,22 @@ class ItemReader(ItemWords):
                 else:
                     yield Item(ItemKind(kind), at, stop, value)
                 break
+        once = self.lexicon.find(self.words, at, "once")
+        if once and (not before or before[-1].kind in (*JOINTS, ItemKind.BUT)):
+            yield Item(ItemKind.THEN, at, once[1], "once")
         if (where := self.lexicon.find(self.words, at, "start where")) is not None:
             yield Item(ItemKind.REF, at, where[1], Noun("start"))
-
-    def _is_no_correction(self, at: int, stop: int) -> bool:
-        """Whether words such as "wait" stand where nothing can be corrected."""
-        if not self._may_wait(at):
-            return False
-        if at == 0:
-            return True
-        behind = stop
-        while behind < len(self.words) and (
-            self.words[behind] == "," or self.lexicon.find(self.words, behind, "filler")
-        ):
-            behind += 1
-        if behind >= len(self.words):
-            return True
-        matches = list(self.lexicon.matches(self.words, behind))
-        verbs = [value for kind, value, _ in matches if kind == "verb"]
-        corrects = (
-            self.nouns._plain_side(behind) is not None
-            or "turn" in verbs
-            or any(kind == "no" for kind, _, _ in matches)
-            or (not verbs and next(self._nouns(behind, ()), None) is not None)
-        )
-        return self.waits or not corrects
 
     def _nouns(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
         """Nouns with and without a preposition."""
         if noun := self.nouns.read(at):
-            yield Item(ItemKind.REF, at, noun[1], noun[0])
+            begins = ("at",) if self.lexicon.find(self.words, at, "clause start") else ()
+            yield Item(ItemKind.REF, at, noun[1], noun[0], begins)
         elif it := self.lexicon.find(self.words, at, "it alone"):
             yield Item(ItemKind.REF, at, it[1], Noun("it"))
+        for role in ("past", "after"):
+            if it := self.lexicon.find(self.words, at, f"{role} it"):
+                yield Item(ItemKind.REF, at, it[1], Noun("it"), (role,))
         stops: dict[int, list[str]] = {}
         for kind, value, stop in self.lexicon.matches(self.words, at):
             if kind == "prep" and self._is_preposition(at, value, before):
@@ -217,7 +202,8 @@ class ItemReader(ItemWords):
             inner, more = stop, list(roles)
             if "when" in roles or "until" in roles:
                 inner, more = self._inner_preposition(stop, roles)
-            noun = self.nouns.read(inner) or self._it(inner)
+            has_article = self.words[inner - 1] in WITH_ARTICLE
+            noun = self.nouns.read(inner, has_article) or self._it(inner)
             if noun is None:
                 continue
             behind = self._behind_clause(noun[1], roles)
@@ -232,7 +218,10 @@ class ItemReader(ItemWords):
                 more = ["past"]
             yield Item(ItemKind.REF, at, end, noun[0], tuple(more))
             if "between" in roles and (second := self._second(end)):
-                yield Item(ItemKind.REF, at, second, noun[0], ("between",))
+                first = noun[0]
+                if first.elliptic:  # "between the first and second door"
+                    first = replace(first, kind=second[0].kind, elliptic=False)
+                yield Item(ItemKind.REF, at, second[1], first, ("between",))
             return
 
     def _is_preposition(self, at: int, value: str, before: Sequence[Item]) -> bool:
@@ -261,7 +250,9 @@ class ItemReader(ItemWords):
                 here = found[1]
             half = here
             if side := self.nouns._plain_side(half):
-                roles = ("on",) if self.words[at] in ("on", "auf") else ()
+                named = self.nouns.find(half, "side")
+                sided = named is not None and side[1] > named[1]  # "the left side"
+                roles = ("on",) if self.words[at] in ("on", "auf") or sided else ()
                 yield Item(ItemKind.SIDE, at, side[1], side[0], roles)
         where = self.lexicon.find(self.words, at, "where")
         if where:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from semnav_env.commands.speech.ellipsis import in_full
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.moves import is_door
 from semnav_env.commands.speech.negations import (
@@ -15,12 +16,13 @@ from semnav_env.commands.speech.negations import (
     merged_items,
     without_negated,
 )
+from semnav_env.commands.speech.statements import merged_names, without_labels
 
 
 def rewritten(items: Sequence[Item]) -> list[Item]:
     """The items without those that others replace."""
-    found = _repaired(_without_first_no(list(items)))
-    found = _corrected(found)
+    found = _repaired(_without_first_no(in_full(items)))
+    found = _corrected(merged_names(without_labels(found)))
     found = without_negated(_without_breaks(found))
     return _with_antecedents(_without_too_far(found))
 
@@ -127,11 +129,19 @@ def _corrected(items: list[Item]) -> list[Item]:
     at = 0
     while at < len(items):
         if items[at].kind is ItemKind.NO:
+            before = cut_before(items, at)
+            if before and items[before - 1].kind is ItemKind.REF:
+                noun = items[before - 1].value
+                if noun.kind == "area" and at + 1 < len(items):  # no destination by itself
+                    items = [*items[: before - 1], *items[at + 1 :]]
+                    at = before - 1
+                    continue
             start = _next(items, at + 1)
             stop = end_of_clause(items, start)
             part = items[start:stop]
-            if len(part) == 1 and part[0].kind in (ItemKind.REF, ItemKind.SIDE, ItemKind.DISTANCE):
-                target = _target(items[:at], part[0])
+            if part and part[0].kind in (ItemKind.REF, ItemKind.SIDE, ItemKind.DISTANCE):
+                stop = start + 1 if len(part) > 1 else stop
+                target = _target(items[:at], part[0], beside=len(part) > 1)
                 if target is not None:
                     merged = merged_items(items[target], part[0])
                     items = [
@@ -151,9 +161,10 @@ def _next(items: Sequence[Item], at: int) -> int:
     return at
 
 
-def _target(before: Sequence[Item], by: Item) -> int | None:
-    """Which of the items before a correction it corrects."""
-    for index in range(len(before) - 1, -1, -1):
+def _target(before: Sequence[Item], by: Item, beside: bool) -> int | None:
+    """Which of the items before a correction it corrects; beside it, if a clause goes on."""
+    end = cut_before(before, len(before))
+    for index in range(end - 1, end - 2 if beside else -1, -1):
         if corrects(before[index], by):
             return index
     return None

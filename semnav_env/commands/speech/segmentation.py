@@ -98,14 +98,15 @@ class ClauseSegmentation:
         return is_only_noun(items) or straight or (bare and before.kind is not ItemKind.OUT)
 
     def _behind_joints(self, at: int) -> int:
-        while at < len(self.items) and self.items[at].kind in (
-            *JOINTS,
-            ItemKind.BUT,
-            ItemKind.COULD_YOU,
-            ItemKind.HERE,
-        ):
+        while at < len(self.items) and self._is_joint(at):
             at += 1
         return at
+
+    def _is_joint(self, at: int) -> bool:
+        """Whether an item says nothing at the beginning of a clause; "da hinfahren" is one."""
+        if self.items[at].kind is ItemKind.HERE:
+            return self.items[at + 1 : at + 2] == () or not _is_bare_go(self.items[at + 1])
+        return self.items[at].kind in (*JOINTS, ItemKind.BUT, ItemKind.COULD_YOU)
 
     def _priced(
         self, found: tuple[Readings, float, bool, bool], start: int, begin: int, stop: int
@@ -187,6 +188,10 @@ class ClauseSegmentation:
                 return None
             return on_premise(items[-1].value, inner[0]), inner[1]
         return read_clause(items)
+
+
+def _is_bare_go(item: Item) -> bool:
+    return item.kind is ItemKind.VERB and item.value == "go"
 
 
 def close(partings: Sequence[Parting]) -> Iterator[Parting]:

@@ -18,7 +18,6 @@ from semnav_env.commands.clauses import (
     GoToDoor,
     GoToRoom,
     Stop,
-    Turn,
 )
 from semnav_env.commands.references import (
     DoorReference,
@@ -40,6 +39,7 @@ from semnav_env.commands.speech.moves import (
     is_this_room,
     landmark,
 )
+from semnav_env.commands.speech.turning import read_turn
 
 
 def read_wait(frame: ClauseFrame) -> Readings | None:
@@ -68,8 +68,8 @@ def read_stop(frame: ClauseFrame) -> Readings | None:
     if frame.has(ItemKind.AROUND):
         return None
     if frame.sides:
-        if not frame.refs and "keep" in frame.verbs:
-            return ((Turn(frame.sides[0]),),)
+        if "keep" in frame.verbs and not any(is_door(item.value) for item in frame.refs):
+            return read_turn(_turned(frame))
         return _stop_on_side(frame)
     if not frame.refs and not frame.has(ItemKind.DISTANCE):
         if frame.has(ItemKind.IN):
@@ -80,6 +80,16 @@ def read_stop(frame: ClauseFrame) -> Readings | None:
             return ((Follow(END), Stop()),)
         return ((Stop(),),)
     return (_stopped(_stop_at(frame)),)
+
+
+def _turned(frame: ClauseFrame) -> ClauseFrame:
+    """Of "Halt dich rechts": the frame with a turn for what keeps to a side."""
+    return ClauseFrame(
+        tuple(
+            replace(item, value="turn") if item.kind is ItemKind.VERB else item
+            for item in frame.items
+        )
+    )
 
 
 def _stopped(steps: Steps) -> Steps:

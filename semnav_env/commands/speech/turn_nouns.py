@@ -67,6 +67,7 @@ def read_turn_into(frame: ClauseFrame) -> Readings | None:
         if item.start > found[0].start
         for s in moves(item.value, frame.roles(item), frozenset({"go"}))
     )
+    is_first = noun.ordinal in (None, 1)
     plain = noun.ordinal is None and not noun.definite and "be" not in frame.verbs
     place = (
         landmark(others[0].value)
@@ -76,7 +77,7 @@ def read_turn_into(frame: ClauseFrame) -> Readings | None:
         and others[0].value.kind not in ("it", "hall", "start", "way back")
         else None
     )
-    if plain and isinstance(place, PlaceReference):
+    if is_first and kind is Place.TURNING and isinstance(place, PlaceReference):
         return tuple((*contexts, Turn(way, place)) for way in ways)
     follows = (Follow(),) if "follow" in frame.verbs else ()
     return tuple((*first, Turn(way) if plain else Turn(way, at), *follows, *later) for way in ways)

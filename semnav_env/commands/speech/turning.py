@@ -88,15 +88,31 @@ def read_turn(frame: ClauseFrame) -> Readings | None:
     way = next(iter(frame.sides))
     contexts, rest = contexts_of(frame)
     doors = [item for item in rest if is_door(item.value) and _takes_side(item, frame)]
-    if "be" in frame.verbs and not any(is_door(item.value) for item in frame.refs) and not rest:
+    if frame.verbs == {"be"} and not rest and not any(is_door(i.value) for i in frame.refs):
         door = DoorReference(1, Side(way.value))
         return (*contexts, GoToDoor(door)), (*contexts, GoToDoor(door, Approach.TO))
     if doors:
         return _door_on_side(frame, contexts, rest, way)
+    if "be" in frame.verbs and len(rest) == 1 and rest[0].value.kind == "named":
+        return ((*contexts, *moves(rest[0].value, frame.roles(rest[0]), frame.verbs)),)
     if frame.goes_in:
         others = tuple(step for item in rest for step in before_turn(item, frame))
         return ((*contexts, *others, GoToDoor(DoorReference(1, Side(way.value)))),)
     return _turn_among(frame, contexts, rest, way)
+
+
+def read_sideless_turn(frame: ClauseFrame) -> Readings:
+    """Of "Turn at the corner": to the left or to the right?"""
+    if len(frame.refs) > 1 or any("at" not in frame.roles(item) for item in frame.refs):
+        raise NoMeaningError("turn where")
+    side = (
+        Item(ItemKind.SIDE, frame.items[-1].stop, frame.items[-1].stop, each) for each in _SIDES
+    )
+    found = (read_turn(ClauseFrame((*frame.items, each))) for each in side)
+    return tuple(steps for readings in found for steps in readings or ())
+
+
+_SIDES = (Side.LEFT, Side.RIGHT)
 
 
 def _turns(frame: ClauseFrame) -> Readings | None:
@@ -172,11 +188,10 @@ def _turn_among(frame: ClauseFrame, contexts: Steps, rest: list[Item], way: Turn
             turn, more = _turn_hall(noun, roles, turn)
             steps += more
         elif noun.kind == "named":
-            steps += (
-                (Follow(landmark(noun)),)
-                if roles & {"at", "near"} and not roles & {"into"}
-                else moves(noun, roles, frame.verbs - {"turn"})
-            )
+            if roles & {"at", "near"} and not roles & {"into"}:
+                before.append(Follow(landmark(noun)))
+            else:
+                steps += moves(noun, roles, frame.verbs - {"turn"})
         elif is_door(noun) and (roles & {"at", "near"} or not roles):
             door = landmark(noun)
             assert isinstance(door, DoorReference)
@@ -202,6 +217,10 @@ def _turn_among(frame: ClauseFrame, contexts: Steps, rest: list[Item], way: Turn
         return ((turn, turn),)
     if len(frame.items) == 1 and frame.items[0].roles:
         return ((SideOfMentionedDoor(Side(way.value)),),)
+    if frame.of(ItemKind.SIDE)[0].roles and not frame.verbs & {"turn", "make", "take", "go"}:
+        raise NoMeaningError("a side is no turn")  # "the second door, on the left side"
+    if frame.of(ItemKind.SIDE)[0].roles and "ab" in {i.value for i in frame.of(ItemKind.PARTICLE)}:
+        raise NoMeaningError("along a side")
     if len(frame.items) == 1:
         return (turn,), (SideOfMentionedDoor(Side(way.value)),)
     if at_door is not None:

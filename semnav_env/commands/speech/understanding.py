@@ -15,6 +15,7 @@ from semnav_env.commands.speech.lexicon import SpeechLexicon
 from semnav_env.commands.speech.reader import ItemReader
 from semnav_env.commands.speech.rewriting import rewritten
 from semnav_env.commands.speech.segmentation import MAX_PARTS, ClauseSegmentation, Parting, close
+from semnav_env.commands.speech.unread import without_unread
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,11 @@ class Understanding:
 
 
 def understand(
-    words: Sequence[str], lexicon: SpeechLexicon, names: Mapping[tuple[str, ...], str]
+    words: Sequence[str],
+    lexicon: SpeechLexicon,
+    names: Mapping[tuple[str, ...], str],
+    *,
+    leave_out: bool = False,
 ) -> Understanding:
     """What the words of a text mean.
 
@@ -47,8 +52,22 @@ def understand(
         words: of a normalised text.
         lexicon: of its language.
         names: the words of each room's name, and the name.
+        leave_out: leave out unknown words where they can say nothing of the way.
     """
-    found = [_understand(words, lexicon, names, exact, waits) for exact, waits in _variants(words)]
+    found = []
+    for exact, waits in _variants(words):
+        reader = ItemReader(words, lexicon, names, exact, waits)
+        first = reader.items()
+        texts: list[list[Item] | None] = [first]
+        if reader.nouns.memory.went_on and not any(item.kind in _BACK for item in first):
+            again = ItemReader(words, lexicon, names, exact, waits)
+            again.nouns.memory.counts_on = True
+            texts.append(again.items())
+        if leave_out:
+            texts = [without_unread(items or [], words, lexicon) for items in texts]
+        found += [_understand(words, items) for items in texts if items is not None]
+    if not found:
+        return Understanding((), 0.0, ())
     right = [each for each in found if each.commands]
     if not right:
         return max(found, key=lambda each: each.reached)
@@ -56,6 +75,10 @@ def understand(
     near = [each for each in right if each.cost <= best.cost + 0.4]
     commands = dict.fromkeys(command for each in [best, *near] for command in each.commands)
     return Understanding(tuple(commands), best.cost, best.items)
+
+
+_BACK = (ItemKind.NO, ItemKind.NOT)
+"""Items that take something back, so that nothing is counted on."""
 
 
 def _variants(words: Sequence[str]) -> list[tuple[bool, bool]]:
@@ -69,15 +92,7 @@ def _variants(words: Sequence[str]) -> list[tuple[bool, bool]]:
     return list(product(exact, waits))
 
 
-def _understand(
-    words: Sequence[str],
-    lexicon: SpeechLexicon,
-    names: Mapping[tuple[str, ...], str],
-    exact: bool,
-    waits: bool,
-) -> Understanding:
-    reader = ItemReader(words, lexicon, names, exact, waits)
-    found = reader.items()
+def _understand(words: Sequence[str], found: Sequence[Item]) -> Understanding:
     asks = bool(found) and found[-1].value == "?"
     if asks and not any(item.kind is ItemKind.COULD_YOU for item in found):
         return Understanding(

@@ -1,0 +1,115 @@
+"""Kept results of evaluations: what a leaderboard needs to know of each episode."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import zlib
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from semnav_env.features.reading import decompressed, read_bytes
+from semnav_env.features.validation import clipped, shown
+from semnav_env.features.writing import write_file
+
+MAX_BYTES = 64_000_000
+"""Size of the largest file of results that is read, bytes, also when decompressed."""
+
+
+@dataclass(frozen=True, order=True)
+class Attempt:
+    """An agent's drive of one episode.
+
+    Attributes:
+        agent: name of the agent.
+        training_seed: seed with which it was trained; -1 if it was not.
+        split: split, suite or file of the episode.
+        robot: name of the body.
+        episode: id of the episode, or the command and its seed.
+        clauses: number of clauses of the command.
+        success: whether the command was carried out.
+        contact_free: whether nothing was touched.
+        spl: success weighted by path length.
+    """
+
+    agent: str
+    training_seed: int
+    split: str
+    robot: str
+    episode: str
+    clauses: int
+    success: bool
+    contact_free: bool
+    spl: float
+
+
+def read_attempts(path: str | Path) -> list[Attempt]:
+    """The attempts of a file that `semnav evaluate --out` or `write_attempts` wrote.
+
+    Args:
+        path: of JSON Lines; compressed if its name ends in .gz.
+
+    Raises:
+        ValueError: what is wrong first, with the number of the line.
+        OSError: it cannot be read.
+    """
+    where = Path(path)
+    raw = read_bytes(where, MAX_BYTES)
+    try:
+        text = (decompressed(raw, MAX_BYTES) if where.suffix == ".gz" else raw).decode()
+    except (EOFError, zlib.error):
+        raise ValueError(f"{where}: is not gzip-compressed, or is cut off") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"{where}: is not text in UTF-8") from None
+    attempts = [_attempt(line, f"{where}:{n}") for n, line in enumerate(text.splitlines(), 1)]
+    if not attempts:
+        raise ValueError(f"{where}: holds no results; `semnav evaluate --out` writes them")
+    return attempts
+
+
+def write_attempts(attempts: Iterable[Attempt], path: Path) -> None:
+    """Write attempts as compressed JSON Lines; the same ones give the same text."""
+    rows = (asdict(attempt) | {"spl": round(attempt.spl, 4)} for attempt in attempts)
+    text = "".join(json.dumps(row, separators=(",", ":")) + "\n" for row in rows)
+    write_file(path, gzip.compress(text.encode(), mtime=0))
+
+
+def _attempt(line: str, place: str) -> Attempt:
+    try:
+        row = json.loads(line)
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{place}: is no JSON: {clipped(str(error))}") from None
+    if not isinstance(row, dict):
+        raise ValueError(f"{place}: is a {type(row).__name__}; a result is an object")
+    row = _completed(row)
+    values: dict[str, Any] = {}
+    for each in fields(Attempt):
+        kind, value = _KINDS[str(each.type)], row.get(each.name)
+        if type(value) not in kind:
+            right = " or ".join(one.__name__ for one in kind)
+            hint = "; evaluate anew with --out" if each.name not in row else ""
+            raise ValueError(f"{place}: {each.name} is {shown(value)}, not of type {right}{hint}")
+        values[each.name] = value
+    return Attempt(**values)
+
+
+def _completed(row: dict[str, Any]) -> dict[str, Any]:
+    """A row with what follows from the rest: the number of clauses, and the id of a trial."""
+    verdicts = row.get("verdicts")
+    if "clauses" in row and isinstance(verdicts, list):  # there it is the share that was done
+        row = row | {"clauses": len(verdicts)}
+    if "episode" not in row and "command" in row:
+        row = row | {
+            "episode": f"{row.get('floor_plan')}: {row['command']}, seed {row.get('seed')}"
+        }
+    return row
+
+
+_KINDS: dict[str, tuple[type, ...]] = {
+    "str": (str,),
+    "int": (int,),
+    "bool": (bool,),
+    "float": (float, int),
+}

@@ -1,0 +1,1 @@
+"""Policies that hear the command: a learned grounding, driven by the planner."""

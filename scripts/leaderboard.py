@@ -1,0 +1,101 @@
+"""`semnav leaderboard`: the table of agents, from kept results."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from tyro.conf import Positional
+
+from semnav_env.agents.evaluation.attempts import Attempt, read_attempts, write_attempts
+from semnav_env.agents.evaluation.leaderboard import Estimate, Standing, standings
+
+HEADINGS = (
+    *("split", "robot", "agent", "n", "trainings"),
+    *("success", "no contact", "SPL", "worst 5 %", "IQM"),
+)
+"""Headings of the table."""
+
+KEPT_SUFFIX = ".jsonl.gz"
+"""Ending of the names of kept results."""
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Make a table of agents from files that `semnav evaluate --out` wrote.
+
+    Each file is of one evaluation: one agent, one split, one body. Trainings of one preset with
+    different seeds are one row. In brackets are intervals of 95 %.
+
+    Attributes:
+        files: results, JSON Lines, or such compressed by gzip.
+        markdown: print the table as Markdown.
+        json: print it as JSON.
+        keep: folder into which what the table needs is written, a small file for each evaluation.
+    """
+
+    files: Positional[tuple[Path, ...]]
+    markdown: bool = False
+    json: bool = False
+    keep: Path | None = None
+
+    def run(self) -> int:
+        """Read, count and print."""
+        if not self.files:
+            raise ValueError(
+                "give one file of results or more; `semnav evaluate --out` writes them"
+            )
+        attempts = [attempt for file in self.files for attempt in read_attempts(file)]
+        rows = standings(attempts)
+        if self.keep is not None:
+            _keep(attempts, self.keep)
+        if self.json:
+            print(json.dumps([asdict(row) for row in rows]))
+        elif self.markdown:
+            print(markdown(rows), end="")
+        else:
+            print(plain(rows), end="")
+        return 0
+
+
+def markdown(rows: list[Standing]) -> str:
+    """The table as Markdown."""
+    lines = [HEADINGS, ["---"] * len(HEADINGS), *(_cells(row, "`") for row in rows)]
+    return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
+
+
+def plain(rows: list[Standing]) -> str:
+    """The table as text, in columns."""
+    lines = [HEADINGS, *map(_cells, rows)]
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    padded = (map(str.ljust, line, widths) for line in lines)
+    return "".join("  ".join(cells).rstrip() + "\n" for cells in padded)
+
+
+def _cells(row: Standing, quote: str = "") -> tuple[str, ...]:
+    return (
+        f"{quote}{row.split}{quote}",
+        row.robot,
+        f"{quote}{row.agent}{quote}",
+        str(row.episodes),
+        str(row.seeds),
+        *(map(_written, (row.success, row.contact_free, row.spl))),
+        f"{row.worst:.2f}",
+        "" if row.interquartile is None else f"{row.interquartile:.3f}",
+    )
+
+
+def _written(estimate: Estimate) -> str:
+    return f"{estimate.mean:.3f} ({estimate.low:.2f} to {estimate.high:.2f})"
+
+
+def _keep(attempts: list[Attempt], folder: Path) -> None:
+    """Write the attempts of each evaluation to a file of its own, which says by its name whose."""
+    files: dict[str, list[Attempt]] = {}
+    for each in sorted(attempts):
+        seed = "" if each.training_seed < 0 else f"-{each.training_seed}"
+        name = f"{each.agent}{seed}.{each.split}.{each.robot}".replace("/", "_").replace(":", "_")
+        files.setdefault(name, []).append(each)
+    for name, group in files.items():
+        write_attempts(group, folder / f"{name}{KEPT_SUFFIX}")

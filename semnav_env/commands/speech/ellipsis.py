@@ -1,0 +1,155 @@
+"""Says in full what a speaker leaves out: a verb, a side, from where the next one is counted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
+
+
+def in_full(items: Sequence[Item]) -> list[Item]:
+    """The items with what was left out."""
+    found = _keeping_sides(_without_broken_commas(items))
+    found = _without_repetition(_with_one_way_out(found))
+    found = _with_verbs(found)
+    found = _with_sides(found)
+    return _counted_from_passed(_without_counting(found))
+
+
+def _without_broken_commas(items: Sequence[Item]) -> list[Item]:
+    """Of "Go, uh, two doors down": nothing is parted after a bare "go"."""
+    found: list[Item] = []
+    for item in items:
+        bare = bool(found) and found[-1].kind is ItemKind.VERB and found[-1].value == "go"
+        if item.value == "," and bare and (len(found) == 1 or found[-2].kind in _PARTS):
+            continue
+        found.append(item)
+    return found
+
+
+def _keeping_sides(items: Sequence[Item]) -> list[Item]:
+    """Of "Rechts halten": a verb that stops or keeps to a side turns behind a side."""
+    found: list[Item] = []
+    for item in items:
+        keeps = item.kind is ItemKind.VERB and item.value == "stop keep"
+        sided = bool(found) and found[-1].kind is ItemKind.SIDE
+        found.append(replace(item, value="turn") if keeps and sided else item)
+    return found
+
+
+def _with_one_way_out(items: Sequence[Item]) -> list[Item]:
+    """Of "Get out of here, out of this room": one goes out once."""
+    found: list[Item] = []
+    segment: list[Item] = []
+    left = False
+    for item in [*items, None]:
+        if item is not None and item.kind is not ItemKind.SIGN:
+            segment.append(item)
+            continue
+        again = left and bool(segment) and all(map(_only_leads_out, segment))
+        left = any(each.kind is ItemKind.OUT or each.value in _LEAVING for each in segment)
+        found += [] if again else segment
+        found += [] if item is None else [item]
+        segment = []
+    return found
+
+
+_LEAVING = ("leave", "exit")
+
+
+def _only_leads_out(item: Item) -> bool:
+    noun = _noun(item)
+    hall = noun is not None and noun.kind == "hall" and bool(set(item.roles) & {"to", "into"})
+    return item.kind is ItemKind.OUT or hall or (noun is not None and "out" in item.roles)
+
+
+def _without_repetition(items: Sequence[Item]) -> list[Item]:
+    """Of "To the third door, yeah, the third": the noun is said again."""
+    found: list[Item] = []
+    for item in items:
+        before = found[-1] if found else None
+        noun = _noun(item)
+        again = noun is not None and noun.elliptic and not item.roles and before is not None
+        if again and before is not None and noun is not None:
+            same = _noun(before)
+            if same is not None and same.ordinal == noun.ordinal and same.ordinal is not None:
+                continue
+        found.append(item)
+    return found
+
+
+_PARTS = (*JOINTS, ItemKind.BUT)
+
+
+def _with_verbs(items: Sequence[Item]) -> list[Item]:
+    """Of "Pass one door on the right, then one on the left": passed, too."""
+    found: list[Item] = []
+    passes = False
+    for index, item in enumerate(items):
+        if item.kind is ItemKind.VERB:
+            passes = item.value == "pass"
+        alone = index > 0 and items[index - 1].kind in _PARTS
+        ends = index + 1 == len(items) or items[index + 1].kind in _PARTS
+        noun = _noun(item)
+        gapped = passes and alone and ends and noun is not None and not item.roles
+        indefinite = noun is not None and (not noun.definite or noun.counted)
+        found.append(replace(item, roles=("past",)) if gapped and indefinite else item)
+    return found
+
+
+def _with_sides(items: Sequence[Item]) -> list[Item]:
+    """Of "On the left there are three doors, take the second": on the left."""
+    found: list[Item] = []
+    side = None
+    for index, item in enumerate(items):
+        noun = _noun(item)
+        beside = [each for each in items[max(0, index - 2) : index] if each.kind is ItemKind.SIDE]
+        stated = any(
+            each.kind is ItemKind.VERB and each.value == "be"
+            for each in items[max(0, index - 2) : index]
+        )
+        if noun is not None and noun.counted and stated and noun.side is None and beside:
+            side = beside[-1].value
+        elif noun is not None and side is not None and noun.elliptic and noun.side is None:
+            item = replace(item, value=replace(noun, side=side))
+        found.append(item)
+    return found
+
+
+def _without_counting(items: Sequence[Item]) -> list[Item]:
+    """Of "Count four doors and take the fourth": counting is no way to go."""
+    for index, item in enumerate(items):
+        noun = _noun(item)
+        counts = index > 0 and items[index - 1].kind is ItemKind.VERB
+        if noun is None or not noun.counted or not counts or items[index - 1].value != "count":
+            continue
+        later = next((n for n in map(_noun, items[index + 1 :]) if n is not None), None)
+        if later is not None and later.ordinal == noun.ordinal:
+            return [*items[: index - 1], *items[index + 1 :]]
+    return list(items)
+
+
+def _counted_from_passed(items: Sequence[Item]) -> list[Item]:
+    """Of "Past the door, and then the one after it": counted from behind the door."""
+    found: list[Item] = []
+    passed: Noun | None = None
+    verb = ""
+    for item in items:
+        noun = _noun(item)
+        if item.kind is ItemKind.VERB:
+            verb = item.value
+        if noun is not None and noun.kind not in ("hall", "it"):
+            same = passed is not None and passed.kind == noun.kind
+            if noun.relative and same:
+                noun = replace(noun, ordinal=1, relative=False)
+                item = replace(item, value=noun)
+            goes_by = verb == "pass" and not set(item.roles) & {"to", "into", "at"}
+            past = set(item.roles) & {"past"} and "at" not in item.roles
+            passed = noun if past or goes_by else None
+        found.append(item)
+    return found
+
+
+def _noun(item: Item) -> Noun | None:
+    return item.value if item.kind is ItemKind.REF and isinstance(item.value, Noun) else None

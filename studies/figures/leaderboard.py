@@ -1,0 +1,30 @@
+"""Writes the table of docs/leaderboard.md from the kept results in docs/results."""
+
+from __future__ import annotations
+
+import re
+
+from semnav_env.agents.evaluation.attempts import read_attempts
+from semnav_env.agents.evaluation.leaderboard import standings
+from semnav_env.scripts.leaderboard import KEPT_SUFFIX, markdown
+from studies.figures import IMAGES
+
+PAGE = IMAGES.parent / "leaderboard.md"
+
+RESULTS = IMAGES.parent / "results"
+"""Folder of the kept results: one file for each agent, split and body."""
+
+TABLE = re.compile(r"^\| split .*\n(?:\|.*\n)*", re.MULTILINE)
+"""The table in the page."""
+
+
+def main() -> None:
+    """Write the table."""
+    PAGE.write_text(page(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def page(text: str) -> str:
+    """The text of the page with the table as it follows from the kept results."""
+    files = sorted(RESULTS.glob(f"*{KEPT_SUFFIX}"))
+    rows = standings(attempt for file in files for attempt in read_attempts(file))
+    return TABLE.sub(lambda _: markdown(rows), text, count=1)

@@ -1,0 +1,32 @@
+"""The study of how robust the speech parser is."""
+
+import numpy as np
+
+from semnav_env.commands.corpora import ParseOutcome, development_corpora, load_sentences
+from studies.speech.robustness import (
+    changed_commands,
+    outcomes,
+    slowest_parse,
+    understood,
+    with_fillers,
+    without_punctuation,
+)
+
+
+def test_fillers_and_missing_punctuation_change_little() -> None:
+    corpus = load_sentences(development_corpora()[2])
+    right = understood(corpus)[:40]
+    for disturbed, least in (
+        (with_fillers(right, np.random.default_rng(0)), 0.95),
+        (without_punctuation(right), 0.9),
+    ):
+        found = outcomes(corpus, disturbed)
+        assert found[ParseOutcome.UNDERSTOOD] >= least * sum(found.values())
+
+
+def test_canonical_words_keep_their_command() -> None:
+    assert not list(changed_commands(20, np.random.default_rng(0)))
+
+
+def test_long_texts_are_read_in_time() -> None:
+    assert slowest_parse() < 0.5
