@@ -56,8 +56,10 @@ class RunnerVectorEnv(VectorWrapper):
         if isinstance(seed, int):
             seed = np.random.SeedSequence(seed).generate_state(self.num_envs).tolist()
         observations, _ = self._envs.reset(seed=seed, options=options)
-        self._over[:] = True
-        return self._compact(observations), {}
+        self._over = np.ones(self.num_envs, bool)
+        seen = self._compact(observations)
+        self._over = np.zeros(self.num_envs, bool)
+        return seen, {}
 
     def step(self, actions: Array) -> tuple[Array, Array, Array, Array, dict[str, Any]]:
         """Drive all robots for one decision."""
