@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
@@ -18,12 +18,14 @@ from semnav_env.agents.hearing.card import CARD_FILE
 from semnav_env.agents.hearing.presets import HEARING_PRESETS
 from semnav_env.agents.learning.files import AGENT_FILE
 from semnav_env.agents.learning.presets import Preset, preset
-from semnav_env.agents.learning.session import TrainingLimits, train
+from semnav_env.agents.learning.rllib.options import RayOptions
+from semnav_env.agents.learning.rllib.start import start_training
+from semnav_env.agents.learning.session import Training, TrainingLimits, train
 from semnav_env.scripts.dispatch import INTERRUPTED
 from semnav_env.scripts.train_hearing import train_hearing
 
 if TYPE_CHECKING:
-    from semnav_env.agents.learning.training import Trainer, TrainingReport
+    from semnav_env.agents.learning.training import TrainingReport
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,8 @@ class Arguments:
         minutes: time limit of this run.
         seed: of weights, trials, noise and exploration; a resumed training keeps its own.
         resume: continue the training in the folder.
+        engine: local for stable-baselines3 in this process, ray for RLlib (extras `rl` and `ray`).
+        ray: where and in how many processes robots are driven with --engine ray.
     """
 
     preset: Positional[str] = "quick"
@@ -49,6 +53,8 @@ class Arguments:
     minutes: float | None = None
     seed: int = 0
     resume: bool = False
+    engine: Literal["local", "ray"] = "local"
+    ray: RayOptions = RayOptions()
 
     def run(self) -> int:
         """Train, save and say how it went."""
@@ -80,7 +86,9 @@ class Arguments:
                 f"{folder} holds a trained agent; go on with it by --resume, or give another --out"
             )
 
-    def _trainer(self, wanted: Preset, folder: Path) -> Trainer:
+    def _trainer(self, wanted: Preset, folder: Path) -> Training:
+        if self.engine == "ray":
+            return start_training(wanted, folder, self.seed, self.ray, self.resume)
         try:
             from semnav_env.agents.learning.training import Trainer
         except ModuleNotFoundError as error:
@@ -91,7 +99,7 @@ class Arguments:
 
 
 def _train(
-    trainer: Trainer, limits: TrainingLimits, stop: list[int], bar: Progress
+    trainer: Training, limits: TrainingLimits, stop: list[int], bar: Progress
 ) -> TrainingReport | None:
     """Learn, show how far it is, and return the last report."""
     task = bar.add_task("learning", total=1.0)

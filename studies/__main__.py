@@ -17,6 +17,7 @@ STUDIES = CommandTable(
         "matching": ("studies.matching.command", "how exactly scans are matched"),
         "offices": ("studies.offices", "check generated offices, and time them"),
         "places": ("studies.places.command", "corridors told from other places"),
+        "ray_cost": ("studies.ray_cost", "what a training on Ray costs"),
         "search": ("studies.search.command", "houses searched with their plan and without"),
         "segmentation": ("studies.segmentation.command", "how walls are cut into pieces"),
         "speech": ("studies.speech.command", "the speech parser, with fillers and without commas"),

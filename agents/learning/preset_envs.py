@@ -84,28 +84,31 @@ def preset_envs(preset: Preset, **options: Any) -> VecEnv:
 
 
 def _envs_of_body(preset: Preset, robot: RobotSpec, options: dict[str, Any]) -> CompactVecEnv:
-    envs = as_sb3_vec_env(
-        preset.envs,
-        robot=robot,
-        observation="all",
-        rewards=preset.rewards,
-        max_seconds=preset.max_seconds,
-        repeat=preset.repeat,
-        each=_where(preset, robot),
-        **options,
-    )
+    envs = as_sb3_vec_env(preset.envs, **options_of_body(preset, robot, preset.envs), **options)
     return CompactVecEnv(envs)
 
 
-def _where(preset: Preset, robot: RobotSpec) -> list[dict[str, Any]]:
+def options_of_body(preset: Preset, robot: RobotSpec, count: int) -> dict[str, Any]:
+    """The arguments of `SemNavVectorEnv` for some robots of a preset, all with one body."""
+    return {
+        "robot": robot,
+        "observation": "all",
+        "rewards": preset.rewards,
+        "max_seconds": preset.max_seconds,
+        "repeat": preset.repeat,
+        "each": _where(preset, robot, count),
+    }
+
+
+def _where(preset: Preset, robot: RobotSpec, count: int) -> list[dict[str, Any]]:
     """The floor plan and the task or the episodes of each environment."""
     if preset.episodes:
         return [
             {"floor_plan": each[0].floor_plan, "episodes": each}
-            for each in dealt(load_episodes(preset.episodes), preset.envs)
+            for each in dealt(load_episodes(preset.episodes), count)
         ]
     task = TrialTask(preset.trials, robot) if preset.trials else None
-    return [{"floor_plan": preset.floor_plan, "task": task}] * preset.envs
+    return [{"floor_plan": preset.floor_plan, "task": task}] * count
 
 
 def dealt(episodes: Sequence[Episode], count: int) -> list[list[Episode]]:

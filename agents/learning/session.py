@@ -5,12 +5,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple, Protocol
 
 from semnav_env.features.checked_fields import Bounds, check_fields
 
 if TYPE_CHECKING:  # stable-baselines3 is optional
-    from semnav_env.agents.learning.training import Trainer, TrainingReport
+    from semnav_env.agents.learning.training import TrainingReport
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,36 @@ class TrainingLimits:
         return max(by_steps, seconds / (60 * self.minutes) if self.minutes else 0.0)
 
 
+class Training(Protocol):
+    """A training, whatever it runs on."""
+
+    @property
+    def steps(self) -> int:
+        """Number of decisions so far."""
+        ...
+
+    @property
+    def is_resumable(self) -> bool:
+        """Whether a checkpoint can be made now."""
+        ...
+
+    def prepare(self) -> Iterator[float]:
+        """Do what comes before the first rollout; yields the share that is done."""
+        ...
+
+    def advance(self) -> TrainingReport:
+        """Drive one rollout and learn from it."""
+        ...
+
+    def save(self) -> None:
+        """Write the files of the agent, each in one move."""
+        ...
+
+    def close(self) -> None:
+        """Finish the curves and close the environments."""
+        ...
+
+
 class SessionProgress(NamedTuple):
     """The state of a session after an update.
 
@@ -55,7 +85,7 @@ class SessionProgress(NamedTuple):
 
 
 def train(
-    trainer: Trainer, limits: TrainingLimits, stopped: Callable[[], bool]
+    trainer: Training, limits: TrainingLimits, stopped: Callable[[], bool]
 ) -> Iterator[SessionProgress]:
     """Learn until a limit is reached or `stopped` says so.
 

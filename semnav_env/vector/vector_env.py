@@ -17,6 +17,7 @@ from semnav_env.vector.arguments import joined, made, naming_robot, one_each, on
 from semnav_env.vector.held_action import HeldAction
 from semnav_env.vector.infos import Infos, info_of, step_infos, without
 from semnav_env.vector.judgements import Mask, judge
+from semnav_env.vector.member import TeamMember
 from semnav_env.vector.observations import TeamObservations, team_observations
 from semnav_env.vector.rewards import team_rewards
 from semnav_env.vector.team import Team
@@ -64,6 +65,9 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
         **options: Any,
     ) -> None:
+        # Gymnasium 1.2 also closes what was never made.
+        self.envs: list[TeamMember] = []
+        self._team: Team | None = None
         check_count("num_envs", num_envs)
         check_count("threads", 1 if threads is None else threads)
         check_count("repeat", repeat)
@@ -82,7 +86,6 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self._rewards = team_rewards(self.envs)
         self._over = np.zeros(num_envs, dtype=bool)
         self._verdicts = np.full(num_envs, None, dtype=object)
-        self._team: Team | None = None
         self._refused = False
         self._observations: TeamObservations
 

@@ -52,6 +52,7 @@ ABOUT = {
     "agents/evaluation": "suites of episodes, driven and judged",
     "agents/hearing": "agents that hear the command: a learned grounding for the planner",
     "agents/learning": "training and its files",
+    "agents/learning/rllib": "training on more than one machine, with RLlib on Ray",
     "agents/planning": "the planner of the scripted agent and the oracle",
     "agents/searching": "searching a house: where to look from, and whom to go to",
     "scripts": "the `semnav` command",
