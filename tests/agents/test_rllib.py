@@ -19,6 +19,7 @@ if "ray" not in sys.modules:
 ray = pytest.importorskip("ray", reason='needs the extra "ray", in an environment of its own')
 
 from semnav_env.agents.learned import LearnedAgent  # noqa: E402
+from semnav_env.agents.learning.compact import COMPACT_SIZE  # noqa: E402
 from semnav_env.agents.learning.files import load_tensors  # noqa: E402
 from semnav_env.agents.learning.presets import PRESETS, PPOSettings  # noqa: E402
 from semnav_env.agents.learning.rllib.options import RayOptions  # noqa: E402
@@ -153,7 +154,7 @@ def test_the_agent_acts_as_rllib_does(trainer, folder):
     trainer.advance()
     trainer.save()
     policy = LearnedAgent.load(folder).policy
-    seen = np.random.default_rng(0).uniform(-1, 1, (20, 70)).astype(np.float32)
+    seen = np.random.default_rng(0).uniform(-1, 1, (20, COMPACT_SIZE)).astype(np.float32)
     import torch
 
     module = trainer.algorithm.get_module()
