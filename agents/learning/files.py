@@ -14,13 +14,17 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
 from semnav_env.features.reading import read_bytes
 from semnav_env.features.validation import clipped
 from semnav_env.features.writing import replacing, write_file
+
+if TYPE_CHECKING:
+    from semnav_env.agents.learning.policy import Policy
+    from semnav_env.agents.learning.presets import Preset
 
 Array = NDArray[Any]
 
@@ -78,6 +82,22 @@ class AgentDescription:
         except (ValueError, RecursionError) as error:
             raise ValueError(f"{path} is not JSON: {clipped(str(error))}") from None
         return cls(**_checked(path, document))
+
+
+def save_agent(folder: Path, policy: Policy, preset: Preset, seed: int, steps: int) -> None:
+    """Write what an agent needs to run, each file in one move.
+
+    Args:
+        folder: of the agent.
+        policy: the network.
+        preset: that was trained.
+        seed: of the training.
+        steps: number of decisions so far.
+    """
+    save_tensors(folder / POLICY_FILE, policy.tensors())
+    widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
+    told = AgentDescription(preset.robots, preset.repeat, widths, preset.plain(), seed, steps)
+    told.write(folder)
 
 
 def _checked(path: Path, document: Any) -> dict[str, Any]:

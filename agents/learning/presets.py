@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated
+import json
+from dataclasses import asdict, dataclass
+from typing import Annotated, Any
 
 from semnav_env.agents.evaluation.suites import Trial, suite
 from semnav_env.features.checked_fields import Bounds, Count, Share, check_fields
@@ -87,6 +88,10 @@ class Preset:
     def action_size(self) -> int:
         """Number of values in an action of the policy: as many as the largest of its bodies has."""
         return max(robot_spec(robot).action_size for robot in self.robots)
+
+    def plain(self) -> dict[str, Any]:
+        """As the plain data of a JSON file."""
+        return dict(json.loads(json.dumps(asdict(self))))
 
 
 PRESETS = {

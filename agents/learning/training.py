@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +16,11 @@ from stable_baselines3.common.vec_env import VecMonitor
 
 from semnav_env.agents.learning.cloning import clone
 from semnav_env.agents.learning.files import (
-    POLICY_FILE,
     TRAINING_FILE,
     AgentDescription,
     load_checkpoint,
+    save_agent,
     save_checkpoint,
-    save_tensors,
 )
 from semnav_env.agents.learning.imitation import demonstrations, load_demonstrations
 from semnav_env.agents.learning.policy import Policy
@@ -139,16 +137,7 @@ class Trainer:
         policy = _actor(self.model)
         if self.is_resumable:
             save_checkpoint(self.folder, write_state(self.model))
-        save_tensors(self.folder / POLICY_FILE, policy.tensors())
-        widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
-        AgentDescription(
-            robots=self.preset.robots,
-            repeat=self.preset.repeat,
-            widths=widths,
-            preset=plain(self.preset),
-            seed=self.seed,
-            steps=self.steps,
-        ).write(self.folder)
+        save_agent(self.folder, policy, self.preset, self.seed, self.steps)
 
     @property
     def steps(self) -> int:
@@ -175,11 +164,6 @@ class Trainer:
         """Finish the curves and close the environments."""
         self.model.logger.close()
         self._envs.close()
-
-
-def plain(preset: Preset) -> dict[str, object]:
-    """The preset as the plain data of a JSON file."""
-    return dict(json.loads(json.dumps(asdict(preset))))
 
 
 def _model(preset: Preset, envs: VecMonitor, seed: int) -> PPO:
@@ -222,7 +206,7 @@ def _actor(model: PPO) -> Policy:
 
 
 def _check_same(preset: Preset, description: AgentDescription, folder: Path) -> None:
-    now, then = plain(preset), description.preset
+    now, then = preset.plain(), description.preset
     for name, value in now.items():
         if then.get(name) != value:
             raise ValueError(

@@ -3,10 +3,8 @@
 import errno
 import os
 import pickle
-import signal
 import subprocess
 import sys
-import threading
 import time
 from dataclasses import replace
 
@@ -22,56 +20,23 @@ from semnav_env.agents.learning.files import (  # noqa: E402
     AGENT_FILE,
     POLICY_FILE,
     TRAINING_FILE,
-    AgentDescription,
     load_tensors,
     save_tensors,
 )
 from semnav_env.agents.learning.imitation import load_demonstrations  # noqa: E402
-from semnav_env.agents.learning.presets import PRESETS, PPOSettings  # noqa: E402
+from semnav_env.agents.learning.presets import PRESETS  # noqa: E402
 from semnav_env.agents.learning.training import Trainer  # noqa: E402
 from semnav_env.metrics import spl  # noqa: E402
-from semnav_env.scripts import main as cli  # noqa: E402
 from tests.support.paths import ROOT  # noqa: E402
-
-TINY = replace(
-    PRESETS["quick"],
-    name="tiny",
-    max_seconds=3.0,
-    envs=2,
-    steps=128,
-    ppo=PPOSettings(hidden=(8,), rollout=32, batch_size=32, epochs=2, stretch=1),
+from tests.support.tiny_training import (  # noqa: E402
+    LONG,
+    ROLLOUT,
+    TINY,
+    go_on,
+    same,
+    train,
+    weights,
 )
-ROLLOUT = TINY.envs * TINY.ppo.rollout
-
-
-@pytest.fixture
-def tiny(monkeypatch):
-    monkeypatch.setitem(PRESETS, "tiny", TINY)
-
-
-LONG = replace(TINY, name="long", ppo=replace(TINY.ppo, stretch=3))
-"""A preset whose checkpoints are three updates apart."""
-
-
-def train(folder, rollouts=1, seed=0, preset=TINY):
-    return go_on(Trainer(preset, folder, seed), rollouts)
-
-
-def go_on(trainer, rollouts):
-    for _ in range(rollouts):
-        trainer.save()
-        trainer.advance()
-    trainer.save()
-    trainer.close()
-    return trainer
-
-
-def weights(trainer):
-    return {name: w.numpy().copy() for name, w in trainer.model.policy.state_dict().items()}
-
-
-def same(a, b):
-    return a.keys() == b.keys() and all(np.array_equal(a[name], b[name]) for name in a)
 
 
 def test_learning_changes_the_policy_and_counts_decisions(tmp_path):
@@ -301,78 +266,3 @@ def test_an_interruption_leaves_a_folder_that_works(tmp_path, monkeypatch):
         monkeypatch.setattr("os.replace", real)
         LearnedAgent.load(tmp_path)
         assert Trainer.resume(TINY, tmp_path).steps == ROLLOUT * (1 if last < 2 else 2)
-
-
-def run(capsys, *words):
-    code = cli.main([str(word) for word in words])
-    captured = capsys.readouterr()
-    return code, captured.out, captured.err
-
-
-@pytest.mark.usefixtures("tiny")
-def test_train_makes_an_agent_that_evaluate_and_demo_can_run(capsys, tmp_path):
-    out = tmp_path / "run"
-    code, text, _ = run(capsys, "train", "tiny", "--out", out)
-    assert code == 0
-    assert text.startswith("128 decisions, success 0%")
-    assert AgentDescription.read(out).steps == 128
-    words = ("go through the first door on the right", "--pose", "-2.5,-0.3,0.24", "--agent", out)
-    code, text, _ = run(capsys, "demo", *words, "--json")
-    assert code in (0, 1)
-    assert '"success"' in text
-
-
-@pytest.mark.usefixtures("tiny")
-def test_train_does_not_overwrite_and_resumes_when_told_to(capsys, tmp_path):
-    run(capsys, "train", "tiny", "--out", tmp_path, "--steps", 0)
-    before = load_tensors(tmp_path / POLICY_FILE)
-    code, _, err = run(capsys, "train", "tiny", "--out", tmp_path)
-    assert code == 2
-    assert "holds a trained agent; go on with it by --resume" in err
-    assert same(before, load_tensors(tmp_path / POLICY_FILE))
-    code, *_ = run(capsys, "train", "tiny", "--out", tmp_path, "--resume", "--steps", 64)
-    assert code == 0
-    assert AgentDescription.read(tmp_path).steps == 64
-    assert not same(before, load_tensors(tmp_path / POLICY_FILE))
-
-
-@pytest.mark.usefixtures("tiny")
-def test_an_interrupted_training_is_saved(capsys, tmp_path):
-    def interrupt():
-        while not (tmp_path / POLICY_FILE).exists():
-            time.sleep(0.01)
-        os.kill(os.getpid(), signal.SIGINT)
-
-    thread = threading.Thread(target=interrupt, daemon=True)
-    thread.start()
-    code, text, _ = run(capsys, "train", "tiny", "--out", tmp_path, "--steps", 10**9)
-    thread.join()
-    assert code == 130
-    assert text.startswith("interrupted; ")
-    assert Trainer.resume(TINY, tmp_path).steps == AgentDescription.read(tmp_path).steps
-
-
-def test_without_the_extra_the_error_says_what_to_install(capsys, tmp_path, monkeypatch):
-    monkeypatch.delitem(sys.modules, "semnav_env.agents.learning.training")
-    monkeypatch.setitem(sys.modules, "stable_baselines3", None)
-    code, _, err = run(capsys, "train", "quick", "--out", tmp_path / "none")
-    assert code == 2
-    assert err == 'semnav: training needs stable_baselines3: pip install "semnav-env[rl]"\n'
-
-
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (("slow",), "no preset 'slow'; there are: quick"),
-        (("--steps", -1), "--steps is -1; it must be at least 0"),
-        (("--minutes", 0), "--minutes is 0.0; it must be positive and finite"),
-        (("--minutes", "nan"), "--minutes is nan; it must be positive and finite"),
-        (("--seed", -1), "--seed is -1; it must be at least 0"),
-        (("--resume",), "holds no trained agent"),
-    ],
-)
-def test_bad_arguments_are_named(capsys, tmp_path, words, message):
-    code, _, err = run(capsys, "train", *words, "--out", tmp_path / "none")
-    assert code == 2
-    assert message in err
-    assert not (tmp_path / "none").exists()

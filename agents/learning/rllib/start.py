@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -60,7 +58,7 @@ def start_training(
 def _saved(preset: Preset, folder: Path) -> tuple[AgentDescription, Tensors]:
     """What a folder holds of an earlier training on Ray."""
     description = AgentDescription.read(folder)
-    if description.preset != json.loads(json.dumps(asdict(preset))):
+    if description.preset != preset.plain():
         raise ValueError(
             f"{folder} was trained with another preset than the present {preset.name!r}; "
             "start anew with another --out"

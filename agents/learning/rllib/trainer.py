@@ -16,8 +16,8 @@ from ray.rllib.core import DEFAULT_MODULE_ID
 from torch.utils.tensorboard import SummaryWriter
 
 from semnav_env.agents.learning.files import (
-    POLICY_FILE,
     AgentDescription,
+    save_agent,
     save_tensors,
 )
 from semnav_env.agents.learning.presets import Preset
@@ -32,7 +32,7 @@ from semnav_env.agents.learning.rllib.weights import (
     beginning,
     policy_from,
 )
-from semnav_env.agents.learning.training import TrainingReport, plain
+from semnav_env.agents.learning.training import TrainingReport
 
 SAMPLED = "num_env_steps_sampled_lifetime"
 """RLlib's name for the number of decisions of all runners."""
@@ -119,16 +119,7 @@ class RayTrainer:
         policy = policy_from(weights, len(self.preset.ppo.hidden))
         state = RLlibState(weights, self._moments(), self.steps)
         save_tensors(self.folder / RLLIB_FILE, state.tensors())
-        save_tensors(self.folder / POLICY_FILE, policy.tensors())
-        widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
-        AgentDescription(
-            robots=self.preset.robots,
-            repeat=self.preset.repeat,
-            widths=widths,
-            preset=plain(self.preset),
-            seed=self.seed,
-            steps=self.steps,
-        ).write(self.folder)
+        save_agent(self.folder, policy, self.preset, self.seed, self.steps)
 
     def close(self) -> None:
         """Finish the curves, and end the runners and, if it was started here, Ray."""

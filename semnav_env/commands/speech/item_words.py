@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -24,7 +25,7 @@ def _distance(amount: float, at: int, stop: int, unit: Unit) -> Item:
         return Item(ItemKind.UNKNOWN, at, stop, error)
 
 
-class ItemWords:
+class ItemWords(ABC):
     """Finds the words of items in a text."""
 
     words: Sequence[str]
@@ -92,8 +93,9 @@ class ItemWords:
         )
         return self.waits or not corrects
 
+    @abstractmethod
     def _nouns(self, at: int, before: Sequence[Item]) -> Iterator[Item]:
-        raise NotImplementedError
+        """The nouns that begin at a word, with and without a preposition."""
 
     def _has_phrase(self, at: int) -> bool:
         """Whether a phrase with a comma begins at a comma: ", die vor dir ist"."""
