@@ -50,6 +50,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
 
     Attributes:
         envs: the single environments; they are stepped together only.
+        autoreset_mode: as an `AutoresetMode`; TorchRL reads it, as of Gymnasium's own.
 
     Raises:
         ValueError: as `SemNavEnv`; or the environments' spaces or control rates differ.
@@ -75,8 +76,8 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         each = one_each("each", [{}] * num_envs if each is None else each, num_envs)
         self.envs = made(each, options)
         first = self.envs[0]
-        self._mode = AutoresetMode(autoreset_mode)
-        self.metadata = first.metadata | {"autoreset_mode": self._mode}
+        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        self.metadata = first.metadata | {"autoreset_mode": self.autoreset_mode}
         self.render_mode = first.render_mode
         self.single_action_space = first.action_space
         self.single_observation_space = first.observation_space
@@ -137,14 +138,14 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         if self._team is None or self._refused:
             raise RuntimeError("call reset() before step()")
         driven = ~self._over
-        if self._mode is AutoresetMode.DISABLED and not driven.all():
+        if self.autoreset_mode is AutoresetMode.DISABLED and not driven.all():
             raise RuntimeError(f"robots {np.flatnonzero(self._over)} must be reset first")
         held = self._hold(actions, driven)
         infos = step_infos(self._verdicts, self._team.periods, held.terms, driven)
         for k, end in held.ends.items():
             infos = self._add_info(infos, end, k)
         begin, self._over = self._over, held.over
-        if self._mode is AutoresetMode.SAME_STEP:
+        if self.autoreset_mode is AutoresetMode.SAME_STEP:
             begin, self._over = held.over, np.zeros_like(held.over)
             infos = self._final(infos, held.over)
         for k in _indices(begin):
