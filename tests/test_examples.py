@@ -29,14 +29,32 @@ SAYS = {
     "command_on_log": "clause 1, StopGoal",
     "describe_route": "auf Deutsch:",
     "ppo": "decisions: reward",
+    "rl_zoo": "total_timesteps | 1024",
+    "optuna_study": "best of 1 trials: reward",
+    "torchrl_collector": "2048 decisions: reward",
 }
 """Words that each example prints, by its name."""
 
-FEW = {"ppo": ["--steps", "1024"]}
+NEEDS = {
+    "ppo": "torch",
+    "rl_zoo": "rl_zoo3",
+    "optuna_study": "optuna",
+    "torchrl_collector": "torchrl",
+}
+"""The package without which an example says what to install."""
+
+FEW = {
+    "ppo": ["--steps", "1024"],
+    "rl_zoo": ["-n", "1024", "--eval-freq", "-1", "--log-folder", ""],
+    "optuna_study": ["--trials", "1", "--steps", "4096"],
+    "torchrl_collector": ["--steps", "2048"],
+}
 """Arguments that make an example short."""
 
 LONGEST = 60
-"""Most lines of an example."""
+"""Most lines of an example; one that holds a whole learner may have twice as many."""
+
+LEARNERS = {"ppo", "torchrl_collector"}
 
 
 def run(name: str, *arguments: str) -> str:
@@ -55,18 +73,29 @@ def test_every_example_is_tested() -> None:
 
 @pytest.mark.parametrize("name", SAYS)
 def test_an_example_prints_what_it_promises(name: str) -> None:
-    if name == "ppo" and importlib.util.find_spec("torch") is None:
-        pytest.skip("torch is not installed")
+    if name in NEEDS and importlib.util.find_spec(NEEDS[name]) is None:
+        pytest.skip(f"{NEEDS[name]} is not installed")
     assert SAYS[name] in run(name)
 
 
-def test_an_example_without_torch_says_what_it_needs(tmp_path: Path) -> None:
-    (tmp_path / "torch.py").write_text("raise ModuleNotFoundError('No module named torch')")
+def test_the_same_seed_gives_the_same_curve() -> None:
+    pytest.importorskip("torch")
+    first, again, other = (run("ppo", "--seed", seed) for seed in ("3", "3", "4"))
+    assert first == again
+    assert first != other
+
+
+@pytest.mark.parametrize("name", NEEDS)
+def test_an_example_without_its_package_says_what_it_needs(tmp_path: Path, name: str) -> None:
+    missing = NEEDS[name]
+    (tmp_path / f"{missing}.py").write_text(
+        f"raise ModuleNotFoundError('No module named {missing}', name='{missing}')"
+    )
     environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
-    command = [sys.executable, str(FOLDER / "ppo.py")]
+    command = [sys.executable, str(FOLDER / f"{name}.py")]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert "needs torch" in done.stderr
+    assert f"needs {missing}" in done.stderr
 
 
 @pytest.mark.parametrize("name", SAYS)
@@ -75,7 +104,7 @@ def test_an_example_is_short_and_uses_public_names(name: str) -> None:
     tree = ast.parse(text)
     assert ast.get_docstring(tree)
     code = [line for line in text.splitlines() if line.strip()]
-    assert len(code) <= (2 * LONGEST if name == "ppo" else LONGEST), len(code)
+    assert len(code) <= (2 * LONGEST if name in LEARNERS else LONGEST), len(code)
     names = [node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)]
     names += [
         alias.name
