@@ -24,6 +24,7 @@ STUDIES = CommandTable(
         "tour": ("studies.tour.command", "ten rooms with drift, with each correction"),
         "train_doors": ("studies.door_scorer.train_doors", "train the scorer of doors"),
         "unsaid": ("studies.unsaid.command", "what implicit steps are good for"),
+        "wordless": ("studies.wordless.command", "the listener without its words: a learned floor"),
     },
 )
 
