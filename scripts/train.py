@@ -36,7 +36,7 @@ class Arguments:
     the current update; what was learned is saved, and --resume continues from there.
 
     Attributes:
-        preset: what to learn: quick, drive, or listener, which hears the command.
+        preset: what to learn: hallway, quick, drive, or listener, which hears the command.
         out: folder of the agent; runs/PRESET if not given.
         steps: number of decisions in all, at the end; that of the preset if not given. The length
             of listener is fixed.

@@ -33,7 +33,7 @@ class Arguments:
         updates: number of updates that are measured, after two that are not.
     """
 
-    preset: str = "quick"
+    preset: str = "hallway"
     runners: int = 1
     robots: int = 32
     updates: int = 6

@@ -98,7 +98,7 @@ PRESETS = {
     preset.name: preset
     for preset in (
         Preset(
-            name="quick",
+            name="hallway",
             robots=("wheelchair",),
             floor_plan="heidelberg_hallway",
             trials=suite("heidelberg"),
@@ -106,6 +106,26 @@ PRESETS = {
             repeat=3,
             envs=64,
             steps=2_000_000,
+        ),
+        Preset(
+            name="quick",
+            robots=("wheelchair",),
+            floor_plan="",
+            episodes="train",
+            max_seconds=100.0,
+            repeat=3,
+            envs=120,
+            steps=983_040,
+            demonstrations=200,
+            ppo=PPOSettings(
+                hidden=(128, 128),
+                batch_size=1024,
+                epochs=6,
+                log_std=-1.3,
+                max_kl=0.03,
+                anneal=True,
+            ),
+            rewards=RewardWeights(contact=-1.0),
         ),
         Preset(
             name="drive",

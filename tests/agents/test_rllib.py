@@ -27,7 +27,7 @@ from semnav_env.agents.learning.rllib.start import start_training  # noqa: E402
 from semnav_env.agents.learning.rllib.weights import RLLIB_FILE  # noqa: E402
 
 TINY = replace(
-    PRESETS["quick"],
+    PRESETS["hallway"],
     name="tiny",
     max_seconds=3.0,
     envs=4,

@@ -25,7 +25,7 @@ from semnav_env.robots import robot_spec
 from semnav_env.scripts import main as cli
 from semnav_env.vector import SemNavVectorEnv
 
-BRIEF = replace(PRESETS["quick"], max_seconds=0.5, envs=6)
+BRIEF = replace(PRESETS["hallway"], max_seconds=0.5, envs=6)
 
 
 def rllib_weights(widths=(COMPACT_SIZE, 8, 8, 2), seed=0):
@@ -163,7 +163,7 @@ def test_a_damaged_state_is_refused(name, wrong, message):
 
 
 def run(capsys, *words):
-    code = cli.main([str(word) for word in ("train", "quick", "--engine", "ray", *words)])
+    code = cli.main([str(word) for word in ("train", "hallway", "--engine", "ray", *words)])
     return code, capsys.readouterr().err
 
 
@@ -183,7 +183,7 @@ def test_without_ray_the_error_says_what_to_install(capsys, tmp_path, monkeypatc
 def test_what_cannot_be_resumed_is_said_before_ray_starts(capsys, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ray", None)
     assert "holds no trained agent" in run(capsys, "--resume", "--out", tmp_path)[1]
-    cli.main(["train", "quick", "--steps", "0", "--out", str(tmp_path)])
+    cli.main(["train", "hallway", "--steps", "0", "--out", str(tmp_path)])
     assert (tmp_path / AGENT_FILE).exists()
     capsys.readouterr()
     assert "was not trained with --engine ray" in run(capsys, "--resume", "--out", tmp_path)[1]

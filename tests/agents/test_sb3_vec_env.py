@@ -138,11 +138,11 @@ def test_ppo_learns_and_is_evaluated_on_it():
 
 
 def test_the_environments_of_a_preset_draw_its_trials():
-    envs = preset_envs(replace(PRESETS["quick"], envs=20))
+    envs = preset_envs(replace(PRESETS["hallway"], envs=20))
     envs.seed(0)
     envs.reset()
     drawn = {info["command"] for info in envs.venv.reset_infos}
-    assert len(drawn) == len(PRESETS["quick"].trials)
+    assert len(drawn) == len(PRESETS["hallway"].trials)
 
 
 @pytest.mark.parametrize("preset", PRESETS.values(), ids=PRESETS)

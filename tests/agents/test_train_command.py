@@ -87,7 +87,7 @@ def test_without_the_extra_the_error_says_what_to_install(capsys, tmp_path, monk
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("slow",), "no preset 'slow'; there are: quick"),
+        (("slow",), "no preset 'slow'; there are: hallway, quick"),
         (("--steps", -1), "--steps is -1; it must be at least 0"),
         (("--minutes", 0), "--minutes is 0.0; it must be positive and finite"),
         (("--minutes", "nan"), "--minutes is nan; it must be positive and finite"),

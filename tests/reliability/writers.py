@@ -139,13 +139,13 @@ WRITERS = (
     ),
     Writer(
         "train",
-        "train quick --steps 0 --out {out}/agent",
+        "train hallway --steps 0 --out {out}/agent",
         AGENT_FILES,
         replaces=False,
     ),
     Writer(
         "train --resume",
-        "train quick --resume --steps 0 --out {out}/agent",
+        "train hallway --resume --steps 0 --out {out}/agent",
         AGENT_FILES,
         follows="train",
     ),

@@ -8,7 +8,7 @@ from semnav_env.agents.learning.presets import PRESETS, PPOSettings
 from semnav_env.agents.learning.training import Trainer
 
 TINY = replace(
-    PRESETS["quick"],
+    PRESETS["hallway"],
     name="tiny",
     max_seconds=3.0,
     envs=2,
