@@ -154,6 +154,7 @@ def test_each_robot_can_be_told_its_own_command():
 
 def test_only_those_of_the_mask_are_reset():
     envs = SemNavVectorEnv(3, floor_plan="office_cross", autoreset_mode=AutoresetMode.DISABLED)
+    assert envs.autoreset_mode is AutoresetMode.DISABLED
     first, _ = envs.reset(seed=0)
     mask = np.array([True, False, True])
     again, infos = envs.reset(seed=9, options={"reset_mask": mask})
