@@ -4,7 +4,7 @@ One sees decisions, the mean reward of a decision and the share of episodes that
 decisions of the default show that it runs; give more of them to see it learn. The same seed gives
 the same curve; docs/learners.md says what it reached.
 
-    python examples/ppo.py --steps 200000 --seed 0
+    python examples/ppo.py --steps 30720 --seed 0
 """
 
 import argparse
