@@ -47,6 +47,7 @@ $(VENV)/.test: pyproject.toml constraints.txt
 
 policies: $(VENV)/.test
 	$(BIN)/semnav train listener --seed 0 --out out/policies/listener
+	$(BIN)/python -m studies translator --out out/policies/translator
 
 clean:
 	rm -rf $(VENV) build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache out

@@ -23,6 +23,7 @@ STUDIES = CommandTable(
         "speech": ("studies.speech.command", "the speech parser, with fillers and without commas"),
         "tour": ("studies.tour.command", "ten rooms with drift, with each correction"),
         "train_doors": ("studies.door_scorer.train_doors", "train the scorer of doors"),
+        "translator": ("studies.translating.command", "train and measure the learned translator"),
         "unsaid": ("studies.unsaid.command", "what implicit steps are good for"),
         "wordless": ("studies.wordless.command", "the listener without its words: a learned floor"),
     },

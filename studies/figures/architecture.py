@@ -55,6 +55,7 @@ ABOUT = {
     "agents/learning/rllib": "training on more than one machine, with RLlib on Ray",
     "agents/planning": "the planner of the scripted agent and the oracle",
     "agents/searching": "searching a house: where to look from, and whom to go to",
+    "agents/translating": "a learned translator that asks where the grammar refuses",
     "scripts": "the `semnav` command",
 }
 

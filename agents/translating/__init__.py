@@ -1,0 +1,1 @@
+"""A learned translator from words to commands, and the interpreter that asks with it."""

@@ -1,0 +1,82 @@
+"""`python -m studies translator`: train the translator, and measure it on another author."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from itertools import islice
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from semnav_env.agents.translating.files import save_translator
+from semnav_env.commands.corpora import ParseOutcome, development_corpora, load_sentences
+from studies.translating.measure import counted, interpreters
+from studies.translating.texts import authored, disturbed, generated
+from studies.translating.training import TranslatorTraining, trained
+
+Author = Literal["first", "second"]
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Train the translator on one author's sets, and measure it on the other's.
+
+    Attributes:
+        author: who is learned from; the bundled translator learned from the first.
+        out: folder to which the files are written.
+        trained: folder of a trained translator to measure, in place of training one.
+        steps: of the training.
+        generated: paraphrases of the generator to learn from.
+        disturbed: variants of people's texts to learn from.
+        sure: least probability at which the translator alone acts.
+        seed: of the texts, the weights and the order.
+    """
+
+    author: Author = "first"
+    out: Path = Path("out/translator")
+    trained: Path | None = None
+    steps: int = 6000
+    generated: int = 6000
+    disturbed: int = 18000
+    sure: float = 0.9
+    seed: int = 0
+
+    def run(self) -> int:
+        """Train, write the files, and print what becomes of the other author's sentences."""
+        folder = self.trained or self._train()
+        print("| | kind | n |" + "".join(f" {each} |" for each in ParseOutcome))
+        print("|---|---|---|" + "---|" * len(ParseOutcome))
+        for path in development_corpora():
+            if author_of(path) != self.author:
+                self._measure(path, folder)
+        return 0
+
+    def _train(self) -> Path:
+        corpora = [path for path in development_corpora() if author_of(path) == self.author]
+        known = [text for path in corpora for text in authored(path)]
+        written = generated(known, self.generated, np.random.default_rng(self.seed))
+        varied = disturbed(known, self.disturbed, np.random.default_rng(self.seed))
+        settings = TranslatorTraining(steps=self.steps)
+        network = trained([*islice(written, self.generated), *varied], settings, self.seed)
+        notes = {
+            "seed": self.seed,
+            "generated": self.generated,
+            "disturbed": self.disturbed,
+            "corpora": [path.name for path in corpora],
+            "training": asdict(settings),
+        }
+        save_translator(self.out, network, notes)
+        return self.out
+
+    def _measure(self, path: Path, folder: Path) -> None:
+        sentences = load_sentences(path)
+        for name, interpreter in interpreters(sentences, folder, self.sure).items():
+            for kind, counts in counted(sentences, interpreter).items():
+                cells = "".join(f" {counts[outcome]} |" for outcome in ParseOutcome)
+                print(f"| {path.stem}, {name} | {kind} | {counts.total()} |{cells}", flush=True)
+
+
+def author_of(corpus: Path) -> Author:
+    """Who wrote a development set."""
+    return "second" if corpus.stem.startswith("second_") else "first"

@@ -1,0 +1,146 @@
+"""From a meaning in the notation of the corpora to a command; the inverse of `meaning_of`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from semnav_env.commands.clauses import (
+    Approach,
+    Clause,
+    Face,
+    Follow,
+    GoBack,
+    GoToDoor,
+    GoToRoom,
+    IfThere,
+    Leave,
+    Stop,
+    Turn,
+    Turning,
+)
+from semnav_env.commands.command import Command
+from semnav_env.commands.corpora.meanings import ENDS, meaning_of, normal
+from semnav_env.commands.corpora.notation import Step, Steps
+from semnav_env.commands.references import (
+    OTHER,
+    Distance,
+    DoorReference,
+    Place,
+    PlaceReference,
+    RoomReference,
+    Side,
+    Unit,
+)
+from semnav_env.commands.rooms import plain_name
+
+
+def command_of_meaning(steps: Steps) -> Command | None:
+    """A command that means the same as the steps; None if there is none."""
+    try:
+        command = Command(tuple(clause for step in steps for clause in _clauses(step)))
+    except ValueError:
+        return None
+    return command if normal(meaning_of(command)) == normal(steps) else None
+
+
+def _clauses(step: Step) -> list[Clause]:
+    match step:
+        case ("hallway",):
+            return [Follow()]
+        case ("cross",):
+            return [Follow(PlaceReference(Place.END))]
+        case ("hallway", "for", amount, unit):
+            return [Follow(Distance(amount, Unit.METRES if unit == "m" else Unit.STEPS))]
+        case ("hallway", "until" | "past" as relation, place):
+            before, what = _place(place)
+            return [*before, Follow(what, relation == "past")]
+        case ("turn by", way, degrees):
+            return [Turn(Turning(way), degrees=degrees)]
+        case ("turn", way, None):
+            return [Turn(Turning(way))]
+        case ("turn", way, place):
+            before, what = _place(place)
+            at_place = isinstance(what, PlaceReference)
+            if at_place:
+                return [*before, Turn(Turning(way), what)]
+            return [*before, Follow(what), Turn(Turning(way))]
+        case ("through" | "to" | "in" | "leave" as verb, place):
+            before, what = _place(place)
+            approach = Approach("through" if verb == "leave" else verb)
+            if isinstance(what, RoomReference):
+                return [*before, GoToRoom(what.name, approach)]
+            if isinstance(what, DoorReference):
+                return [*before, GoToDoor(what, approach)]
+            return [*before, Follow(what)]
+        case ("room", name):
+            return [GoToRoom(plain_name(name))]
+        case ("leave",):
+            return [Leave()]
+        case ("back",):
+            return [GoBack()]
+        case ("back", place):
+            before, what = _place(place)
+            return [Turn(Turning.AROUND), *before, Follow(what)]
+        case ("face", ("wall", str(side))):
+            return [Face(Side(side))]
+        case ("face", place):
+            before, what = _place(place)
+            return [*before, Face(what)]
+        case ("wait", seconds):
+            return [Stop(int(seconds))]
+        case ("stop",):
+            return [Stop()]
+        case ("if", *_):
+            return _condition(step)
+    raise ValueError(f"{step!r} is no clause")
+
+
+def _condition(step: Step) -> list[Clause]:
+    """A condition with its clauses; `command_of_meaning` drops what then means another thing."""
+    _, word, place, then, otherwise = step
+    first = _place(place)[1]
+    if word == "closed" and _takes_next(first, then, otherwise):
+        return [GoToDoor(first)]
+    absent = word in ("no", "closed")
+    inner = [clause for each in (*then, *otherwise) for clause in _clauses(each)]
+    return [IfThere(first, absent, bool(otherwise)), *inner]
+
+
+def _takes_next(first: Any, then: Steps, otherwise: Steps) -> bool:
+    return bool(first == DoorReference(1, first.side) and then and otherwise)
+
+
+def _place(place: Step) -> tuple[list[Clause], Any]:
+    """A place, and the clauses that lead to where it is counted from."""
+    match place:
+        case ("room", name):
+            return [], RoomReference(plain_name(name))
+        case ("wall", int()):
+            return [], PlaceReference(Place.END)
+        case ("door", ordinal, side, relation, others):
+            named = {"other": OTHER, "any": 1, "nearest": 1}
+            door = DoorReference(named.get(ordinal, ordinal), side and Side(side))
+            return _relation(relation, others, door)
+        case (kind, ordinal):
+            return [], PlaceReference(Place(kind.replace("-", "_")), ordinal)
+    raise ValueError(f"{place!r} is no place")
+
+
+def _relation(
+    relation: str | None, others: Any, door: DoorReference
+) -> tuple[list[Clause], DoorReference]:
+    if relation is None:
+        return [], door
+    first = others[0]
+    if relation == "before" and first[0] in ENDS:
+        return [], door
+    if relation in ("after", "between"):
+        before, what = _place(first)
+        return [*before, Follow(what, past=True)], door
+    if relation == "at" and first[0] == "end":
+        return [], DoorReference(1, Side.AHEAD) if door.side is None else DoorReference(
+            -1, door.side
+        )
+    if relation == "at" and door.side is Side.OPPOSITE:
+        return [Follow(_place(first)[1])], door
+    raise ValueError(f"a door {relation} a place is not counted")

@@ -1,0 +1,217 @@
+"""The texts from which the translator learns: people's, disturbed, and the generator's.
+
+A text has a command, or None if it is to be refused.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from semnav_env.commands.clauses import Clause, IfThere, Turn, Turning
+from semnav_env.commands.command import MAX_CLAUSES, Command, reference_of, room_of
+from semnav_env.commands.corpora import Sentence, load_sentences
+from semnav_env.commands.corpora.measure import rooms_in
+from semnav_env.commands.references import DoorReference, PlaceReference, Side
+from semnav_env.commands.rewording import paraphrases
+from semnav_env.commands.sampling import sample_command
+from studies.speech.robustness import FILLERS, PUNCTUATION
+from studies.translating.programs import command_of_meaning
+
+JOINTS = {
+    "en": (", then ", " and then ", " and ", ". ", ", ", ", after that ", " then "),
+    "de": (", dann ", " und dann ", " und ", ". ", ", ", ", danach ", " dann "),
+}
+"""Words between two texts that are said one after the other."""
+
+
+@dataclass(frozen=True)
+class TrainingText:
+    """A text with what it means.
+
+    Attributes:
+        text: the words.
+        language: its code.
+        rooms: the names of the rooms that there are.
+        commands: the commands that count as right; none if the text is to be refused.
+        topic: as in the corpus.
+    """
+
+    text: str
+    language: str
+    rooms: tuple[str, ...]
+    commands: tuple[Command, ...]
+    topic: str = ""
+
+
+def authored(path: Path) -> list[TrainingText]:
+    """The texts of a corpus; of a feasible one the first meaning that is a command."""
+    sentences = load_sentences(path)
+    rooms = tuple(dict.fromkeys(rooms_in(each.meanings for each in sentences)))
+    return [_authored(each, rooms) for each in sentences]
+
+
+def _authored(sentence: Sentence, rooms: tuple[str, ...]) -> TrainingText:
+    meant = [command_of_meaning(meaning) for meaning in sentence.meanings]
+    commands = tuple(command for command in meant if command is not None)
+    if sentence.kind == "feasible":
+        commands = commands[:1]
+    language = "de" if "german" in sentence.corpus else "en"
+    return TrainingText(sentence.text, language, rooms, commands, sentence.topic)
+
+
+def generated(
+    known: Sequence[TrainingText], count: int, rng: np.random.Generator
+) -> Iterator[TrainingText]:
+    """The generator's paraphrases, half of sampled commands, half of people's with other values."""
+    commands = [command for each in known for command in each.commands]
+    made = 0
+    while made < count:
+        if made % 8 < 4:
+            command = sample_command(rng, 3, 5)
+        else:
+            command = _revalued(commands[int(rng.integers(len(commands)))], rng)
+        language = ("en", "de")[int(rng.integers(2))]
+        rooms = tuple(filter(None, map(room_of, command.clauses)))
+        texts = (command.say(language), *paraphrases(command, rng, 3, language))
+        for text in texts:
+            yield TrainingText(text.replace('"', ""), language, rooms, (command,))
+        made += len(texts)
+
+
+def _revalued(command: Command, rng: np.random.Generator) -> Command:
+    """The same command with other ordinals, and perhaps with left for right."""
+    swaps = bool(rng.integers(2))
+    return Command(tuple(_revalued_clause(each, swaps, rng) for each in command.clauses))
+
+
+_SWAPPED = {"left": "right", "right": "left"}
+
+
+def _revalued_clause(clause: Clause, swaps: bool, rng: np.random.Generator) -> Clause:
+    if isinstance(clause, Turn) and swaps:
+        clause = replace(clause, turning=Turning(_SWAPPED.get(clause.turning, clause.turning)))
+    what = reference_of(clause)
+    if what is None:
+        return clause
+    new = _revalued_reference(what, swaps, rng)
+    name = next(key for key in ("until", "at", "door", "what") if getattr(clause, key, 0) is what)
+    return replace(clause, **{name: new})
+
+
+def _revalued_reference(
+    what: DoorReference | PlaceReference, swaps: bool, rng: np.random.Generator
+) -> DoorReference | PlaceReference:
+    ordinal = what.ordinal
+    if ordinal not in (0, 1):
+        ordinal = (2, 3, 4, 5, -1, -2)[int(rng.integers(6))]
+    if isinstance(what, DoorReference) and what.side is not None and swaps:
+        return DoorReference(ordinal, Side(_SWAPPED.get(what.side, what.side)))
+    return replace(what, ordinal=ordinal)
+
+
+def disturbed(
+    known: Sequence[TrainingText], count: int, rng: np.random.Generator
+) -> Iterator[TrainingText]:
+    """Variants of texts: two in one, fillers, no punctuation, slips of the pen, left for right."""
+    by_language = {code: [t for t in known if t.language == code] for code in FILLERS}
+    for number in range(count):
+        base = known[number % len(known)]
+        others = by_language[base.language]
+        if rng.random() < 0.3:
+            base = joined(base, others[int(rng.integers(len(others)))], rng) or base
+        for share, change in CHANGES:
+            if rng.random() < share:
+                base = change(base, rng)
+        yield base
+
+
+def joined(
+    first: TrainingText, second: TrainingText, rng: np.random.Generator
+) -> TrainingText | None:
+    """Both texts, one after the other; None if that means something else than both."""
+    joint = JOINTS[first.language][int(rng.integers(len(JOINTS[first.language])))]
+    text = first.text.rstrip(PUNCTUATION + " ") + joint + second.text[:1].lower() + second.text[1:]
+    rooms = tuple(dict.fromkeys((*first.rooms, *second.rooms)))
+    if not first.commands or not second.commands:
+        return replace(first, text=text, rooms=rooms, commands=())
+    clauses = (*first.commands[0].clauses, *second.commands[0].clauses)
+    conditional = any(isinstance(each, IfThere) for each in clauses)
+    if conditional or len(clauses) > MAX_CLAUSES - 2 or second.topic in ("correction", "ellipsis"):
+        return None
+    return replace(first, text=text, rooms=rooms, commands=(Command(clauses),))
+
+
+def _with_filler(text: TrainingText, rng: np.random.Generator) -> TrainingText:
+    words = text.text.split()
+    fillers = FILLERS[text.language]
+    words.insert(int(rng.integers(len(words) + 1)), fillers[int(rng.integers(len(fillers)))])
+    return replace(text, text=" ".join(words))
+
+
+def _without_punctuation(text: TrainingText, rng: np.random.Generator) -> TrainingText:
+    del rng
+    plain = text.text.translate(str.maketrans("", "", PUNCTUATION)).lower()
+    return replace(text, text=plain or text.text)
+
+
+def _with_slip(text: TrainingText, rng: np.random.Generator) -> TrainingText:
+    """A letter of a long word is left out, or changes places with the next one."""
+    words = text.text.split()
+    at = int(rng.integers(len(words)))
+    word = words[at]
+    if len(word) > 4 and word.isalpha():
+        k = int(rng.integers(1, len(word) - 1))
+        words[at] = (
+            word[:k]
+            + (word[k + 1] + word[k] if rng.random() < 0.5 else "")
+            + (word[k + 2 :] if rng.random() < 0.5 else word[k + 1 :])
+        )
+    return replace(text, text=" ".join(words))
+
+
+_SIDE = re.compile(r"\b(left|right|links|rechts|linke|rechte)(?=\b|[nrsm]\b)", re.IGNORECASE)
+_MIRROR = {
+    **{"left": "right", "right": "left", "links": "rechts", "rechts": "links"},
+    **{"linke": "rechte", "rechte": "linke"},
+}
+
+
+def _mirrored(text: TrainingText, rng: np.random.Generator) -> TrainingText:
+    """Left for right in words and commands, unless "right" may mean something else."""
+    del rng
+    if text.topic == "right" or ("right" in text.text.lower() and not text.commands):
+        return text
+    said = _SIDE.sub(lambda found: _MIRROR[found[0].lower()], text.text)
+    return replace(text, text=said, commands=tuple(map(_mirrored_command, text.commands)))
+
+
+def _mirrored_command(command: Command) -> Command:
+    return Command(tuple(_mirrored_clause(each) for each in command.clauses))
+
+
+def _mirrored_clause(clause: Clause) -> Clause:
+    if isinstance(clause, Turn):
+        return replace(clause, turning=Turning(_SWAPPED.get(clause.turning, clause.turning)))
+    for name in ("door", "until", "what"):
+        value = getattr(clause, name, None)
+        if isinstance(value, Side):
+            return replace(clause, **{name: Side(_SWAPPED[value])})
+        if isinstance(value, DoorReference) and value.side is not None:
+            side = Side(_SWAPPED.get(value.side, value.side))
+            return replace(clause, **{name: replace(value, side=side)})
+    return clause
+
+
+CHANGES: tuple[tuple[float, Callable[[TrainingText, np.random.Generator], TrainingText]], ...] = (
+    (0.3, _mirrored),
+    (0.3, _with_filler),
+    (0.15, _with_filler),
+    (0.4, _without_punctuation),
+    (0.15, _with_slip),
+)
+"""The share of the variants that are changed, and how."""

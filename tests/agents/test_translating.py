@@ -1,0 +1,271 @@
+"""The learned translator: its symbols, its network, and what it asks where the grammar refuses."""
+
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from semnav_env.agents.translating import interpreter
+from semnav_env.agents.translating.files import (
+    BUNDLED_FOLDER,
+    CARD_FILE,
+    WEIGHTS_FILE,
+    load_translator,
+    save_translator,
+)
+from semnav_env.agents.translating.interpreter import (
+    ENOUGH,
+    LearnedInterpreter,
+    TranslationQuestionError,
+)
+from semnav_env.agents.translating.masking import MAX_VALUES, masked
+from semnav_env.agents.translating.network import TranslatorNetwork, TranslatorShape
+from semnav_env.agents.translating.programs import UnsayableError, command_of, symbols_of
+from semnav_env.agents.translating.translator import MAX_TRANSLATED_WORDS, translate
+from semnav_env.commands import (
+    AmbiguousCommandError,
+    Command,
+    CommandError,
+    Interpreter,
+    parse,
+    sample_command,
+)
+from semnav_env.commands.command import room_of
+from semnav_env.commands.references import Side
+from tests.support.command_strategies import commands
+
+INTERPRETER = LearnedInterpreter()
+
+
+def test_values_sides_and_rooms_are_taken_out() -> None:
+    text = masked("Take the third door on the left, then right into the Küche, 2.5 m.", ("Küche",))
+    assert text.values == (3.0, 2.5)
+    assert text.sides == (Side.LEFT, Side.RIGHT)
+    assert text.rooms == ("kueche",)
+    assert text.words[2:4] == ("third", "door")
+
+
+def test_first_is_no_value() -> None:
+    assert masked("the first door, the next one", ()).values == ()
+
+
+def test_a_text_with_too_many_values_is_refused() -> None:
+    numbers = ", ".join(str(n) for n in range(2, 4 + MAX_VALUES))
+    with pytest.raises(CommandError, match="more than 4 different numbers"):
+        masked(numbers, ())
+
+
+@given(commands)
+def test_a_command_comes_back_from_its_symbols(command: Command) -> None:
+    rooms = tuple(filter(None, map(room_of, command.clauses)))
+    try:
+        text = masked(command.say(), rooms)
+        symbols = symbols_of(command, text)
+    except (CommandError, UnsayableError):
+        return
+    assert command_of(symbols, text) == command
+
+
+@pytest.mark.parametrize(
+    "symbols",
+    [
+        (),
+        ("door",),
+        ("turn", "value 0"),
+        ("through", "intersection", "1"),
+        ("refuse",),
+        ("if",),
+        ("wait", "0.5"),
+        ("to", "door", "side 0"),
+        ("until", "room 0"),
+        ("else",),
+    ],
+)
+def test_symbols_that_are_no_command_are_refused(symbols: tuple[str, ...]) -> None:
+    with pytest.raises(UnsayableError):
+        command_of(symbols, masked("go", ()))
+
+
+def test_the_network_says_the_same_as_that_of_torch() -> None:
+    torch = pytest.importorskip("torch")
+    from studies.translating.torch_network import TorchTranslator
+    from studies.translating.training import EncodedText, TranslatorTraining, _tensors
+
+    shape = TranslatorShape(width=8, heads=2, layers=2, hidden=16, buckets=64)
+    model = TorchTranslator(shape, 0, 0.0).eval()
+    settings = TranslatorTraining(shape=shape, word_dropout=0.0, value_dropout=0.0)
+    text = EncodedText(("go", "past", "the", "third", "door"), (0, 0, 0, 1, 0), (0, 5, 9, 1))
+    longer = EncodedText(("turn",) * 9, (0,) * 9, (0, 7, 1))
+    batch = _tensors([text, longer], settings, np.random.default_rng(0))
+    with torch.no_grad():
+        expected = model(*batch[:-1], batch[-1][:, :-1].clamp(min=0))[0].log_softmax(dim=-1)
+    network = TranslatorNetwork(shape, model.arrays())
+    encoded = network.encode(text.words, text.marks)
+    for count in (1, 2, 3):
+        found = network.log_shares(text.symbols[:count], encoded)
+        np.testing.assert_allclose(found, expected[count - 1].numpy(), atol=1e-5)
+
+
+def test_training_is_the_same_for_the_same_seed() -> None:
+    pytest.importorskip("torch")
+    from studies.translating.texts import TrainingText
+    from studies.translating.training import TranslatorTraining, trained
+
+    shape = TranslatorShape(width=8, heads=2, layers=1, hidden=16, buckets=64)
+    settings = TranslatorTraining(steps=3, batch=4, warm_up=1, shape=shape)
+    said = ("turn left", "go to the third door", "stop")
+    texts = [TrainingText(each, "en", (), (parse(each),)) for each in said]
+    first, second = (trained(texts, settings, 7).tensors for _ in range(2))
+    assert all(np.array_equal(first[name], second[name]) for name in first)
+
+
+def test_what_the_grammar_understands_stays() -> None:
+    known: Interpreter = INTERPRETER
+    found = known.interpret("nimm die zweite Tür links")
+    assert found.command == parse("take the second door on the left")
+    assert found.by == "grammar"
+    assert found.echo == "fahr durch die zweite Tür links"
+
+
+GOLDEN = {
+    "geh die dritte links rein durch die Tür": "go through the third door on the left",
+    "you will want the second of the doors on your left": "go through the second door on the left",
+    "door number three on the right, that one is yours": "go through the third door on the right",
+    "mosey to the third door": "go to the third door",
+    "nimm die zweite Tür links": "go through the second door on the left",
+}
+"""Texts outside the development sets, and what they mean."""
+
+
+@pytest.mark.parametrize("text", GOLDEN)
+def test_golden_sentences_are_translated(text: str) -> None:
+    found = translate(text, (), load_translator())
+    assert found is not None
+    assert str(found.command) == GOLDEN[text]
+    assert found.likeness >= ENOUGH
+    assert not found.unsaid
+
+
+def refusing(text: str, language: object, rooms: object) -> tuple[Command, ...]:
+    """A grammar that refuses every text."""
+    raise CommandError("nothing is understood", text)
+
+
+def turning(text: str, language: object, rooms: object) -> tuple[Command, ...]:
+    """A grammar that takes every text for a turn."""
+    return (parse("turn left"),)
+
+
+def test_a_likely_translation_of_what_is_refused_is_asked_about(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(interpreter, "readings", refusing)
+    with pytest.raises(TranslationQuestionError) as asked:
+        INTERPRETER.interpret("geh bitte durch die dritte Tür links")
+    assert asked.value.readings == (parse("go through the third door on the left"),)
+    assert 'did you mean "fahr durch die dritte Tür links"?' in asked.value.summary
+    assert pickle.loads(pickle.dumps(asked.value)).likeness == asked.value.likeness
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "go through the blue door on the left",
+        "go through the zorgle door on the left",
+        "do not go through the door on the left",
+        "go through the left door or the right door",
+    ],
+)
+def test_a_text_with_words_that_would_be_lost_is_not_asked_about(
+    text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(interpreter, "readings", refusing)
+    with pytest.raises(CommandError, match="nothing is understood"):
+        INTERPRETER.interpret(text)
+
+
+def test_where_the_translation_differs_both_are_asked_about(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(interpreter, "readings", turning)
+    with pytest.raises(AmbiguousCommandError) as asked:
+        INTERPRETER.interpret("now take the second door on the right")
+    meant = parse("turn left"), parse("go through the second door on the right")
+    assert asked.value.readings == meant
+    certain = LearnedInterpreter(differing=2.0).interpret("now take the second door on the right")
+    assert certain.command == meant[0]
+
+
+@pytest.mark.parametrize("code", ["en", "de"])
+def test_canonical_words_are_never_doubted(code: str) -> None:
+    rng = np.random.default_rng(0)
+    for command in (sample_command(rng) for _ in range(30)):
+        assert INTERPRETER.interpret(command.say(code)).command == command
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "?!",
+        "asdf qwer zxcv",
+        "what time is it",
+        "sing me a song",
+        "Wie spät ist es?",
+        "take the elevator to the third floor",
+        "bring me the blue cup",
+        "\x00",
+        "x " * 299,
+    ],
+)
+def test_nonsense_is_refused_without_a_question(text: str) -> None:
+    with pytest.raises(CommandError) as refused:
+        INTERPRETER.interpret(text)
+    assert not isinstance(refused.value, TranslationQuestionError)
+
+
+def test_a_long_text_is_not_translated() -> None:
+    assert translate("turn left " * MAX_TRANSLATED_WORDS, (), load_translator()) is None
+
+
+def test_the_same_text_gives_the_same_question() -> None:
+    first, second = (translate("mosey to the third door", (), load_translator()) for _ in range(2))
+    assert first == second
+    assert first is not None
+
+
+def test_the_weights_are_small() -> None:
+    assert (BUNDLED_FOLDER / WEIGHTS_FILE).stat().st_size <= 2_000_000
+
+
+def test_weights_come_back_from_their_files(tmp_path) -> None:
+    shape = TranslatorShape(width=8, heads=2, layers=1, hidden=16, buckets=64)
+    rng = np.random.default_rng(0)
+    tensors = {
+        name: rng.normal(size=size).astype(np.float16).astype(np.float32)
+        for name, size in shape.tensors().items()
+    }
+    save_translator(tmp_path, TranslatorNetwork(shape, tensors), {"seed": 3})
+    back = load_translator(tmp_path)
+    assert back.shape == shape
+    assert all(np.array_equal(back.tensors[name], tensors[name]) for name in tensors)
+
+
+def test_a_broken_card_is_named(tmp_path) -> None:
+    (tmp_path / CARD_FILE).write_text('{"shape": {"width": 7}}')
+    with pytest.raises(ValueError, match="no card of a translator"):
+        load_translator(tmp_path)
+
+
+def test_asking_needs_no_torch() -> None:
+    code = (
+        "import sys\n"
+        "from semnav_env.agents.translating.interpreter import LearnedInterpreter\n"
+        "try: LearnedInterpreter().interpret('mosey to the third door')\n"
+        "except ValueError: pass\n"
+        "assert 'torch' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
