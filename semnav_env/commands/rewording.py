@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from semnav_env.commands.clauses import IfThere
 from semnav_env.commands.command import Command
 from semnav_env.commands.errors import CommandError
 from semnav_env.commands.language import Language
@@ -38,9 +39,16 @@ class _VariedLanguage(Language):
         """A random word for an ordinal."""
         return self._any_of(super().ordinal(number), str(number))
 
-    def command(self, command: Command) -> str:
-        """The text of a command, with or without words of politeness."""
-        return self._any_of("{command}", "command").format(command=command.say(self))
+    def command(self, command: Command) -> str | None:
+        """The text of a command, with or without words of politeness.
+
+        None if no sign parts a condition from what depends on it: "if you see the door and then
+        go in" leaves open where the condition ends.
+        """
+        polite, parts = self._any_of("{command}", "command"), command.parts(self)
+        conditions = (i for i, clause in enumerate(command.clauses) if isinstance(clause, IfThere))
+        parted = all(not parts[2 * i + 1][0].isspace() for i in conditions)
+        return polite.format(command="".join(parts)) if parted else None
 
     def _any_of(self, usual: str, key: str) -> str:
         choices = (usual, *self.wordings.get(key, ()))
@@ -78,7 +86,7 @@ def paraphrases(
         if len(found) == n:
             break
         text = varied.command(command)
-        if text != usual and text not in found and _means(text, command, spoken):
+        if text and text != usual and text not in found and _means(text, command, spoken):
             found[text] = None
     return tuple(found)
 
