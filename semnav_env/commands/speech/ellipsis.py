@@ -11,7 +11,7 @@ from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 def in_full(items: Sequence[Item]) -> list[Item]:
     """The items with what was left out."""
     found = _keeping_sides(_without_broken_commas(items))
-    found = _without_repetition(_with_one_way_out(found))
+    found = _without_repetition(_with_one_way_out(_with_doors(found)))
     found = _with_verbs(found)
     found = _with_sides(found)
     return _counted_from_passed(_without_counting(found))
@@ -75,6 +75,18 @@ def _without_repetition(items: Sequence[Item]) -> list[Item]:
             same = _noun(before)
             if same is not None and same.ordinal == noun.ordinal and same.ordinal is not None:
                 continue
+        found.append(item)
+    return found
+
+
+def _with_doors(items: Sequence[Item]) -> list[Item]:
+    """Of "Left at the crossing, then it's the second on the right": a door, and no crossing."""
+    found: list[Item] = []
+    for item in items:
+        noun = _noun(item)
+        stated = bool(found) and found[-1].kind is ItemKind.VERB and found[-1].value == "be"
+        if stated and noun is not None and noun.elliptic and noun.side is not None:
+            item = replace(item, value=replace(noun, kind="door"))
         found.append(item)
     return found
 

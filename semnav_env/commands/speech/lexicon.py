@@ -97,7 +97,7 @@ def _class_and_value(key: str) -> tuple[str, str]:
     return (kind, value) if kind in VALUED else (key, "")
 
 
-VALUED = ("number", "verb", "prep", "adj", "noun", "side", "where", "particle", "angle")
+VALUED = ("number", "verb", "no", "prep", "adj", "noun", "side", "where", "particle", "angle")
 """Classes whose keys have a value behind them."""
 
 

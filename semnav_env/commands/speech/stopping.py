@@ -61,6 +61,8 @@ def read_wait(frame: ClauseFrame) -> Readings | None:
 
 def read_stop(frame: ClauseFrame) -> Readings | None:
     """The readings of a clause that ends in a stop; None if it does not."""
+    if not frame.verbs and len(frame.items) == 1 and frame.has(ItemKind.BEFORE_IT):
+        return ((StopBeforeMentioned(),),)  # "to the door, but don't go in"
     if not frame.verbs & {"stop", "wait"}:
         return None
     if frame.verbs - {"stop", "wait", "go", "continue", "in", "make", "keep"} or frame.goes_out:
