@@ -22,7 +22,8 @@ def _without_broken_commas(items: Sequence[Item]) -> list[Item]:
     found: list[Item] = []
     for item in items:
         bare = bool(found) and found[-1].kind is ItemKind.VERB and found[-1].value == "go"
-        if item.value == "," and bare and (len(found) == 1 or found[-2].kind in _PARTS):
+        begins = len(found) < 2 or found[-2].kind in _PARTS or found[-2].value == "be"
+        if item.value == "," and bare and begins:
             continue
         found.append(item)
     return found
