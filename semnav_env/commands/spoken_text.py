@@ -14,7 +14,13 @@ from semnav_env.commands.refusal import refusal
 from semnav_env.commands.repeats import told_once
 from semnav_env.commands.rooms import name_phrases
 from semnav_env.commands.speech.items import ItemKind
-from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of, spoken_pieces, with_room_names, without
+from semnav_env.commands.speech.lexicon import (
+    SpeechLexicon,
+    lexicon_of,
+    spoken_pieces,
+    with_room_names,
+    without,
+)
 from semnav_env.commands.speech.recognition import lexicon_for, recognised
 from semnav_env.commands.speech.typos import corrected_words
 from semnav_env.commands.speech.understanding import Understanding, understand

@@ -160,7 +160,9 @@ def _said_before(items: Sequence[Item], at: int) -> int | None:
 
 def _names_another(place: Item, rest: Sequence[Item]) -> bool:
     """Of "Not at the first intersection, but at the second": counted from the same place."""
-    item = next((each for each in rest[: end_of_clause(rest, 0)] if each.kind is ItemKind.REF), None)
+    item = next(
+        (each for each in rest[: end_of_clause(rest, 0)] if each.kind is ItemKind.REF), None
+    )
     return item is not None and corrects(place, item) and "at" in item.roles
 
 

@@ -35,6 +35,9 @@ def _reordered(items: list[Item], at: int) -> list[Item]:
         start += begin
         first, second, more = said[begin:], rest[:end], rest[end:]
     else:
+        verbs = [i for i, item in enumerate(rest) if item.kind is ItemKind.VERB]
+        if end == len(rest) and len(verbs) > 1:
+            end = verbs[1]  # "before you turn left wait"
         first, second, more = rest[end:], rest[:end], []
     if kind is not ItemKind.AFTER_DOING:
         first = [*_place_of(first, second), *first]
