@@ -10,7 +10,7 @@ from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 
 def in_full(items: Sequence[Item]) -> list[Item]:
     """The items with what was left out."""
-    found = _keeping_sides(_without_broken_commas(items))
+    found = _keeping_sides(_without_broken_commas(_with_otherwise(items)))
     found = _without_repetition(_with_one_way_out(_with_doors(found)))
     found = _with_verbs(found)
     found = _with_sides(found)
@@ -25,6 +25,21 @@ def _without_broken_commas(items: Sequence[Item]) -> list[Item]:
         begins = len(found) < 2 or found[-2].kind in _PARTS or found[-2].value == "be"
         if item.value == "," and bare and begins:
             continue
+        found.append(item)
+    return found
+
+
+def _with_otherwise(items: Sequence[Item]) -> list[Item]:
+    """Of "If it is open, go in; if it is closed, go on": the other case of the condition."""
+    found: list[Item] = []
+    state = ""
+    for item in items:
+        if item.kind is ItemKind.IF:
+            again = item.value.noun is None and state and item.value.state
+            if again and item.value.state != state:
+                item = Item(ItemKind.OTHERWISE, item.start, item.stop)
+            else:
+                state = item.value.state
         found.append(item)
     return found
 

@@ -135,6 +135,7 @@ def read_leave(frame: ClauseFrame) -> Readings | None:
         turns
         and frame.goes_out
         and not doors
+        and len(frame.refs) == 1
         and any(
             _is_bare_way_out(r, frame) and is_door(r.value) and r.value.kind == "door"
             for r in frame.refs

@@ -151,7 +151,12 @@ def spoken_pieces(found: Sequence[TextPiece], lexicon: SpeechLexicon) -> list[Te
     "The door's" is read as "the door is", and unknown words are taken apart ("reinfahren").
     """
     spoken: list[TextPiece] = []
-    for piece in found:
+    for index, piece in enumerate(found):
+        if [each.text for each in found[index : index + 2]] == [".", "."]:
+            continue
+        if piece.text == "." and index and found[index - 1].text == ".":
+            spoken.append(piece._replace(text=","))  # "the third... wait, the second"
+            continue
         base = piece.text.removesuffix("'s")
         if base != piece.text and piece.text not in lexicon.words and base in lexicon.words:
             spoken += [piece._replace(text=base), piece._replace(text="is")]

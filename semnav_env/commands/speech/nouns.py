@@ -57,7 +57,8 @@ class NounReader(NounWords):
                 noun, here = head
                 if noun.side is Side.OPPOSITE and noun.kind not in DOORLIKE:
                     return None  # "across the crossing" is no crossing opposite
-                if self._plain_side(at) and self._side_behind(replace(noun, side=None), here):
+                behind = self._side_behind(replace(noun, side=None), here)
+                if self._plain_side(at) and (behind or self._plain_side(here)):
                     return None  # "right, second door left": a turn before it
                 return self._behind(noun, here)
             adjective = self.find(here, "adj")

@@ -193,19 +193,19 @@ def _with_antecedents(items: list[Item]) -> list[Item]:
             continue
         if item.kind is ItemKind.REF:
             noun = item.value
-            if (
-                noun.kind == "it"
-                and last is not None
-                and set(item.roles) & {"past", "after", "to", "until", "before", "near"}
-                and "into" not in item.roles
-            ):
-                item = replace(item, value=last)
-            elif last is not None and _is_door_again(item, last, verb):
+            if last is not None and (_is_it(item) or _is_door_again(item, last, verb)):
                 item = replace(item, value=last)
             elif is_door(noun) or noun.kind == "named" or noun.kind in ("intersection", "corner"):
                 last = noun
         found.append(item)
     return found
+
+
+def _is_it(item: Item) -> bool:
+    """Whether an item is "to it" or "past it"."""
+    roles = set(item.roles)
+    beside = roles & {"past", "after", "to", "until", "before", "near"}
+    return item.value.kind == "it" and bool(beside) and "into" not in roles
 
 
 def _is_door_again(item: Item, last: Noun, verb: str) -> bool:

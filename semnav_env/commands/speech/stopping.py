@@ -52,6 +52,8 @@ def read_wait(frame: ClauseFrame) -> Readings | None:
     if frame.verbs - {"stop", "wait", "go", "continue", "make"} or frame.sides:
         raise NoMeaningError("a time and something else")
     rest = replace_items(frame, ItemKind.SECONDS)
+    if frame.has(ItemKind.IN) and rest.refs:
+        raise NoMeaningError("enter, and a time")
     there = _stop_at(rest) if rest.refs else ()
     count = -int(-seconds // MAX_SECONDS)
     share, more = divmod(int(seconds), count)

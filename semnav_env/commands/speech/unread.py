@@ -129,7 +129,7 @@ def _corrected(items: list[Item], at: int, stop: int) -> list[Item] | None:
 def _framed(
     items: list[Item], at: int, words: Sequence[str], lexicon: SpeechLexicon
 ) -> list[Item] | None:
-    """Without what stands before the command: "it would be kind if you ...", "my desk is in ..."."""
+    """Without what stands before a command: "it would be kind if you ...", "my desk is in ..."."""
     start = at
     while start and items[start - 1].kind is not ItemKind.SIGN:
         start -= 1
