@@ -59,8 +59,11 @@ class Command:
         Raises:
             ValueError: there is no such language.
         """
-        spoken = language_of(language)
-        said = self.clauses[0].say(spoken)
+        return "".join(self.parts(language_of(language)))
+
+    def parts(self, spoken: Language) -> list[str]:
+        """The words of the clauses, and between each two of them the words that join them."""
+        said = [self.clauses[0].say(spoken)]
         links = links_of(self.clauses)
         last = len(self.clauses) - 2
         for index, (before, clause) in enumerate(pairwise(self.clauses)):
@@ -69,7 +72,7 @@ class Command:
             joint = spoken.say("and" if plain and index == last else "comma")
             anew = plain and may_count_on(before, clause)
             adverb = spoken.say("from_there" if anew else link.value) if anew or not plain else ""
-            said += joint + adverb + clause.say(spoken)
+            said += [joint + adverb, clause.say(spoken)]
         return said
 
 

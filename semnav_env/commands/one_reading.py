@@ -155,9 +155,9 @@ def _unless_closed(reading: Reading, clause: Clause, index: int) -> None:
 
 
 def _add_side(reading: Reading, side: Side) -> bool:
-    """Give a side to the last clause's door; False if it has no door or the side is known."""
+    """Give a side to the last clause's door; False if it has no door, or one on another side."""
     before = reading[-1].clause if reading else None
-    if not isinstance(before, GoToDoor) or before.door.side is not None:
+    if not isinstance(before, GoToDoor) or before.door.side not in (None, side):
         return False
     door = replace(before.door, side=side)
     reading[-1] = reading[-1]._replace(clause=replace(before, door=door))

@@ -47,6 +47,8 @@ def _merged(before: Clause, clause: Clause) -> list[Clause] | None:
             DoorReference(1, None) as door, Approach.IN
         ) if before.door != door:
             return [replace(before, approach=Approach.IN)]
+        case GoToDoor(door, Approach.TO), GoToDoor(same, Approach.TO) if door == same:
+            return [clause]
         case GoToRoom(), GoToDoor(DoorReference(1, None), Approach.TO):
             return [replace(before, approach=Approach.TO)]
         case GoToRoom(), IfThere(DoorReference(1)):

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.commands.command import Command
+from semnav_env.commands.clauses import Turn
+from semnav_env.commands.command import Command, Link, links_of
 from semnav_env.commands.errors import CommandError
 from semnav_env.commands.language import Language
 from semnav_env.commands.languages import language_of
@@ -38,9 +39,36 @@ class _VariedLanguage(Language):
         """A random word for an ordinal."""
         return self._any_of(super().ordinal(number), str(number))
 
-    def command(self, command: Command) -> str:
-        """The text of a command, with or without words of politeness."""
-        return self._any_of("{command}", "command").format(command=command.say(self))
+    def command(self, command: Command) -> str | None:
+        """The text of a command, with or without words of politeness.
+
+        None if it leaves open how far a condition reaches: "if you see the door and then go in",
+        "if you see the door, left at the corner".
+        """
+        polite, parts = self._any_of("{command}", "command"), command.parts(self)
+        dependent = (
+            2 * index
+            for index, link in enumerate(links_of(command.clauses))
+            if link in (Link.THEN, Link.OTHERWISE)
+        )
+        is_clear = all(
+            not parts[at - 1][0].isspace()
+            and (not isinstance(command.clauses[at // 2], Turn) or self._says_verb(parts[at]))
+            for at in dependent
+        )
+        return polite.format(command="".join(parts)) if is_clear else None
+
+    def _says_verb(self, text: str) -> bool:
+        """Whether a clause has a verb: "turn left at the corner", not "left at the corner"."""
+        from semnav_env.commands.speech.items import ItemKind  # here, as these are large
+        from semnav_env.commands.speech.lexicon import lexicon_of
+        from semnav_env.commands.speech.phrases import plain_words
+        from semnav_env.commands.speech.reader import ItemReader
+
+        spoken = language_of(self.code)
+        words = plain_words(text, spoken)
+        items = ItemReader(words, lexicon_of(spoken), {}).items()
+        return any(item.kind in (ItemKind.VERB, ItemKind.AROUND) for item in items)
 
     def _any_of(self, usual: str, key: str) -> str:
         choices = (usual, *self.wordings.get(key, ()))
@@ -78,7 +106,7 @@ def paraphrases(
         if len(found) == n:
             break
         text = varied.command(command)
-        if text != usual and text not in found and _means(text, command, spoken):
+        if text and text != usual and text not in found and _means(text, command, spoken):
             found[text] = None
     return tuple(found)
 

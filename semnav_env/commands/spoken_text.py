@@ -14,7 +14,13 @@ from semnav_env.commands.refusal import refusal
 from semnav_env.commands.repeats import told_once
 from semnav_env.commands.rooms import name_phrases
 from semnav_env.commands.speech.items import ItemKind
-from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of, spoken_pieces, without
+from semnav_env.commands.speech.lexicon import (
+    SpeechLexicon,
+    lexicon_of,
+    spoken_pieces,
+    with_room_names,
+    without,
+)
 from semnav_env.commands.speech.recognition import lexicon_for, recognised
 from semnav_env.commands.speech.typos import corrected_words
 from semnav_env.commands.speech.understanding import Understanding, understand
@@ -40,7 +46,7 @@ def readings_of_text(
     spoken = language or recognised(words)
     lexicon = lexicon_of(spoken) if language else lexicon_for(words, spoken)
     names = name_phrases(rooms)
-    said = spoken_pieces(found, lexicon)
+    said = with_room_names(spoken_pieces(found, lexicon), lexicon, names)
     understood = _understood(said, lexicon, names)
     if not understood.commands:
         understood = _without_slips(said, lexicon, names, text) or understood

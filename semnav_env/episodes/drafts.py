@@ -15,6 +15,8 @@ from semnav_env.commands import (
     GoToDoor,
     IfThere,
     Leave,
+    Place,
+    PlaceReference,
     Turn,
     Turning,
 )
@@ -125,6 +127,8 @@ class Drafter:
             self._followed(clauses)
         except GroundingError as error:
             return str(error)
+        if _passes_corner(clauses[-1]):
+            return f"{clauses[-1]}: around it, or straight on behind it? a turn says which"
         return None
 
     def skips_a_closed_door(self, command: Command) -> bool:
@@ -209,3 +213,9 @@ class Drafter:
     def _faces_a_wall(self, said: tuple[Clause, ...]) -> bool:
         """Whether the robot looks across a corridor, so that nobody would count its doors."""
         return not leads_on(axis_at(self._plan.scene, self._begin_after(said)))
+
+
+def _passes_corner(clause: Clause) -> bool:
+    """Whether a clause leads past a corner, which people may take in several ways."""
+    place = clause.until if isinstance(clause, Follow) and clause.past else None
+    return isinstance(place, PlaceReference) and place.place is Place.CORNER

@@ -27,10 +27,10 @@ FROZEN = {
     "second_german": "1654cfef85a8fc453b9a31402a5af4f0438aed32bf1808664d79a2146f62d4f1",
     "third_english": "1b00c91f6d6462157902e5950e404103e278150a729d71a3316cf6e57b8d93e1",
     "third_german": "8318723764e1701ae464d5c9d220dab74d005358f2367a51bb7ff2c0b65e214e",
+    "fourth_english": "e0b9b3d74e611426020d854372e3025f0616dd8e63189ffb086862471d6645f9",
+    "fourth_german": "96fb2dba7245273765d5899874a746eaf16057085c5207441a22009c87ac8be2",
 }
-SIZES = {"english": 330, "german": 330} | dict.fromkeys(
-    ("second_english", "second_german", "third_english", "third_german"), 170
-)
+SIZES = dict.fromkeys(FROZEN, 170) | {"english": 330, "german": 330}
 
 EQUAL = """
 past intersection, door = through door(1,after intersection) = hallway past intersection; through door(1)

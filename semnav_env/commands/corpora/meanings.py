@@ -165,8 +165,11 @@ def _unfolded(step: Step) -> list[Step]:
             return [*_with_door(("hallway", "until"), tuple(door)), ("turn", way, None)]
         case ("if", word, what, then, otherwise):
             if what[0] == "room":
-                inside = tuple(("through", _FIRST) if each == what else each for each in then)
-                there = ("if", word, _FIRST, inside, otherwise)
+                cases = (
+                    tuple(("through", _FIRST) if each == what else each for each in case)
+                    for case in (then, otherwise)
+                )
+                there = ("if", word, _FIRST, *cases)
                 return [("to", what), *_unfolded(there)]
             absent = {"closed": "no", "open": "there"}.get(word, word)
             then = _turned_at(what, then) if absent == "there" else then

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from importlib.resources import files
+from itertools import product
 from pathlib import Path
 
 from semnav_env.commands.corpora.notation import Steps, read_meaning
@@ -35,14 +36,14 @@ class Sentence:
 
 
 def development_corpora() -> tuple[Path, ...]:
-    """The files of two authors on which the parser was tuned, which come with the package."""
-    names = ("english", "german", "second_english", "second_german")
-    return tuple(_folder() / f"{name}.jsonl" for name in names)
+    """The files of three authors on which the parser was tuned, which come with the package."""
+    sets = product(("", "second_", "third_"), ("english", "german"))
+    return tuple(_folder() / f"{author}{language}.jsonl" for author, language in sets)
 
 
 def held_out_corpora() -> tuple[Path, ...]:
-    """The files of a third author, on which nothing was tuned."""
-    return tuple(sorted(_folder().glob("third_*.jsonl")))
+    """The files of a fourth author, on which nothing was tuned."""
+    return tuple(sorted(_folder().glob("fourth_*.jsonl")))
 
 
 def _folder() -> Path:

@@ -50,6 +50,8 @@ def read_condition(
             and read[0].kind not in ("it", "one", "wall", "start")
         ):
             noun, here = read
+            if noun.kind == "named" and (door := lexicon.find(words, here, "noun")):
+                here = door[1] if door[0] == "door" else here  # "the kitchen door"
             stop = here
             continue
         if found is None:

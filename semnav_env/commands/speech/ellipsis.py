@@ -10,8 +10,8 @@ from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 
 def in_full(items: Sequence[Item]) -> list[Item]:
     """The items with what was left out."""
-    found = _keeping_sides(_without_broken_commas(items))
-    found = _without_repetition(_with_one_way_out(found))
+    found = _keeping_sides(_without_broken_commas(_with_otherwise(items)))
+    found = _without_repetition(_with_one_way_out(_with_doors(found)))
     found = _with_verbs(found)
     found = _with_sides(found)
     return _counted_from_passed(_without_counting(found))
@@ -22,8 +22,24 @@ def _without_broken_commas(items: Sequence[Item]) -> list[Item]:
     found: list[Item] = []
     for item in items:
         bare = bool(found) and found[-1].kind is ItemKind.VERB and found[-1].value == "go"
-        if item.value == "," and bare and (len(found) == 1 or found[-2].kind in _PARTS):
+        begins = len(found) < 2 or found[-2].kind in _PARTS or found[-2].value == "be"
+        if item.value == "," and bare and begins:
             continue
+        found.append(item)
+    return found
+
+
+def _with_otherwise(items: Sequence[Item]) -> list[Item]:
+    """Of "If it is open, go in; if it is closed, go on": the other case of the condition."""
+    found: list[Item] = []
+    state = ""
+    for item in items:
+        if item.kind is ItemKind.IF:
+            again = item.value.noun is None and state and item.value.state
+            if again and item.value.state != state:
+                item = Item(ItemKind.OTHERWISE, item.start, item.stop)
+            else:
+                state = item.value.state
         found.append(item)
     return found
 
@@ -75,6 +91,18 @@ def _without_repetition(items: Sequence[Item]) -> list[Item]:
             same = _noun(before)
             if same is not None and same.ordinal == noun.ordinal and same.ordinal is not None:
                 continue
+        found.append(item)
+    return found
+
+
+def _with_doors(items: Sequence[Item]) -> list[Item]:
+    """Of "Left at the crossing, then it's the second on the right": a door, and no crossing."""
+    found: list[Item] = []
+    for item in items:
+        noun = _noun(item)
+        stated = bool(found) and found[-1].kind is ItemKind.VERB and found[-1].value == "be"
+        if stated and noun is not None and noun.elliptic and noun.side is not None:
+            item = replace(item, value=replace(noun, kind="door"))
         found.append(item)
     return found
 

@@ -74,6 +74,8 @@ def read_go(frame: ClauseFrame) -> Readings | None:
         steps = [Follow()]
     if frame.goes_in and rest:
         steps, choices = _entered(steps, choices)
+        if rest[-1].value.kind == "named" and "through" in frame.roles(rest[-1]):
+            steps.append(Follow(END))  # "durch das Lager hindurch"
     if contexts and not rest and "be" in frame.verbs and len(steps) == len(contexts):
         choices = (GoToDoor(DoorReference()),), (GoToDoor(DoorReference(), Approach.TO),)
     if not steps and choices == ((),):

@@ -101,6 +101,15 @@ class ItemWords(ABC):
         """Whether a phrase with a comma begins at a comma: ", die vor dir ist"."""
         return any(stop > at + 1 for _, _, stop in self.lexicon.matches(self.words, at))
 
+    def _begins_clause(self, at: int, stop: int) -> bool:
+        """Whether a conjunction begins a clause and no place: "before you turn left"."""
+        other = any(
+            kind in ("prep", "where", "then") and end >= stop
+            for kind, _, end in self.lexicon.matches(self.words, at)
+        )
+        verbs = (v for kind, v, _ in self.lexicon.matches(self.words, stop) if kind == "verb")
+        return not other or any(verb != "reach" for verb in verbs)
+
     def _begins_noun(self, stop: int) -> bool:
         """Whether the last word of a phrase is the article of a noun: "nimm die zweite Tür"."""
         noun = self.nouns.read(stop - 1)

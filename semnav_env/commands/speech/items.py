@@ -43,6 +43,9 @@ class ItemKind(StrEnum):
     SLIGHT = "slight"
     TOO_FAR = "too far"
     BEFORE_IT = "before it"
+    BEFORE_DOING = "before doing"
+    AFTER_DOING = "after doing"
+    BEFORE_THAT = "before that"
     COULD_YOU = "could you"
     UNKNOWN = "unknown"
 

@@ -89,6 +89,8 @@ def _back_to(noun: Noun, roles: frozenset[str]) -> Steps:
         return (TurnBack(), Follow(DoorReference()))
     if noun.kind == "hall":
         return (TurnBack(), Follow())
+    if noun.kind == "named" and "until" in roles:
+        return (Follow(landmark(noun)),)
     if noun.kind == "named":
         return (GoToRoom(plain_name(noun.name)),)
     place = landmark(noun)
@@ -133,12 +135,15 @@ def read_leave(frame: ClauseFrame) -> Readings | None:
         turns
         and frame.goes_out
         and not doors
+        and len(frame.refs) == 1
         and any(
             _is_bare_way_out(r, frame) and is_door(r.value) and r.value.kind == "door"
             for r in frame.refs
         )
     ):
         return ((GoToDoor(DoorReference(1, Side(frame.sides[0].value))),),)
+    if doors and _leads_on(frame, doors[-1]):
+        return ((Leave(), *turns, *moves(doors[-1].value, frozenset({"through"}), frozenset())),)
     if doors:
         plain = [r for r in doors if r.value.ordinal is None and r.value.side is None]
         door = landmark(doors[-1].value)
@@ -166,6 +171,14 @@ def read_leave(frame: ClauseFrame) -> Readings | None:
         side = Side(frame.sides[0].value)
         return steps, (GoToDoor(DoorReference(1, side)),)
     return (steps,)
+
+
+def _leads_on(frame: ClauseFrame, door: Item) -> bool:
+    """Of "Out, right, second door on the left": what is said in the order in which it is done."""
+    kinds = [item.kind for item in frame.items]
+    sides = kinds.count(ItemKind.SIDE)
+    told = kinds == [ItemKind.OUT, *[ItemKind.SIDE] * sides, ItemKind.REF]
+    return told and sides == 1 and door.value.side is not None and "out" not in door.roles
 
 
 def _is_bare_way_out(item: Item, frame: ClauseFrame) -> bool:

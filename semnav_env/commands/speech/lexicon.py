@@ -97,7 +97,7 @@ def _class_and_value(key: str) -> tuple[str, str]:
     return (kind, value) if kind in VALUED else (key, "")
 
 
-VALUED = ("number", "verb", "prep", "adj", "noun", "side", "where", "particle", "angle")
+VALUED = ("number", "verb", "no", "prep", "adj", "noun", "side", "where", "particle", "angle")
 """Classes whose keys have a value behind them."""
 
 
@@ -151,7 +151,12 @@ def spoken_pieces(found: Sequence[TextPiece], lexicon: SpeechLexicon) -> list[Te
     "The door's" is read as "the door is", and unknown words are taken apart ("reinfahren").
     """
     spoken: list[TextPiece] = []
-    for piece in found:
+    for index, piece in enumerate(found):
+        if [each.text for each in found[index : index + 2]] == [".", "."]:
+            continue
+        if piece.text == "." and index and found[index - 1].text == ".":
+            spoken.append(piece._replace(text=","))  # "the third... wait, the second"
+            continue
         base = piece.text.removesuffix("'s")
         if base != piece.text and piece.text not in lexicon.words and base in lexicon.words:
             spoken += [piece._replace(text=base), piece._replace(text="is")]
@@ -201,3 +206,25 @@ def parts_of(word: str, lexicon: SpeechLexicon) -> tuple[str, ...]:
         if rest != word and lexicon.find((rest,), 0, "noun"):
             return (rest,)
     return (word,)
+
+
+def with_room_names(
+    found: Sequence[TextPiece], lexicon: SpeechLexicon, names: Iterable[tuple[str, ...]]
+) -> list[TextPiece]:
+    """The words of a text with the name of a room apart from its door ("Kuechentuer")."""
+    rooms = sorted((name[0] for name in names if len(name) == 1), key=len, reverse=True)
+    doors = lexicon.of_class("noun")
+    spoken: list[TextPiece] = []
+    for piece in found:
+        word = piece.text
+        parts = next(((room, end) for room in rooms if (end := _door_of(word, room, doors))), None)
+        known = word in lexicon.words or parts is None
+        spoken += [piece] if known or parts is None else [piece._replace(text=t) for t in parts]
+    return spoken
+
+
+def _door_of(word: str, room: str, doors: frozenset[str]) -> str:
+    """The end of a compound of a room's name and a noun, which an "n" or "s" may join."""
+    rest = word.removeprefix(room)
+    ends = (rest, rest[1:] if rest[:1] in ("n", "s") else "")
+    return next((end for end in ends if rest != word and end in doors), "")

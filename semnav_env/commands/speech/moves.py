@@ -172,7 +172,8 @@ def _door(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
             return (GoToDoor(door, Approach.IN),)
         return (IntoDoorway(door) if inside else GoToDoor(door),)
     if roles & {"past"} or (verbs & {"pass"} and not roles & {"into", "to"}):
-        return (Follow(door, past=True),)
+        left_behind = noun.counted and door.side is Side.BEHIND
+        return (Follow(replace(door, side=None) if left_behind else door, past=True),)
     if roles & {"into", "through"} or verbs & {"enter"}:
         return (GoToDoor(door),)
     if "cross" in verbs and noun.doorway:

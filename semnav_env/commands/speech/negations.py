@@ -116,19 +116,35 @@ def _without(items: list[Item], at: int) -> list[Item]:
         return items
     place = next((i for i in negated if i.kind is ItemKind.REF and "at" in i.roles), None)
     if place is not None and not is_door(place.value) and verbs:
-        return [*before, *rest] if _names_another(place, rest[0]) else [*before, place, *rest]
+        return _behind_place(before, place, rest, goes_on=verbs[-1].value in _GOING_ON)
     refs = [item for item in negated if item.kind is ItemKind.REF]
+    if refs and refs[-1].value.counted and not verbs:
+        return [*before, replace(refs[-1], roles=("past",)), *items[stop:]]
     if refs and rest[0].kind is ItemKind.REF and rest[0].value.kind == "it":
         return [*before, replace(rest[0], value=refs[-1].value), *rest[1:]]
     if refs and rest[0].kind is ItemKind.REF and not verbs:
         merged = merged_items(refs[-1], rest[0]) if corrects(refs[-1], rest[0]) else rest[0]
         rest = [_next_of(refs[-1].value, merged), *rest[1:]]
-    elif refs and is_door(refs[-1].value):
+    elif refs and (is_door(refs[-1].value) or refs[-1].value.kind == "named"):
         rest = [_next_of(refs[-1].value, item) for item in rest]
         rest = [_named_again(item, refs[-1].value) for item in rest]
     if before and before[-1].kind is ItemKind.VERB and rest[0].kind is ItemKind.VERB:
         before = before[:-1]
     return [*before, *rest]
+
+
+_GOING_ON = ("continue", "go")
+
+
+def _behind_place(
+    before: list[Item], place: Item, rest: list[Item], *, goes_on: bool
+) -> list[Item]:
+    """Of "Don't turn at the corner": what is done there instead, or where else it is done."""
+    if _names_another(place, rest):
+        return [*before, *rest]
+    if goes_on:  # "don't stop at the kitchen, keep going"
+        return [*before, replace(place, roles=("past",)), *rest]
+    return [*before, place, *rest]
 
 
 def _said_before(items: Sequence[Item], at: int) -> int | None:
@@ -142,9 +158,12 @@ def _said_before(items: Sequence[Item], at: int) -> int | None:
     return start if ends and named and start < at else None
 
 
-def _names_another(place: Item, item: Item) -> bool:
+def _names_another(place: Item, rest: Sequence[Item]) -> bool:
     """Of "Not at the first intersection, but at the second": counted from the same place."""
-    return item.kind is ItemKind.REF and corrects(place, item) and bool(set(item.roles) & {"at"})
+    item = next(
+        (each for each in rest[: end_of_clause(rest, 0)] if each.kind is ItemKind.REF), None
+    )
+    return item is not None and corrects(place, item) and "at" in item.roles
 
 
 def _is_contrast(before: Sequence[Item], negated: Item) -> bool:

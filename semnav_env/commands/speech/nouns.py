@@ -57,6 +57,9 @@ class NounReader(NounWords):
                 noun, here = head
                 if noun.side is Side.OPPOSITE and noun.kind not in DOORLIKE:
                     return None  # "across the crossing" is no crossing opposite
+                behind = self._side_behind(replace(noun, side=None), here)
+                if self._plain_side(at) and (behind or self._plain_side(here)):
+                    return None  # "right, second door left": a turn before it
                 return self._behind(noun, here)
             adjective = self.find(here, "adj")
             longest = adjective[1] if adjective else 0
@@ -180,6 +183,8 @@ class NounReader(NounWords):
 
     def _side_behind(self, noun: Noun, at: int) -> tuple[Side, int] | None:
         """A side behind a noun: "on your left", "left", "in front of you"."""
+        if (same := self.find(at, "same side")) and self.memory.last and self.memory.last.side:
+            return self.memory.last.side, same[1]
         relative = self.find(at, "relative")
         for start in (at, relative[1] if relative else at):
             where = self.find(start, "where") if noun.kind in DOORLIKE else None

@@ -25,6 +25,7 @@ PLAIN_CLASSES = (
         "or",
         "could you",
     ),
+    *("before that", "before doing", "after doing"),
     *(
         "then",
         "and",
@@ -144,6 +145,8 @@ class ItemReader(ItemWords):
                     continue
                 if kind == "then" and not before and stop - at > MAX_FIRST_THEN:
                     continue
+                if kind in ("before doing", "after doing") and not self._begins_clause(at, stop):
+                    continue
                 if kind in ("in", "out", "before it") and self._begins_noun(stop):
                     continue
                 stops = (
@@ -252,7 +255,9 @@ class ItemReader(ItemWords):
             if side := self.nouns._plain_side(half):
                 named = self.nouns.find(half, "side")
                 sided = named is not None and side[1] > named[1]  # "the left side"
-                roles = ("on",) if self.words[at] in ("on", "auf") or sided else ()
+                again = not self.lexicon.find(self.words[half : half + 1], 0, "side")
+                on = self.words[at] in ("on", "auf") or sided or again  # "also on the left"
+                roles = ("on",) if on else ()
                 yield Item(ItemKind.SIDE, at, side[1], side[0], roles)
         where = self.lexicon.find(self.words, at, "where")
         if where:

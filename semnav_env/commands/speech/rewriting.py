@@ -16,12 +16,13 @@ from semnav_env.commands.speech.negations import (
     merged_items,
     without_negated,
 )
+from semnav_env.commands.speech.order import in_order
 from semnav_env.commands.speech.statements import merged_names, without_labels
 
 
 def rewritten(items: Sequence[Item]) -> list[Item]:
     """The items without those that others replace."""
-    found = _repaired(_without_first_no(in_full(items)))
+    found = _repaired(_without_first_no(in_full(in_order(items))))
     found = _corrected(merged_names(without_labels(found)))
     found = without_negated(_without_breaks(found))
     return _with_antecedents(_without_too_far(found))
@@ -182,25 +183,37 @@ def _is_needless(item: Item, before: Sequence[Item]) -> bool:
 def _with_antecedents(items: list[Item]) -> list[Item]:
     """Of "To it" and "past it" with the door or place that was named before."""
     last: Noun | None = None
+    verb = ""
     found: list[Item] = []
     for item in items:
+        verb = item.value if item.kind is ItemKind.VERB else verb
         if item.kind is ItemKind.REF and item.value.relative:
             item, found = _behind_landmark(item, found)
         if _is_needless(item, found):
             continue
         if item.kind is ItemKind.REF:
             noun = item.value
-            if (
-                noun.kind == "it"
-                and last is not None
-                and set(item.roles) & {"past", "after", "to", "until", "before", "near"}
-                and "into" not in item.roles
-            ):
+            if last is not None and (_is_it(item) or _is_door_again(item, last, verb)):
                 item = replace(item, value=last)
             elif is_door(noun) or noun.kind == "named" or noun.kind in ("intersection", "corner"):
                 last = noun
         found.append(item)
     return found
+
+
+def _is_it(item: Item) -> bool:
+    """Whether an item is "to it" or "past it"."""
+    roles = set(item.roles)
+    beside = roles & {"past", "after", "to", "until", "before", "near"}
+    return item.value.kind == "it" and bool(beside) and "into" not in roles
+
+
+def _is_door_again(item: Item, last: Noun, verb: str) -> bool:
+    """Of "To the second door, and stop in front of the door": the one that was named."""
+    noun: Noun = item.value
+    bare = noun.kind == "door" and noun == Noun("door", definite=noun.definite)
+    stops = verb.split()[:1] in (["stop"], ["wait"])
+    return bare and stops and "front" in item.roles and last.kind == "door" and not last.counted
 
 
 def _behind_landmark(item: Item, before: list[Item]) -> tuple[Item, list[Item]]:

@@ -95,7 +95,8 @@ class ClauseSegmentation:
         before, items = self.items[begin - 1], self.items[begin:stop]
         bare = all(item.kind in (ItemKind.SIDE, ItemKind.STRAIGHT) for item in items)
         straight = items[0].kind is ItemKind.STRAIGHT and before.kind is ItemKind.REF
-        return is_only_noun(items) or straight or (bare and before.kind is not ItemKind.OUT)
+        only_noun = is_only_noun(items) and not _is_turn_noun(items[0])
+        return only_noun or straight or (bare and before.kind is not ItemKind.OUT)
 
     def _behind_joints(self, at: int) -> int:
         while at < len(self.items) and self._is_joint(at):
@@ -188,6 +189,12 @@ class ClauseSegmentation:
                 return None
             return on_premise(items[-1].value, inner[0]), inner[1]
         return read_clause(items)
+
+
+def _is_turn_noun(item: Item) -> bool:
+    """Of "First crossing left, next one right": a place with a side says to turn."""
+    is_noun = item.kind is ItemKind.REF and item.value.kind in ("intersection", "corner")
+    return is_noun and item.value.side is not None
 
 
 def _is_bare_go(item: Item) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from semnav_env.commands.speech.items import Item, ItemKind
+from semnav_env.commands.speech.items import JOINTS, Item, ItemKind
 from semnav_env.commands.speech.moves import is_door
 
 _ENDS = (ItemKind.AND, ItemKind.THEN, ItemKind.VERB, ItemKind.IF, ItemKind.IN, ItemKind.BUT)
@@ -40,23 +40,25 @@ def _without_title(items: list[Item]) -> list[Item]:
     if title is None or any(item.kind is ItemKind.COULD_YOU for item in items[:title]):
         return items
     named = [item for item in items[:title] if item.kind is ItemKind.REF]
-    plain = all(item.kind in (ItemKind.REF, ItemKind.SIGN) for item in items[:title])
+    plain = items[0].kind is ItemKind.REF and all(
+        item.kind in (ItemKind.REF, ItemKind.SIGN) or item.value == "be" for item in items[:title]
+    )
     told = any(item.kind is ItemKind.REF and item.value.kind != "it" for item in items[title:])
     return items[title + 1 :] if plain and len(named) == 1 and told else items
 
 
 def _without_restatement(items: list[Item]) -> list[Item]:
     """Of "Out of here, out of this room I mean": what stands before it is corrected."""
-    end = len(items)
-    while end and items[end - 1].kind is ItemKind.SIGN:
-        end -= 1
-    if not end or items[end - 1].kind is not ItemKind.NO:
-        return items
-    commas = [i for i in range(end - 1) if items[i].kind is ItemKind.SIGN]
-    if not commas:
-        return items
-    at = commas[-1] + 1
-    return [*items[:at], items[end - 1], *items[at : end - 1], *items[end:]]
+    found = list(items)
+    for end, item in enumerate(items):
+        rest = items[end + 1 :]
+        last = all(each.kind is ItemKind.SIGN for each in rest)
+        meant = item.value == "meant" and (last or rest[0].kind in JOINTS)
+        commas = [i for i in range(end) if items[i].kind is ItemKind.SIGN]
+        if item.kind is ItemKind.NO and (last or meant) and commas and commas[-1] < end - 1:
+            at = commas[-1] + 1
+            found[at : end + 1] = [item, *items[at:end]]
+    return found
 
 
 def _told_once(items: list[Item], at: int) -> list[Item]:
@@ -134,11 +136,16 @@ def merged_names(items: Sequence[Item]) -> list[Item]:
             continue
         one = item.kind is ItemKind.REF and item.value.kind == "one" and not item.roles
         comma = before is not None and before.value == ","
-        if one and comma and len(found) > 1 and _is_name(found[-2]):
+        if one and comma and len(found) > 1 and _is_bound_for(found[-2]):
             found.pop()
             continue
         found.append(item)
     return found
+
+
+def _is_bound_for(item: Item) -> bool:
+    """Whether an item names a room to go to, and none that is passed."""
+    return _is_name(item) and (not item.roles or bool(set(item.roles) & {"to", "into"}))
 
 
 def _is_bare_door(item: Item) -> bool:

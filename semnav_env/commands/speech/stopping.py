@@ -52,6 +52,8 @@ def read_wait(frame: ClauseFrame) -> Readings | None:
     if frame.verbs - {"stop", "wait", "go", "continue", "make"} or frame.sides:
         raise NoMeaningError("a time and something else")
     rest = replace_items(frame, ItemKind.SECONDS)
+    if frame.has(ItemKind.IN) and rest.refs:
+        raise NoMeaningError("enter, and a time")
     there = _stop_at(rest) if rest.refs else ()
     count = -int(-seconds // MAX_SECONDS)
     share, more = divmod(int(seconds), count)
@@ -61,6 +63,8 @@ def read_wait(frame: ClauseFrame) -> Readings | None:
 
 def read_stop(frame: ClauseFrame) -> Readings | None:
     """The readings of a clause that ends in a stop; None if it does not."""
+    if not frame.verbs and len(frame.items) == 1 and frame.has(ItemKind.BEFORE_IT):
+        return ((StopBeforeMentioned(),),)  # "to the door, but don't go in"
     if not frame.verbs & {"stop", "wait"}:
         return None
     if frame.verbs - {"stop", "wait", "go", "continue", "in", "make", "keep"} or frame.goes_out:

@@ -208,6 +208,8 @@ def _turn_among(frame: ClauseFrame, contexts: Steps, rest: list[Item], way: Turn
             place = landmark(noun)
             if not isinstance(place, PlaceReference) or turn.at is not None:
                 raise NoMeaningError("two places")
+            if noun.side is not None and noun.side.value != turn.turning.value:
+                raise NoMeaningError("two sides")  # "crossing left, next one right"
             turn = replace(turn, at=place)
         else:
             steps += moves(noun, roles, frozenset({"go"}))

@@ -159,7 +159,8 @@ def _apart(found: Sequence[ClauseReadings], words: Sequence[str]) -> list[Clause
     for before, each in pairwise(found):
         apart.append(
             each
-            if before.wants_side and list(words[before.stop : each.start]) == [","]
+            if (before.wants_side or not each.without_sides().readings)
+            and list(words[before.stop : each.start]) == [","]
             else each.without_sides()
         )
     return apart

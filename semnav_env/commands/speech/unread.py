@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind
 from semnav_env.commands.speech.lexicon import SpeechLexicon
+from semnav_env.commands.speech.negations import SOFT
 
 MAX_UNREAD = 2
 """The most stretches of unknown words that are left out; with more a text is rather no command."""
@@ -57,6 +58,8 @@ def _instead(
     """The items without those from `at` to `stop`, or with a verb for them; None to keep them."""
     if (corrected := _corrected(items, at, stop)) is not None:
         return corrected
+    if (told := _framed(items, at, words, lexicon)) is not None:
+        return told
     if (aside := _aside(items, at, stop, words, lexicon)) is not None:
         return aside
     unread = words[items[at].start : items[stop - 1].stop]
@@ -121,6 +124,33 @@ def _corrected(items: list[Item], at: int, stop: int) -> list[Item] | None:
     while start and items[start - 1].kind not in _PARTS:
         start -= 1
     return [*items[:start], *items[after + 1 :]]
+
+
+def _framed(
+    items: list[Item], at: int, words: Sequence[str], lexicon: SpeechLexicon
+) -> list[Item] | None:
+    """Without what stands before a command: "it would be kind if you ...", "my desk is in ..."."""
+    start = at
+    while start and items[start - 1].kind is not ItemKind.SIGN:
+        start -= 1
+    first = items[start].start
+    unread = [item for item in items[start:] if item.kind is ItemKind.UNKNOWN]
+    if any(str(item.value) in lexicon.of_class("beyond") for item in unread):
+        return None
+    said = [item for item in items[start:at] if item.kind not in SOFT and item.value != "be"]
+    for stop in range(at + 1, len(items)):
+        if said or items[stop - 1].kind in _SAYING:
+            return None
+        before = items[at:stop]
+        only = start == at and all(item.kind is ItemKind.UNKNOWN for item in before)
+        if only and items[stop].value == "be" and items[stop].kind is ItemKind.VERB:
+            return [*items[:start], *items[stop:]]  # "my desk is in the second room"
+        spoken = range(items[stop - 1].start, items[stop].start + 1)
+        ends = [found[1] for i in spoken if (found := lexicon.find(words, i, "handover"))]
+        behind = [item for item in items[stop:] if ends and item.start >= ends[0]]
+        if behind and ends[0] > first:
+            return [*items[:start], *behind]
+    return None
 
 
 def _aside(
