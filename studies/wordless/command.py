@@ -33,7 +33,7 @@ class Arguments:
 
     out: Path
     episodes: int = 600
-    epochs: int = 10
+    epochs: int = 60
     split: str = "val_unseen"
     measured: int = 100
     robots: tuple[str, ...] = ("wheelchair", "spot")
