@@ -216,6 +216,6 @@ def otherwise_of(readings: Readings) -> Readings:
 def correcting(readings: Readings) -> Readings:
     """The readings of a clause that takes the place of the one before it."""
     return tuple(
-        (Correction(steps[0]), *steps[1:]) if isinstance(steps[0], Clause) else steps
+        (Correction(steps[0]), *steps[1:]) if steps and isinstance(steps[0], Clause) else steps
         for steps in readings
     )

@@ -34,8 +34,9 @@ def corrects(item: Item, by: Item) -> bool:
             item.kind is ItemKind.REF and item.value.side is not None
         )
     if item.kind is ItemKind.SIDE:
-        return by.value.side is not None and by.value.ordinal is None
-    if item.kind is not ItemKind.REF:
+        sided = by.kind is ItemKind.REF and by.value.side is not None
+        return sided and by.value.ordinal is None
+    if item.kind is not ItemKind.REF or by.kind is not ItemKind.REF:
         return False
     return (
         item.value.kind == by.value.kind
