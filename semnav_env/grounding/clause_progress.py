@@ -94,7 +94,7 @@ def put_goal(record: np.ndarray, field: str, goal: Goal) -> None:
         tolerances = goal.tolerances
     flags = int(goal.kind), door is not None, bool(goal.places)
     numbers = (*goal.pose, *ends, *tolerances, width, wait_of(goal), *flags)
-    fields = record.dtype.fields or {}
+    fields: Any = record.dtype.fields
     _GOAL_FORMAT.pack_into(record.view(np.uint8).data, fields[field][1], *numbers)
 
 
