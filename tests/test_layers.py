@@ -229,7 +229,7 @@ def test_what_is_not_installed_is_never_imported():
 
 
 def test_the_oracle_and_the_truth_import_no_kernel():
-    folders = (ROOT / "tests" / "numpy_oracle", ROOT / "semnav_env" / "truth")
+    folders = (ROOT / "tests" / "numpy_oracle", ROOT / "studies" / "truth")
     kernels = ("semnav_env.features.kernels", "semnav_env.features.extraction", "numba")
     for path in (path for folder in folders for path in folder.glob("*.py")):
         module = Module(path.stem, "", path, ast.parse(path.read_text()))
