@@ -60,12 +60,12 @@ def to_local(frame: Pose, point: Point) -> Point:
     return c * dx + s * dy, c * dy - s * dx
 
 
-def heading_between(start: Point, end: Point) -> float:
+def heading_between(start: tuple[float, ...], end: tuple[float, ...]) -> float:
     """The heading from one place to another, radians."""
     return math.atan2(end[1] - start[1], end[0] - start[0])
 
 
-def middle_of(start: Point, end: Point) -> Point:
+def middle_of(start: tuple[float, ...], end: tuple[float, ...]) -> Point:
     """The place half way between two places."""
     return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
 
