@@ -5,9 +5,9 @@ Needs NumPy and Numba only, so it runs on a robot's own logs without the simulat
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from semnav_env.features.lazy_names import lazy_names
 from semnav_env.features.scene import (
     Arc,
     Corner,
@@ -42,11 +42,6 @@ __all__ = [
     "polylines",
 ]
 
-_LAZY = {"extract": "extraction", "polylines": "polyline", "Scan": "scan"}
-"""Names that are imported when they are asked for, with their modules; a simulator needs none."""
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _LAZY:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_LAZY[name]}"), name)
+__getattr__ = lazy_names(
+    __name__, {"extraction": ("extract",), "polyline": ("polylines",), "scan": ("Scan",)}
+)

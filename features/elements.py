@@ -6,9 +6,7 @@ import math
 from dataclasses import dataclass
 from enum import IntEnum
 
-import numpy as np
-
-from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.frames import Point, heading_between, middle_of
 
 
 class CornerKind(IntEnum):
@@ -60,7 +58,7 @@ class Wall:
     @property
     def heading(self) -> float:
         """Direction from start to end, radians (Barbret (1.6))."""
-        return math.atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
+        return heading_between(self.start, self.end)
 
     @property
     def line(self) -> tuple[float, float]:
@@ -76,20 +74,6 @@ class Wall:
         if distance < 0.0:
             theta, distance = theta + math.pi, -distance
         return math.pi - (math.pi - theta) % math.tau, distance
-
-    @property
-    def line_covariance(self) -> FloatArray:
-        """Covariance of `line`, shape (2, 2): theta in radians, d in metres.
-
-        At the centroid m the errors of direction and offset are uncorrelated; as d is n . m, an
-        error of theta moves it by t . m, t being the line's direction (-sin(theta), cos(theta)).
-        Zero for a wall of a floor plan. An error that all ranges share is not covered.
-        """
-        theta, _ = self.line
-        x, y = self.centroid or self.start
-        lever = y * math.cos(theta) - x * math.sin(theta)
-        tilt, shift = self.angle_deviation**2, self.offset_deviation**2
-        return np.array([[tilt, lever * tilt], [lever * tilt, shift + lever**2 * tilt]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +115,7 @@ class Door:
     @property
     def midpoint(self) -> Point:
         """Middle of the opening, (x, y) in metres."""
-        return (self.start[0] + self.end[0]) / 2, (self.start[1] + self.end[1]) / 2
+        return middle_of(self.start, self.end)
 
     @property
     def width(self) -> float:
@@ -167,7 +151,7 @@ class CorridorProbe:
     @property
     def midpoint(self) -> Point:
         """Where a robot would pass, (x, y) in metres."""
-        return (self.start[0] + self.end[0]) / 2, (self.start[1] + self.end[1]) / 2
+        return middle_of(self.start, self.end)
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,8 +182,8 @@ class Arc:
     @property
     def extent(self) -> float:
         """Angle that it spans about its centre, radians, 0 to 2 pi."""
-        start = math.atan2(self.start[1] - self.centre[1], self.start[0] - self.centre[0])
-        end = math.atan2(self.end[1] - self.centre[1], self.end[0] - self.centre[0])
+        start = heading_between(self.centre, self.start)
+        end = heading_between(self.centre, self.end)
         # Beams run counter-clockwise, so the near side of a circle is passed clockwise.
         return (start - end if self.convex else end - start) % math.tau
 

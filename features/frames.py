@@ -26,10 +26,13 @@ MOST_CONTACTS = 9
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
+ORIGIN: Pose = (0.0, 0.0, 0.0)
+"""The pose of a frame in itself."""
+
 
 def wrap_angle(angle: float) -> float:
     """The same angle in [-pi, pi]."""
-    return math.remainder(angle, 2.0 * math.pi)
+    return math.remainder(angle, math.tau)
 
 
 def compose(frame: Pose, local: Pose) -> Pose:
@@ -57,10 +60,25 @@ def to_local(frame: Pose, point: Point) -> Point:
     return c * dx + s * dy, c * dy - s * dx
 
 
+def heading_between(start: tuple[float, ...], end: tuple[float, ...]) -> float:
+    """The heading from one place to another, radians."""
+    return math.atan2(end[1] - start[1], end[0] - start[0])
+
+
+def middle_of(start: tuple[float, ...], end: tuple[float, ...]) -> Point:
+    """The place half way between two places."""
+    return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+
+
 def path_length(points: FloatArray) -> float:
     """Length of the line through points, shape (n, 2), metres."""
     steps = np.diff(points, axis=0)
     return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
+
+
+def distances_along(points: FloatArray) -> FloatArray:
+    """Distance along the line through points, shape (n, 2), up to each of them, metres."""
+    return np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))))
 
 
 def points_to_parent(frame: Pose, points: FloatArray) -> FloatArray:

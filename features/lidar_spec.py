@@ -10,7 +10,7 @@ import numpy as np
 
 from semnav_env.features.checked_fields import Bounds, Length, Share, check_fields
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.validation import require
+from semnav_env.features.validation import by_name, require
 
 CosinesSines: TypeAlias = tuple[FloatArray, FloatArray]
 """Cosines and sines of the directions of beams, each of shape (beams,).
@@ -122,8 +122,4 @@ def lidar_spec(name_or_spec: str | LidarSpec) -> LidarSpec:
     Raises:
         ValueError: no such lidar; lists those there are.
     """
-    if isinstance(name_or_spec, LidarSpec):
-        return name_or_spec
-    if name_or_spec not in tuple(LIDARS):
-        raise ValueError(f"no lidar named {name_or_spec!r:.80}; there are: {', '.join(LIDARS)}")
-    return LIDARS[name_or_spec]
+    return by_name("lidar", name_or_spec, LidarSpec, LIDARS)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.frames import FloatArray, Point, middle_of
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Arc, CornerKind, Scene, Wall
 from semnav_env.features.writing import replacing
@@ -163,7 +163,7 @@ def _draw_corridors(ax: Axes, scene: Scene) -> None:
 
 
 def _tick(wall: Wall) -> tuple[Point, Point]:
-    x, y = (wall.start[0] + wall.end[0]) / 2, (wall.start[1] + wall.end[1]) / 2
+    x, y = middle_of(wall.start, wall.end)
     left = wall.heading + math.pi / 2
     return (x, y), (x + _TICK * math.cos(left), y + _TICK * math.sin(left))
 

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
-import zlib
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any, Protocol, cast
 
 WHOLE_FILE = 20_000_000
 """Size of the largest document that is read as a whole, bytes."""
@@ -52,44 +49,3 @@ def read_text(
         return read_bytes(path, most, error).decode("utf-8-sig")
     except UnicodeDecodeError as fault:
         raise error(f"{path}: byte {fault.start} is not UTF-8; is it the right file?") from None
-
-
-class Decompressor(Protocol):
-    """What zlib, bz2, lz4 and zstd have for data that come in parts."""
-
-    eof: bool
-    unused_data: bytes | None
-
-    def decompress(self, data: bytes, max_length: int, /) -> bytes:
-        """At most so many bytes of the content of data."""
-        ...
-
-
-def gzip_decompressor() -> Decompressor:
-    """A decompressor of gzip."""
-    made: Any = zlib.decompressobj(wbits=16 + zlib.MAX_WBITS)
-    return cast(Decompressor, made)
-
-
-def decompressed(
-    data: bytes, most: int, decompressor: Callable[[], Decompressor] = gzip_decompressor
-) -> bytes:
-    """The content of compressed data, of as many parts as there are.
-
-    Raises:
-        ValueError: it has more than `most` bytes.
-        EOFError: the data end too early.
-        Exception: that of the decompressor, if the data are damaged.
-    """
-    content: list[bytes] = []
-    left = most
-    while data:
-        stream = decompressor()
-        content.append(stream.decompress(data, left + 1))
-        left -= len(content[-1])
-        if left < 0:
-            raise ValueError(f"more than {most:,} bytes when decompressed")
-        if not stream.eof:
-            raise EOFError
-        data = (stream.unused_data or b"").lstrip(b"\0")
-    return b"".join(content)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Set, Sized
 from numbers import Integral, Real
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+
+T = TypeVar("T")
 
 SHOWN = 80
 """Largest number of characters of a value that a message repeats."""
@@ -55,6 +57,25 @@ def check_kind(name: str, value: object, kind: type) -> None:
     """
     known = "text" if kind is str else f"a {kind.__module__}.{kind.__qualname__}"
     require(isinstance(value, kind), name, value, known)
+
+
+def by_name(what: str, value: object, kind: type[T], known: Mapping[str, T]) -> T:
+    """A value itself, or the known one that it names.
+
+    Args:
+        what: such values are, for the message.
+        value: one of that kind, or its name.
+        kind: of the values.
+        known: values by name.
+
+    Raises:
+        ValueError: no such name; lists those there are.
+    """
+    if isinstance(value, kind):
+        return value
+    if not isinstance(value, str) or value not in known:
+        raise ValueError(f"no {what} named {value!r:.80}; there are: {', '.join(known)}")
+    return known[value]
 
 
 def check_count(name: str, value: object) -> None:

@@ -2,84 +2,73 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from semnav_env import tasks
+from semnav_env import commands, tasks
 from semnav_env.belief import Belief, BeliefTracker
-from semnav_env.commands import encode
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics, PlanSource
 from semnav_env.features import ExtractorSettings
-from semnav_env.features.checked_fields import Seconds, checked
+from semnav_env.features.frames import ORIGIN
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
-from semnav_env.features.validation import check_kind
 from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
 from semnav_env.maps import FloorPlan
-from semnav_env.observations import EntryObservation, Moment, ObservationType, as_observation
+from semnav_env.observations import Moment, ObservationType, as_observation
+from semnav_env.payload import Payload, as_payload
 from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.robots.actions import Actions
 from semnav_env.rules import Rules, with_doors_of
 from semnav_env.simulator import OdometrySettings, RobotSetup, Simulator, odometry_settings
 from semnav_env.verifier import Mission
-from semnav_env.world import World
-
-if TYPE_CHECKING:
-    from semnav_env.payload import Payload
 
 
 class SemNavEnv(GymnasiumEnv[Any]):
     """A robot in an office carries out a spoken-style command.
 
     ## Description
-    A wheelchair or a SPOT robot stands in a floor plan and is told where to go ("go down the
-    hallway, turn left at the intersection and go in the first door on the right"). It has a 2D
-    lidar and drifting odometry. Each scan is turned into walls, doors, corners and corridors, these
-    are remembered, and the command is grounded on what was seen, never on the map. A verifier that
-    does know the map says clause by clause whether the command was carried out.
+    A wheelchair or a SPOT robot is told where to go ("go down the hallway, turn left at the
+    intersection and go in the first door on the right"). It has a 2D lidar and drifting odometry.
+    Walls, doors, corners and corridors are found in each scan and remembered, and the command is
+    grounded on what was seen, never on the map. A verifier, which knows the map, says clause by
+    clause whether the command was carried out.
 
     ## Action Space
-    `Box(-1, 1, (2,))` for the wheelchair: forward speed and turn rate, as shares of the robot's
-    largest; `Box(-1, 1, (3,))` for SPOT: forward, left, turn. Values outside are clipped; NaN,
-    infinity and other shapes raise `ValueError`. Accelerations are bounded by the robot.
+    Shares of the largest speeds: `Box(-1, 1, (2,))`, forward and turn, for the wheelchair;
+    `Box(-1, 1, (3,))`, forward, left and turn, for SPOT. Values outside are clipped; NaN, infinity
+    and other shapes raise `ValueError`. Accelerations are bounded by the robot.
 
     ## Observation Space
-    A `Dict` of flat arrays; lengths in metres, features and goal in the robot frame (x forward,
-    y left, origin at the centre of the footprint). Row i of a feature counts where its mask is 1;
-    `observations.table(observation, "walls")` gives those rows.
+    A `Dict` of flat arrays, which `semnav_env.observations.layout` declares; lengths in metres,
+    features and goal in the robot frame (x forward, y left, origin at the centre of the footprint).
+    NAME_mask tells which rows count; `observations.table(observation, "walls")` gives those.
 
-    - walls, doors, corners, corridors: features of this scan.
-    - remembered_doors, bumps: remembered doors that count; walls bumped into unseen.
+    - walls, doors, corners, corridors: features of this scan; scan: its ranges, the lidar's range
+      where nothing returns; remembered_doors: those that count; bumps: walls bumped into unseen.
     - command: as tokens, see `commands.encode`; clause: which one the robot believes to be under
       way; odometry: believed pose and velocity; goal: where to drive now.
-    - scan: ranges; no return reads as the lidar's range.
 
-    `semnav_env.observations.layout` declares each, and NAME_mask tells which of its rows count.
     `observation="semantic"` has all but the scan; `"raw"` has scan, command, clause and odometry;
-    `"all"` has these all; `"truth"` has the entries of "semantic" without errors: features from an
-    exact scan, the true pose in the world as odometry, and the goal grounded on the floor plan.
-    `"command"` is for who is to hear the command: no goal and no clause, but what is remembered.
-    An object with `space(robot, lidar)` and `observe(moment)` makes observations of its own;
-    `EntryObservation(mode, extra)` adds entries to a mode.
+    `"all"` has these all; `"truth"` is "semantic" without errors: features of an exact scan, the
+    true pose as odometry, world frame, and the goal grounded on the floor plan; `"command"` is for
+    who is to hear the command: no goal and no clause, but what is remembered. Others are made by an
+    object with `space(robot, lidar)` and `observe(moment)`, and by `EntryObservation(mode, extra)`.
 
     ## Rewards
-    The sum of named terms (`RewardWeights`), all in `info["reward_terms"]`: progress along the
-    shortest way, clauses done, success, failure, contact, time. `AddedTerms` adds terms of one's
-    own; an object with `terms(tick)` replaces them all.
+    The sum of the terms in `info["reward_terms"]`: progress along the shortest way, clauses done,
+    success, failure, contact, time. `AddedTerms` adds others; `terms(tick)` replaces them all.
 
     ## Starting State
     `reset(options=...)` takes "command" (text or `Command`), its "language", "implicit_steps" (or
     not), "pose" (x, y, heading; world frame) and "floor_plan", or "episode", an `Episode` or the id
-    of one of `episodes`. Without options the task says what the episode is asked to be. What is not
-    asked for is drawn: a free pose in a corridor looking along it, and a command that can be
-    carried out from there.
+    of one of `episodes`; without options the task is asked. What is left open is drawn: a free pose
+    in a corridor looking along it, and a command that can be carried out from there.
 
     ## Episode End
-    Terminates when the command has been carried out, at a wrong door or a wrong turn, and after
-    standing still for 10 s ("stopped short"). Truncates after `max_seconds`. Contact does not end
-    an episode; it is counted in `info["collisions"]`.
+    Terminates when the command is carried out, at a wrong door or turn, and after 10 s of standing
+    still ("stopped short"); truncates after `max_seconds`. `info["collisions"]` counts contacts.
 
     ## Arguments
     robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a `FloorPlan`.
@@ -87,19 +76,14 @@ class SemNavEnv(GymnasiumEnv[Any]):
     `LidarSpec`; its rate is the control rate. odometry: how dead reckoning errs: "usual",
     "exact", "wheelchair", "spot" or an `OdometrySettings`. extractor: its limits. corrects_drift:
     whether walls that are seen again correct odometry. rules: what a door is, how words are
-    grounded, and what success is; robot and judge follow the same. rewards: `RewardWeights`, or
-    an object with `terms(tick)`. dynamics: what else moves. payload: a
-    `Payload`, such as the person detector of a search. task: a command, a list of commands,
-    or a `Task`: what episodes are asked to be. episodes: to draw from instead: the name of a split,
-    a file, or `Episode`s. max_seconds: of simulated time. render_mode: "rgb_array" or "human"
-    (extra `render`).
+    grounded and what success is, for robot and judge. rewards: `RewardWeights`, or an object with
+    `terms(tick)`. dynamics: what else moves. payload: a `Payload`, such as a person detector. task:
+    a command, a list of commands, or a `Task`. episodes: to draw from instead: the name of a split,
+    a file, or `Episode`s. max_seconds: of simulated time. render_mode: "rgb_array" or "human".
 
     ## Vectorized Environment, Version History, References
-    `gymnasium.make_vec(..., vectorization_mode="vector_entry_point")`; v0 is the first version; see
-    CITATION.cff.
+    `make_vec(..., vectorization_mode="vector_entry_point")`; v0 is the first; see CITATION.cff.
     """
-
-    metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 15}  # noqa: RUF012
 
     @takes_plain_settings
     def __init__(
@@ -120,26 +104,19 @@ class SemNavEnv(GymnasiumEnv[Any]):
         max_seconds: float = 120.0,
         render_mode: str | None = None,
     ) -> None:
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            raise ValueError(f"no render mode {render_mode!r}; there are: rgb_array, human")
-        check_kind("extractor", extractor, ExtractorSettings)
-        check_kind("rules", rules, Rules)
         self.rules, self.extractor = with_doors_of(rules, extractor)
         self.corrects_drift, self.rewards = corrects_drift, tasks.as_rewards(rewards)
-        self.payload = None if payload is None else _checked_payload(payload)
+        self.payload = as_payload(payload)
         self.episode_source = tasks.EpisodeSource(task, episodes)
         self.observation_type = as_observation(observation)
         exact = bool(getattr(self.observation_type, "exact", False))
         sensors = lidar_spec(lidar), odometry_settings(odometry)
         self.usual = RobotSetup(robot_spec(robot), *sensors, exact)
-        self.max_steps = round(checked("max_seconds", max_seconds, Seconds) * self.usual.control_hz)
-        self.render_mode = render_mode
-        self.metadata = self.metadata | {"render_fps": max(1, round(self.usual.control_hz))}
+        super().__init__(self.usual.control_hz, max_seconds, render_mode)
         self.plan_source = PlanSource(floor_plan, dynamics, self.usual.robot)
         self._enter(self.plan_source.plan(), self.usual)
         self.action_space = self._actions.space
         self.observation_space = self.observation_type.space(self.robot, self.lidar_spec)
-        self._started = False
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -208,12 +185,8 @@ class SemNavEnv(GymnasiumEnv[Any]):
 
     def observe(self) -> Any:
         """A fresh observation from where the robot is now."""
-        kind = self.observation_type
-        if type(kind) is EntryObservation and not kind.extra:
-            return kind.observe_last(self.tracker, self.tokens)
-        told = self.tracker.command, self.tokens, self.simulator.see, self.instruction
-        moment = Moment(self.belief, self.tracker, *told, self.payload)
-        return self.observation_type.observe(moment)
+        told = self.tokens, self.instruction, self.simulator.see, self.payload
+        return self.observation_type.observe(Moment(self.tracker, *told))
 
     def conclude(self, truncated: bool) -> dict[str, Any]:
         """End the episode; returns what `info` says at its end."""
@@ -236,38 +209,21 @@ class SemNavEnv(GymnasiumEnv[Any]):
         self.renderer.close()
 
     @property
-    def robot(self) -> RobotSpec:
-        """The body of this episode."""
-        return self.setup.robot
-
-    @property
-    def lidar_spec(self) -> LidarSpec:
-        """The lidar of this episode."""
-        return self.setup.lidar
-
-    @property
-    def world(self) -> World:
-        """The physics."""
-        return self.simulator.world
-
-    @property
     def belief(self) -> Belief:
         """What the robot believes now."""
-        return self.tracker.belief or self.tracker.believe()
+        return self.tracker.belief
 
     @property
     def seconds(self) -> float:
         """Simulated time since the start of the episode."""
         return self.simulator.steps / self.setup.control_hz
 
-    def _require_reset(self, name: str) -> None:
-        if not self._started:
-            raise RuntimeError(f"call reset() before {name}()")
-
     def _enter(self, floor_plan: FloorPlan, setup: RobotSetup) -> None:
-        """Set everything up that belongs to one floor plan and one robot."""
+        """Make all that belongs to one floor plan and one robot."""
         self.floor_plan, self.setup = floor_plan, setup
+        self.robot, self.lidar_spec = setup.robot, setup.lidar
         self.simulator = Simulator(floor_plan, setup, self.plan_source.dynamics)
+        self.world = self.simulator.world
         self._missions = tasks.MissionMaker(floor_plan, setup.robot, self.rules)
         self._actions = Actions(setup.robot)
         self.renderer = Renderer(self.world.still)
@@ -286,14 +242,8 @@ class SemNavEnv(GymnasiumEnv[Any]):
         from semnav_env.robot_loop import RobotLoop  # first needed now
 
         self.judge, self.instruction = tasks.EpisodeJudge(mission, self.payload), instruction
-        self.tokens = encode(mission.command, self.floor_plan.room_names)
-        odometry_frame = (0.0, 0.0, 0.0) if self.setup.exact else mission.start
+        self.tokens = commands.encode(mission.command, self.floor_plan.room_names)
+        odometry_frame = ORIGIN if self.setup.exact else mission.start
         self.tracker.begin(mission.command, mission.ways_seen_from(odometry_frame))
         self._loop = RobotLoop(self.simulator, self.tracker, self.judge.verifier)
         self.renderer.begin(mission.start)
-
-
-def _checked_payload(payload: object) -> Payload:
-    from semnav_env.payload import checked_payload  # most robots carry none
-
-    return checked_payload(payload)

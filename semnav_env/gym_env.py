@@ -13,6 +13,8 @@ import numpy as np
 from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
+from semnav_env.features.checked_fields import Seconds, checked
+
 ObservationT = TypeVar("ObservationT")
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -44,13 +46,30 @@ def takes_plain_settings(function: Callable[P, R]) -> Callable[P, R]:
 
 
 class GymnasiumEnv(gym.Env[ObservationT, NDArray[np.float32]], Generic[ObservationT]):
-    """An environment that says its time limit and its keys.
+    """An environment that says its time limit, its pictures and its keys.
+
+    Args:
+        control_hz: steps per second.
+        max_seconds: duration of an episode.
+        render_mode: one of `metadata["render_modes"]`, or None.
 
     Attributes:
         max_steps: after which an episode is truncated.
     """
 
-    max_steps: int
+    metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 15}  # noqa: RUF012
+    _started = False
+
+    def __init__(self, control_hz: float, max_seconds: float, render_mode: str | None) -> None:
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise ValueError(f"no render mode {render_mode!r}; there are: rgb_array, human")
+        self.max_steps = round(checked("max_seconds", max_seconds, Seconds) * control_hz)
+        self.render_mode = render_mode
+        self.metadata = self.metadata | {"render_fps": max(1, round(control_hz))}
+
+    def _require_reset(self, name: str) -> None:
+        if not self._started:
+            raise RuntimeError(f"call reset() before {name}()")
 
     @property
     def spec(self) -> EnvSpec | None:

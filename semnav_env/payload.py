@@ -72,13 +72,13 @@ class Payload(Protocol):
         ...
 
 
-def checked_payload(value: object) -> Payload:
+def as_payload(value: object) -> Payload | None:
     """What `payload=` takes, as it is.
 
     Raises:
         ValueError: an object that is none.
     """
-    if isinstance(value, Payload) and not isinstance(value, type):
+    if value is None or (isinstance(value, Payload) and not isinstance(value, type)):
         return value
     raise ValueError(
         f"payload is {value!r:.80}; it must be None or have begin, update, fulfils, "

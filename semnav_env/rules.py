@@ -13,6 +13,7 @@ from typing import Annotated
 from semnav_env.features.checked_fields import Angle, Bounds, Count, Length, Share, check_fields
 from semnav_env.features.rules import DoorRules
 from semnav_env.features.settings import ExtractorSettings
+from semnav_env.features.validation import check_kind
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,8 +210,10 @@ def with_doors_of(rules: Rules, extractor: ExtractorSettings) -> tuple[Rules, Ex
     """Rules and extractor settings with the same doors, whichever of the two says what those are.
 
     Raises:
-        ValueError: both say so, and differently.
+        ValueError: one of them is something else, or both say what a door is, and differently.
     """
+    check_kind("extractor", extractor, ExtractorSettings)
+    check_kind("rules", rules, Rules)
     usual, seen = DoorRules(), extractor.door_rules
     if rules.door != usual and seen not in (usual, rules.door):
         raise ValueError(f"rules.door is {rules.door}, but the extractor's doors are {seen}")

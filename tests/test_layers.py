@@ -82,7 +82,7 @@ def importers(package):
     }
 
 
-MAX_IMPORTED_LINES = 19_600
+MAX_IMPORTED_LINES = 19_000
 """Lines of our own code that making an environment may import."""
 
 COUNT_IMPORTED_LINES = """
@@ -185,7 +185,7 @@ def needed(name, seen):
     return seen
 
 
-ROBOTS_SIDE = {"belief", "features", "commands", "grounding", "localization", "rules", "lazy_names"}
+ROBOTS_SIDE = {"belief", "features", "commands", "grounding", "localization", "rules"}
 """What runs on a robot as it is."""
 
 
@@ -229,7 +229,7 @@ def test_what_is_not_installed_is_never_imported():
 
 
 def test_the_oracle_and_the_truth_import_no_kernel():
-    folders = (ROOT / "tests" / "numpy_oracle", ROOT / "semnav_env" / "truth")
+    folders = (ROOT / "tests" / "numpy_oracle", ROOT / "studies" / "truth")
     kernels = ("semnav_env.features.kernels", "semnav_env.features.extraction", "numba")
     for path in (path for folder in folders for path in folder.glob("*.py")):
         module = Module(path.stem, "", path, ast.parse(path.read_text()))

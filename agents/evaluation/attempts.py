@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import gzip
 import json
-import zlib
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from semnav_env.features.reading import decompressed, read_bytes
+from semnav_env.features.decompression import read_lines
 from semnav_env.features.validation import clipped, shown
 from semnav_env.features.writing import write_file
 
@@ -56,14 +55,8 @@ def read_attempts(path: str | Path) -> list[Attempt]:
         OSError: it cannot be read.
     """
     where = Path(path)
-    raw = read_bytes(where, MAX_BYTES)
-    try:
-        text = (decompressed(raw, MAX_BYTES) if where.suffix == ".gz" else raw).decode()
-    except (EOFError, zlib.error):
-        raise ValueError(f"{where}: is not gzip-compressed, or is cut off") from None
-    except UnicodeDecodeError:
-        raise ValueError(f"{where}: is not text in UTF-8") from None
-    attempts = [_attempt(line, f"{where}:{n}") for n, line in enumerate(text.splitlines(), 1)]
+    lines = enumerate(read_lines(where, MAX_BYTES), 1)
+    attempts = [_attempt(line, f"{where}:{n}") for n, line in lines]
     if not attempts:
         raise ValueError(f"{where}: holds no results; `semnav evaluate --out` writes them")
     return attempts

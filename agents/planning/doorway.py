@@ -8,7 +8,7 @@ import numpy as np
 
 from semnav_env.agents.planning.obstacles import point_counts, points_of_segments
 from semnav_env.agents.planning.planner import DriveTarget
-from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.frames import FloatArray, Point, heading_between, wrap_angle
 from semnav_env.features.scene import Door
 from semnav_env.robots import RobotSpec
 
@@ -50,11 +50,11 @@ def target_behind(door: Door, approach: Point) -> DriveTarget:
     """
     if door.width < 1e-6:
         raise ValueError(f"the door at {door.start} has no width; its jambs must be two points")
-    heading = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0]) + math.pi / 2
+    heading = heading_between(door.start, door.end) + math.pi / 2
     x, y = door.midpoint
     c, s = math.cos(heading), math.sin(heading)
     if (approach[0] - x) * c + (approach[1] - y) * s > 0:  # that axis heads back to the robot
-        heading, c, s = math.remainder(heading + math.pi, 2 * math.pi), -c, -s
-    heading = math.remainder(heading, 2 * math.pi)
+        heading, c, s = wrap_angle(heading + math.pi), -c, -s
+    heading = wrap_angle(heading)
     behind = x + THROUGH_DISTANCE * c, y + THROUGH_DISTANCE * s, heading
     return DriveTarget(behind, THROUGH_TOLERANCE, None, gate=(door.start, door.end))

@@ -15,12 +15,14 @@ from semnav_env.agents.planning.path import PlannedPath, joined
 from semnav_env.agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
 from semnav_env.agents.planning.track import FollowerSettings, PathTrack
 from semnav_env.features.frames import (
+    ORIGIN,
     FloatArray,
     Pose,
     Twist,
     compose,
     points_to_parent,
     relative,
+    wrap_angle,
 )
 from semnav_env.robots import RobotSpec
 
@@ -75,7 +77,7 @@ class Driver:
         self._track: PathTrack | None = None
         self._target: DriveTarget | None = None
         self._progress = PathProgress()
-        self._shift: Pose = (0.0, 0.0, 0.0)
+        self._shift: Pose = ORIGIN
         self._step = self._wait = 0
         self._braking = False
         self._refusals = 0
@@ -177,7 +179,7 @@ class Driver:
         if kept is not None:
             self.path = joined(kept, self.path)
         self.plans += 1
-        self._target, self._progress, self._shift = target, PathProgress(), (0.0, 0.0, 0.0)
+        self._target, self._progress, self._shift = target, PathProgress(), ORIGIN
         self._track = PathTrack(self.path, self.robot, self.follower)
         if not self.path.complete:
             self._wait = self.retry_after
@@ -254,6 +256,6 @@ class Driver:
 
 def _apart(a: DriveTarget, b: DriveTarget) -> bool:
     """Whether the targets differ by more than half a tolerance."""
-    turned = abs(math.remainder(a.pose[2] - b.pose[2], 2 * math.pi))
+    turned = abs(wrap_angle(a.pose[2] - b.pose[2]))
     heading_matters = b.heading_tolerance is not None and turned > 0.5 * b.heading_tolerance
     return math.dist(a.pose[:2], b.pose[:2]) > 0.5 * b.position_tolerance or heading_matters

@@ -17,7 +17,7 @@ from semnav_env.agents.planning.obstacle_kernels import (
     select,
 )
 from semnav_env.features.checked_fields import Bounds, Count, Length, Share, check_fields
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import FloatArray, Pose, wrap_angle
 
 
 @dataclass(frozen=True)
@@ -138,7 +138,7 @@ class ObstacleMemory:
     def _advance(self, pose: Pose) -> None:
         if self._pose is not None:
             self._travel += math.dist(pose[:2], self._pose[:2])
-            self._turned += abs(math.remainder(pose[2] - self._pose[2], 2 * math.pi))
+            self._turned += abs(wrap_angle(pose[2] - self._pose[2]))
         self._pose = pose
         self._scan += 1
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from semnav_env.agents.planning.motion import TURN
 from semnav_env.agents.planning.path import PlannedPath
 from semnav_env.features.checked_fields import Bounds, check_fields
-from semnav_env.features.frames import FloatArray
+from semnav_env.features.frames import FloatArray, distances_along
 from semnav_env.robots import RobotSpec
 
 Gain: TypeAlias = Annotated[float, Bounds(0.0, 1000.0)]
@@ -87,8 +87,7 @@ class PathTrack:
     @cached_property
     def distance(self) -> FloatArray:
         """Distance travelled by the axle up to each sample, metres, shape (M,)."""
-        steps = np.diff(self.path.axle_poses[:, :2], axis=0)
-        return np.concatenate(([0.0], np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))))
+        return distances_along(self.path.axle_poses[:, :2])
 
     @cached_property
     def curvature(self) -> FloatArray:

@@ -22,6 +22,7 @@ from semnav_env.agents.searching.searcher import Searcher
 from semnav_env.agents.searching.settings import SearchSettings
 from semnav_env.agents.searching.views import Looker
 from semnav_env.features.frames import (
+    ORIGIN,
     FloatArray,
     Pose,
     compose,
@@ -161,4 +162,4 @@ class PlanSearcher(Explorer):
 
 
 def _stop() -> SeenGoal:
-    return SeenGoal(GoalKind.STOP, (0.0, 0.0, 0.0), None)
+    return SeenGoal(GoalKind.STOP, ORIGIN, None)

@@ -19,7 +19,7 @@ from semnav_env.agents.searching.views import (
     wanted_cells,
     ways_from,
 )
-from semnav_env.features.frames import Point, Pose
+from semnav_env.features.frames import Point, Pose, wrap_angle
 
 SAME_PERSON = 1.0
 """Distance below which two places are of one person, metres."""
@@ -108,7 +108,7 @@ class Searcher:
         """Give up a target if the robot stands still."""
         last = self._last
         moved = last is None or math.dist(last[:2], pose[:2]) > 0.1
-        turned = last is not None and abs(math.remainder(last[2] - pose[2], math.tau)) > 0.2
+        turned = last is not None and abs(wrap_angle(last[2] - pose[2])) > 0.2
         if moved or turned:
             self._last, self._idle = pose, 0
             return
@@ -136,7 +136,7 @@ class Searcher:
     def _arrived(self, pose: Pose) -> bool:
         assert self.target is not None
         near = math.dist(pose[:2], self.target[:2]) < self._settings.position_tolerance
-        turned = abs(math.remainder(pose[2] - self.target[2], math.tau))
+        turned = abs(wrap_angle(pose[2] - self.target[2]))
         return near and turned < self._settings.heading_tolerance
 
     def _follow_view(self, pose: Pose) -> None:

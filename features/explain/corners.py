@@ -8,6 +8,7 @@ from typing import Any
 
 from semnav_env.features.elements import Rejection
 from semnav_env.features.explain.trace import Trace, ends
+from semnav_env.features.frames import wrap_angle
 from semnav_env.features.kernels.corners import (
     ENDS_APART,
     PARTNER_TRIALS,
@@ -56,4 +57,4 @@ def _reason(trace: Trace, k: int, partner: int, is_next: bool) -> str:
 
 def _angle_between(a: Any, b: Any) -> float:
     headings = [math.atan2(piece["along_y"], piece["along_x"]) for piece in (a, b)]
-    return abs(math.remainder(headings[1] - headings[0], math.tau))
+    return abs(wrap_angle(headings[1] - headings[0]))

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from semnav_env.features.elements import Wall
-from semnav_env.features.frames import Point, Pose, to_parent, wrap_angle
+from semnav_env.features.frames import Point, Pose, middle_of, to_parent, wrap_angle
 
 _MIN_DEVIATION = 1e-3
 """Least standard deviation of a line's offset and direction, metres and radians."""
@@ -64,8 +64,7 @@ def line_of(wall: Wall, frame: Pose, position: float = 0.0, angle: float = 0.0) 
     if wall.centroid is None or not offset:
         noise = max(wall.residual, _MIN_DEVIATION) / math.sqrt(max(wall.beams, 2))
         offset, tilt = noise, noise * math.sqrt(12.0) / max(wall.length, 1e-6)
-    middle = (wall.start[0] + wall.end[0]) / 2, (wall.start[1] + wall.end[1]) / 2
-    local = wall.centroid or middle
+    local = wall.centroid or middle_of(wall.start, wall.end)
     x, y = to_parent(frame, local)
     return Line(
         x,

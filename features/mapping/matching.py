@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from semnav_env.features.extraction import beam_directions
-from semnav_env.features.frames import FloatArray, Point, Pose
+from semnav_env.features.frames import ORIGIN, FloatArray, Point, Pose
 from semnav_env.features.mapping.icp import align
 from semnav_env.features.mapping.settings import MatchSettings
 from semnav_env.features.mapping.steps import (
@@ -61,7 +61,7 @@ class Match:
 def match_scans(
     reference: Scan,
     scan: Scan,
-    guess: Pose = (0.0, 0.0, 0.0),
+    guess: Pose = ORIGIN,
     settings: MatchSettings = DEFAULT_MATCH_SETTINGS,
 ) -> Match:
     """Find the pose of a scan in the frame of another one.
@@ -126,7 +126,7 @@ def surface_of(scan: Scan, settings: MatchSettings = DEFAULT_MATCH_SETTINGS) -> 
 def match_surfaces(
     reference: ReferenceLines,
     scan: ReferenceLines,
-    guess: Pose = (0.0, 0.0, 0.0),
+    guess: Pose = ORIGIN,
     settings: MatchSettings = DEFAULT_MATCH_SETTINGS,
 ) -> Match:
     """`match_scans` for scans that were made ready before; raises the same."""

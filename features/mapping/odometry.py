@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from semnav_env.features.frames import Pose, compose, relative
+from semnav_env.features.frames import ORIGIN, Pose, compose, relative
 from semnav_env.features.mapping.matching import (
     DEFAULT_MATCH_SETTINGS,
     Match,
@@ -69,7 +69,7 @@ class ScanOdometry:
         settings: MatchSettings = DEFAULT_MATCH_SETTINGS,
         rule: KeyframeRule = KeyframeRule(),
     ) -> None:
-        self.pose: Pose = (0.0, 0.0, 0.0)
+        self.pose: Pose = ORIGIN
         self.match: Match | None = None
         self.keyframes = 0
         self.lost = 0
@@ -77,7 +77,7 @@ class ScanOdometry:
         self._rule = rule
         self._keyframe: _Placed | None = None
         self._last: _Placed | None = None
-        self._moved: Pose = (0.0, 0.0, 0.0)
+        self._moved: Pose = ORIGIN
         self._lost_in_a_row = 0
 
     def update(self, scan: Scan, moved: Pose | None = None) -> Pose:

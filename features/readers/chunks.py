@@ -9,9 +9,9 @@ from functools import cache, partial
 from types import SimpleNamespace
 from typing import Any, BinaryIO
 
+from semnav_env.features.decompression import decompressed
 from semnav_env.features.readers.log import LogError
 from semnav_env.features.readers.text import MAX_EXPANSION, most_expanded
-from semnav_env.features.reading import decompressed
 
 MAX_CHUNK_BYTES = 64_000_000
 """Size of the largest chunk or message of a bag when decompressed, bytes: recorders make chunks of

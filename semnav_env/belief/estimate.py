@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.belief.belief import Belief
-from semnav_env.features.frames import MOST_CONTACTS, FloatArray, Pose, Twist
-from semnav_env.grounding.clause_progress import GOAL_RECORD, put_goal
+from semnav_env.features.frames import MOST_CONTACTS, FloatArray, Pose, Twist, wrap_angle
+from semnav_env.grounding.clause_progress import GOAL_RECORD
 
 ESTIMATE = np.dtype(
     [("contact_count", "i8"), ("odometry", "f8", 3), ("seconds", "f8")]
@@ -73,14 +72,5 @@ def mean_velocity(estimate: Any, after: Pose, seconds: float) -> Twist:
     before = pose_in(estimate["odometry"])
     x, y = after[0] - before[0], after[1] - before[1]
     c, s = math.cos(before[2]), math.sin(before[2])
-    yaw = math.remainder(after[2] - before[2], math.tau)
+    yaw = wrap_angle(after[2] - before[2])
     return (c * x + s * y) / seconds, (c * y - s * x) / seconds, yaw / seconds
-
-
-def estimate_of(belief: Belief) -> np.ndarray:
-    """The fields of an estimate that a belief tells: velocity, pose, clause and target."""
-    estimate = np.zeros(1, ESTIMATE)
-    estimate["velocity"], estimate["pose"] = belief.velocity, belief.pose
-    estimate["clause"] = belief.clause
-    put_goal(estimate, "target", belief.target)
-    return estimate

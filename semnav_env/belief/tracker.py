@@ -77,7 +77,6 @@ class BeliefTracker:
     Attributes:
         ranges: of the last scan, metres, shape (beams,).
         senses: arrays of the belief, as kernels take them.
-        belief: the last one; None before the first.
         memory: walls and doors seen so far, odometry frame.
         bumps: walls that were bumped into unseen, odometry frame.
         follower: how far the command has come, as the robot believes; made by `begin`.
@@ -106,7 +105,7 @@ class BeliefTracker:
         self._features, self._observes_features = allocate_features(), observes_features
         self.memory = SceneMemory()
         self.bumps = BumpMap(self.lidar, mount)
-        self.belief: Belief | None = None
+        self._belief: Belief | None = None
         self._beams = self.lidar.directions
         self.rules, extractor = with_doors_of(rules, extractor)
         self._record = extractor.as_record()
@@ -199,7 +198,7 @@ class BeliefTracker:
         events = understand(self.senses)
         if events:
             self.think(events)
-        return self.believe()
+        return self.belief
 
     def take(
         self,
@@ -248,15 +247,21 @@ class BeliefTracker:
             estimate["clause"] = follower.active
             put_goal(self._estimate, "target", self._target)
 
-    def believe(self) -> Belief:
+    @property
+    def belief(self) -> Belief:
         """What is believed after the last scan."""
+        if self._belief is None:
+            self._belief = self._believe()
+        return self._belief
+
+    def _believe(self) -> Belief:
         follower = self.follower
         source: SceneSource | None = self._known_scene
         if source is None:
             source = remembered = RememberedScene(self.memory, self.bumps)
             self._last_source = ref(remembered)
         forward, left, yaw_rate, x, y, heading = BELIEVED.unpack_from(self._buffer, BELIEVED_OFFSET)
-        self.belief = belief = Belief(
+        return Belief(
             (x, y, heading),
             (forward, left, yaw_rate),
             follower.active,
@@ -265,7 +270,6 @@ class BeliefTracker:
             follower.impossible,
             source,
         )
-        return belief
 
     def scene(self) -> Scene:
         """What is known now, in the odometry frame."""
@@ -288,7 +292,7 @@ class BeliefTracker:
 
     def let_go(self) -> None:
         """Forget the last belief, before `understand`; who still has it keeps its scene."""
-        self.belief = None
+        self._belief = None
         if self._last_source() is not None:
             self._keep_last_scene()
 

@@ -52,7 +52,7 @@ def kernel_parts(steps: int, **options: Any) -> list[Part]:
     tracker.begin(env.tracker.command)
     out = lidar.ranges(pose, (0, 0, 0))
     tracker.update(out, pose)
-    follower, scene, believed = tracker.follower, tracker.scene, tracker.believe().pose
+    follower, scene, believed = tracker.follower, tracker.scene, tracker.belief.pose
     exact: list[Any] = [*compose(pose, env.robot.lidar_mount), *lidar.arrays[:5], out]
     calls = {
         "sense: physics, odometry, scan": lambda: sense(env.simulator.arrays),

@@ -19,8 +19,6 @@ from semnav_env.commands.clauses import (
     Turning,
 )
 from semnav_env.commands.command import MAX_CLAUSES, Command
-from semnav_env.commands.encoding import encode
-from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.references import (
     LAST,
     MAX_FROM_END,
@@ -35,10 +33,12 @@ from semnav_env.commands.references import (
     Unit,
 )
 from semnav_env.commands.tokens import CLAUSE_FEATURES, token_mask, token_space
-from semnav_env.lazy_names import lazy_names
+from semnav_env.features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_env.commands.decoding import decode
+    from semnav_env.commands.encoding import encode
+    from semnav_env.commands.errors import AmbiguousCommandError, CommandError
     from semnav_env.commands.interpreters import (
         GrammarInterpreter,
         Interpretation,
@@ -105,6 +105,8 @@ __getattr__ = lazy_names(
     __name__,
     {
         "decoding": ("decode",),
+        "encoding": ("encode",),
+        "errors": ("AmbiguousCommandError", "CommandError"),
         "interpreters": (
             "GrammarInterpreter",
             "Interpretation",

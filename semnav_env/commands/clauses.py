@@ -5,13 +5,11 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-from semnav_env.commands.language import Language
-from semnav_env.commands.languages import english
 from semnav_env.commands.references import (
     Distance,
     DoorReference,
@@ -19,8 +17,12 @@ from semnav_env.commands.references import (
     PlaceReference,
     RoomReference,
     Side,
+    Spoken,
     check_room_name,
 )
+
+if TYPE_CHECKING:
+    from semnav_env.commands.language import Language
 
 MAX_DEGREES, DEGREE_STEP = 360, 5
 """The largest turn by degrees, a full one, and the step of such turns, degrees."""
@@ -45,21 +47,8 @@ class Approach(StrEnum):
     IN = "in"
 
 
-class _SpokenClause(ABC):
-    """Base of all clauses: a clause can be put in the words of a language."""
-
-    __slots__ = ()
-
-    @abstractmethod
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-
-    def __str__(self) -> str:
-        return self.say(english())
-
-
 @dataclass(frozen=True, slots=True)
-class Follow(_SpokenClause):
+class Follow(Spoken):
     """Follow the hallway: "go down the hallway until the next intersection".
 
     Attributes:
@@ -85,7 +74,7 @@ class Follow(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
-class Turn(_SpokenClause):
+class Turn(Spoken):
     """Change direction: "turn left at the second intersection".
 
     Attributes:
@@ -120,7 +109,7 @@ class Turn(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
-class GoToDoor(_SpokenClause):
+class GoToDoor(Spoken):
     """Go to a door or through it: "go through the second door on the right".
 
     Attributes:
@@ -137,7 +126,7 @@ class GoToDoor(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
-class GoToRoom(_SpokenClause):
+class GoToRoom(Spoken):
     """Go into a room by its name in the floor plan: "go to the kitchen", "go to room 3.508".
 
     Attributes:
@@ -161,7 +150,7 @@ class GoToRoom(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
-class Leave(_SpokenClause):
+class Leave(Spoken):
     """Leave the room in which the robot is: "leave the room"."""
 
     def say(self, language: Language) -> str:
@@ -170,7 +159,7 @@ class Leave(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
-class GoBack(_SpokenClause):
+class GoBack(Spoken):
     """Go back to the pose at which the command began: "go back to the start"."""
 
     def say(self, language: Language) -> str:
@@ -179,7 +168,7 @@ class GoBack(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
-class SearchHouse(_SpokenClause):
+class SearchHouse(Spoken):
     """Look into every room and report every person that is found: "search the house"."""
 
     def say(self, language: Language) -> str:
@@ -188,7 +177,7 @@ class SearchHouse(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
-class Stop(_SpokenClause):
+class Stop(Spoken):
     """Stand still: "stop", "wait for 5 seconds".
 
     Attributes:
@@ -209,7 +198,7 @@ class Stop(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
-class Face(_SpokenClause):
+class Face(Spoken):
     """Turn on the spot until something is ahead: "face the second door on the left".
 
     Attributes:
@@ -230,7 +219,7 @@ class Face(_SpokenClause):
 
 
 @dataclass(frozen=True, slots=True)
-class IfThere(_SpokenClause):
+class IfThere(Spoken):
     """Carry out the next clause only if something is there: "if there is a door on the left, ...".
 
     Attributes:
@@ -252,7 +241,7 @@ class IfThere(_SpokenClause):
         return language.say("if_not" if self.absent else "if", referent=self.what)
 
 
-class OwnClause(_SpokenClause):
+class OwnClause(Spoken):
     """Base of clauses that are defined outside this package, see docs/extending.md.
 
     `semnav_env.grounding.GroundedClause` derives from it and adds where a clause leads. The grammar

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 from semnav_env.commands.clauses import Clause, Face, Follow, GoToDoor, GoToRoom, IfThere, Turn
-from semnav_env.commands.language import Language
-from semnav_env.commands.languages import language_of
 from semnav_env.commands.references import DoorReference, PlaceReference, RoomReference
+
+if TYPE_CHECKING:
+    from semnav_env.commands.language import Language
 
 MAX_CLAUSES = 8
 """The most clauses of a command; it fixes the shape of its tokens."""
@@ -59,6 +60,8 @@ class Command:
         Raises:
             ValueError: there is no such language.
         """
+        from semnav_env.commands.languages import language_of  # read when first spoken
+
         return "".join(self.parts(language_of(language)))
 
     def parts(self, spoken: Language) -> list[str]:

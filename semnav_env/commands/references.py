@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from enum import StrEnum
 from numbers import Integral
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-from semnav_env.commands.language import Language
-from semnav_env.commands.languages import english
 from semnav_env.commands.rooms import MAX_NAME
+
+if TYPE_CHECKING:
+    from semnav_env.commands.language import Language
 
 
 class Side(StrEnum):
@@ -73,8 +75,23 @@ STEP_LENGTH = 0.7
 """Length of a person's step, metres."""
 
 
+class Spoken(ABC):
+    """Base of clauses and references: they can be put in the words of a language."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
+
+    def __str__(self) -> str:
+        from semnav_env.commands.languages import english  # read when first spoken
+
+        return self.say(english())
+
+
 @dataclass(frozen=True, slots=True)
-class DoorReference:
+class DoorReference(Spoken):
     """A door by its ordinal and side: "the second door on the right".
 
     Attributes:
@@ -90,9 +107,6 @@ class DoorReference:
         if self.ordinal != OTHER or isinstance(self.ordinal, float):
             _check_ordinal("door", self.ordinal)
 
-    def __str__(self) -> str:
-        return self.say(english())
-
     def say(self, language: Language, form: str = "") -> str:
         """In the words of a language, in the grammatical form (case) that a phrase asks for."""
         phrase = "door" if self.side is None else f"door_{self.side}"
@@ -100,7 +114,7 @@ class DoorReference:
 
 
 @dataclass(frozen=True, slots=True)
-class PlaceReference:
+class PlaceReference(Spoken):
     """A place by its ordinal: "the second intersection", "the corner", "the end of the hallway".
 
     Attributes:
@@ -117,16 +131,13 @@ class PlaceReference:
         if self.place == Place.END and self.ordinal != 1:
             raise ValueError(f"a hallway has one end ahead: its ordinal is 1, not {self.ordinal!r}")
 
-    def __str__(self) -> str:
-        return self.say(english())
-
     def say(self, language: Language, form: str = "") -> str:
         """In the words of a language, in the grammatical form (case) that a phrase asks for."""
         return language.say(self.place, form, ordinal=language.ordinal(self.ordinal))
 
 
 @dataclass(frozen=True, slots=True)
-class Distance:
+class Distance(Spoken):
     """A distance from where the clause begins: "3 metres", "5 steps".
 
     Attributes:
@@ -149,9 +160,6 @@ class Distance:
         """The distance in metres."""
         return self.amount * (1.0 if self.unit is Unit.METRES else STEP_LENGTH)
 
-    def __str__(self) -> str:
-        return self.say(english())
-
     def say(self, language: Language, form: str = "") -> str:
         """In the words of a language."""
         unit = f"{self.unit}_one" if self.amount == 1 else str(self.unit)
@@ -159,7 +167,7 @@ class Distance:
 
 
 @dataclass(frozen=True, slots=True)
-class RoomReference:
+class RoomReference(Spoken):
     """A room of the floor plan as a landmark: "until room 12", "past the kitchen".
 
     Attributes:
@@ -170,9 +178,6 @@ class RoomReference:
 
     def __post_init__(self) -> None:
         check_room_name(self.name)
-
-    def __str__(self) -> str:
-        return self.say(english())
 
     def say(self, language: Language, form: str = "") -> str:
         """In the words of a language, in the grammatical form (case) that a phrase asks for."""

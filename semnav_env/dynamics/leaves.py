@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from shapely import Polygon
 
-from semnav_env.features.frames import Point
+from semnav_env.features.frames import Point, heading_between, wrap_angle
 from semnav_env.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 
@@ -109,11 +109,9 @@ def _as_leaf(surface: Surface, door: PlanDoor) -> PlanLeaf | None:
                 math.dist(hinge, jamb) < DRAWING_TOLERANCE
                 and abs(length - door.width) < 2 * DRAWING_TOLERANCE
             ):
-                closed = math.atan2(other[1] - hinge[1], other[0] - hinge[0])
-                drawn = math.atan2(tip[1] - hinge[1], tip[0] - hinge[0])
-                return PlanLeaf(
-                    door.name, hinge, length, closed, math.remainder(drawn - closed, math.tau)
-                )
+                closed = heading_between(hinge, other)
+                drawn = heading_between(hinge, tip)
+                return PlanLeaf(door.name, hinge, length, closed, wrap_angle(drawn - closed))
     return None
 
 
@@ -121,7 +119,7 @@ def _new_leaves(door: PlanDoor, plan: FloorPlan) -> list[PlanLeaf]:
     """The four leaves that a door could get, those that open into a corridor last."""
     leaves = []
     for jamb, other in ((door.start, door.end), (door.end, door.start)):
-        closed = math.atan2(other[1] - jamb[1], other[0] - jamb[0])
+        closed = heading_between(jamb, other)
         leaves += [
             PlanLeaf(door.name, jamb, door.width, closed, swing)
             for swing in (OPEN_ANGLE, -OPEN_ANGLE)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gzip
 import json
 import math
-import zlib
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, replace
 from pathlib import Path
@@ -15,7 +14,7 @@ from semnav_env.commands.languages import languages
 from semnav_env.commands.program import from_program, to_program
 from semnav_env.commands.tokens import CLAUSE_FEATURES
 from semnav_env.episodes.episode import Episode, Expected
-from semnav_env.features.reading import decompressed, read_bytes
+from semnav_env.features.decompression import read_lines
 from semnav_env.features.validation import clipped, shown
 from semnav_env.features.writing import write_file
 
@@ -64,8 +63,8 @@ def read_episodes(path: str | Path) -> tuple[Episode, ...]:
     """
     where = Path(path)
     _check_name(where)
-    text = _text(where)
-    episodes = tuple(_read(line, f"{where}:{n}") for n, line in enumerate(text.splitlines(), 1))
+    lines = enumerate(read_lines(where, MAX_BYTES, EpisodeFileError), 1)
+    episodes = tuple(_read(line, f"{where}:{n}") for n, line in lines)
     seen: set[str] = set()
     for n, episode in enumerate(episodes, 1):
         if episode.id in seen:
@@ -86,18 +85,6 @@ def _found_beside(where: Path, episode: Episode) -> Episode:
 def _check_name(where: Path) -> None:
     if not where.name.endswith(SUFFIXES):
         raise EpisodeFileError(f"{where}: a file of episodes ends in {' or '.join(SUFFIXES)}")
-
-
-def _text(where: Path) -> str:
-    raw = read_bytes(where, MAX_BYTES, EpisodeFileError)
-    try:
-        return (decompressed(raw, MAX_BYTES) if where.suffix == ".gz" else raw).decode()
-    except (EOFError, zlib.error):
-        raise EpisodeFileError(f"{where}: is not gzip-compressed, or is cut off") from None
-    except UnicodeDecodeError:
-        raise EpisodeFileError(f"{where}: is not text in UTF-8") from None
-    except ValueError as error:
-        raise EpisodeFileError(f"{where}: {error}") from None
 
 
 def _read(line: str, place: str) -> Episode:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from semnav_env.commands.references import Side
 from semnav_env.features.corridor import Corridor
-from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
+from semnav_env.features.frames import Point, Pose, heading_between, middle_of, to_local, wrap_angle
 from semnav_env.features.scene import Door, Scene
-from semnav_env.grounding.door_geometry import bearing, heading_between, heading_through
+from semnav_env.grounding.door_geometry import bearing, heading_through
 from semnav_env.grounding.visible_doors import doors_around
 from semnav_env.rules import GroundingRules
 
@@ -85,7 +85,7 @@ def _counted(door: Door, corridor: Corridor, rules: GroundingRules) -> CountedDo
     """The door as the corridor counts it; None if it does not."""
     start, end = to_local(corridor.frame, door.start), to_local(corridor.frame, door.end)
     dx, dy = end[0] - start[0], end[1] - start[1]
-    along, offset = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    along, offset = middle_of(start, end)
     if along < 0.0:
         return None
     if abs(dx) < abs(dy):

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import math
 
-from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
+from semnav_env.features.frames import Pose, heading_between, to_local, wrap_angle
 from semnav_env.features.scene import Door
-
-
-def heading_between(start: Point, end: Point) -> float:
-    """The heading from one place to another, radians."""
-    return math.atan2(end[1] - start[1], end[0] - start[0])
 
 
 def heading_through(door: Door, about: float) -> float:
     """The heading at right angles to a door that is nearest to another one, radians."""
-    normal = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0]) + math.pi / 2
+    normal = heading_between(door.start, door.end) + math.pi / 2
     return wrap_angle(normal if math.cos(normal - about) > 0 else normal + math.pi)
 
 

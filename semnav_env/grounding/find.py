@@ -7,9 +7,9 @@ import math
 from semnav_env.commands.clauses import Turning
 from semnav_env.commands.references import OTHER, DoorReference, PlaceReference, Side
 from semnav_env.features.corridor import Junction, doorway_at
-from semnav_env.features.frames import compose, wrap_angle
+from semnav_env.features.frames import compose, heading_between, wrap_angle
 from semnav_env.grounding.counted_doors import CountedDoor, doors_along, doors_straight_ahead
-from semnav_env.grounding.door_geometry import heading_between, heading_through
+from semnav_env.grounding.door_geometry import heading_through
 from semnav_env.grounding.errors import GroundingError, UnclearError
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.room_exits import room_exits

@@ -12,7 +12,7 @@ import numpy as np
 from semnav_env.commands import Command
 from semnav_env.commands.clauses import GoBack, IfThere
 from semnav_env.commands.command import reference_of
-from semnav_env.features.frames import Pose, to_local
+from semnav_env.features.frames import ORIGIN, Pose, to_local
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.clause_order import (
     after,
@@ -73,13 +73,13 @@ class Follower:
         default_factory=lambda: np.zeros(1, CLAUSE_PROGRESS), repr=False, compare=False
     )
     active: int = field(default=0, init=False)
-    begin: Pose = field(default=(0.0, 0.0, 0.0), init=False)
-    goal: Goal = field(default=StopGoal((0.0, 0.0, 0.0)), init=False)
+    begin: Pose = field(default=ORIGIN, init=False)
+    goal: Goal = field(default=StopGoal(ORIGIN), init=False)
     impossible: str | None = field(default=None, init=False)
     skipped: frozenset[int] = field(default=frozenset(), init=False)
     _beside: Door | None = field(default=None, init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
-    _trail: Trail = field(default_factory=lambda: Trail((0.0, 0.0, 0.0)), init=False, repr=False)
+    _trail: Trail = field(default_factory=lambda: Trail(ORIGIN), init=False, repr=False)
 
     def start(self, scene: Scene, pose: Pose) -> None:
         """Begin with the first clause."""

@@ -6,8 +6,7 @@ import math
 
 from semnav_env.commands.clauses import Face, Follow
 from semnav_env.commands.references import DoorReference, Place, PlaceReference, RoomReference, Side
-from semnav_env.features.frames import Point, Pose, to_local, to_parent, wrap_angle
-from semnav_env.grounding.door_geometry import heading_between
+from semnav_env.features.frames import Point, Pose, heading_between, to_local, to_parent, wrap_angle
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.find import find_door, find_junction
 from semnav_env.grounding.goal import Goal, ReachGoal

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.frames import FloatArray, Pose, heading_between
 from semnav_env.features.scene import Door, Scene, ends_of
-from semnav_env.grounding.door_geometry import heading_between, heading_through, lies_behind
+from semnav_env.grounding.door_geometry import heading_through, lies_behind
 from semnav_env.grounding.visible_doors import places_in
 from semnav_env.rules import GroundingRules
 

@@ -9,7 +9,15 @@ from typing import Protocol
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local, wrap_angle
+from semnav_env.features.frames import (
+    FloatArray,
+    Point,
+    Pose,
+    distances_along,
+    heading_between,
+    to_local,
+    wrap_angle,
+)
 from semnav_env.features.scene import Door, Scene
 from semnav_env.rules import GroundingRules
 
@@ -75,7 +83,7 @@ def door_near(scene: Scene, way: Way, pose: Pose, rules: GroundingRules) -> Door
 def _is_near(door: Door, pointed_out: Pose, rules: GroundingRules) -> bool:
     """Whether a door may be the one that was pointed out, by its middle and the heading through."""
     through, beside = _apart(door, pointed_out)
-    run = math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0])
+    run = heading_between(door.start, door.end)
     turned = abs(math.cos(run - pointed_out[2])) >= math.sin(rules.way_door_angle)
     near = abs(through) < rules.way_door_depth and abs(beside) < rules.way_door_offset
     return near and not turned
@@ -89,7 +97,7 @@ def _apart(door: Door, pointed_out: Pose) -> Point:
 def paced(points: FloatArray | Sequence[Point]) -> tuple[Point, ...]:
     """Places `WAY_SPACING` apart along a line, shape (k, 2); its ends included, at least two."""
     line = np.asarray(points, dtype=np.float64)
-    along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))))
+    along = distances_along(line)
     stops = np.append(
         WAY_SPACING * np.arange(max(1, math.ceil(along[-1] / WAY_SPACING))), along[-1]
     )

@@ -8,7 +8,7 @@ from weakref import WeakValueDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, Pose, compose
+from semnav_env.features.frames import ORIGIN, FloatArray, Pose, compose
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.lidar_spec import CosinesSines, LidarSpec, lidar_spec
 from semnav_env.lidar.culling import Culling
@@ -84,7 +84,7 @@ class Lidar:
         self,
         floor_plan: FloorPlan,
         spec: str | LidarSpec = "tim561",
-        mount: Pose = (0.0, 0.0, 0.0),
+        mount: Pose = ORIGIN,
         moving: tuple[FloatArray, FloatArray] = NO_MOVING_THINGS,
     ) -> None:
         self.spec = lidar_spec(spec)

@@ -8,7 +8,14 @@ import numpy as np
 
 from semnav_env.features.clouds.detected_door import DetectedDoor
 from semnav_env.features.elements import Door
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
+from semnav_env.features.frames import (
+    FloatArray,
+    Pose,
+    heading_between,
+    to_local,
+    to_parent,
+    wrap_angle,
+)
 
 ROUNDING = 1e-9
 """How far rounding may take a covariance from symmetric and positive, square metres."""
@@ -36,16 +43,13 @@ def pose_from_door(door_world: Door, detected: DetectedDoor) -> tuple[Pose, Floa
     if not detected.is_whole or detected.width <= 0.0:
         raise ValueError("a pose takes a door with both jambs; one jamb leaves a circle of poses")
     heading = wrap_angle(
-        _direction(door_world.start, door_world.end) - _direction(detected.start, detected.end)
+        heading_between(door_world.start, door_world.end)
+        - heading_between(detected.start, detected.end)
     )
     x, y = to_parent((0.0, 0.0, heading), detected.midpoint)
     pose = door_world.midpoint[0] - x, door_world.midpoint[1] - y, heading
     jacobian = _jacobian(heading, detected)
     return pose, jacobian @ detected.covariance @ jacobian.T
-
-
-def _direction(start: Point, end: Point) -> float:
-    return math.atan2(end[1] - start[1], end[0] - start[0])
 
 
 def _jacobian(heading: float, detected: DetectedDoor) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from semnav_env.lazy_names import lazy_names
+from semnav_env.features.lazy_names import lazy_names
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_env.maps.library import bundled_names, load_floor_plan
 from semnav_env.maps.rules import FloorPlanError

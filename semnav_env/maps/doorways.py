@@ -8,6 +8,7 @@ from enum import StrEnum
 import shapely
 from shapely import LineString, Point
 
+from semnav_env.features.frames import heading_between, wrap_angle
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 
 DRAWING_TOLERANCE = 0.05
@@ -75,6 +76,4 @@ def _hung(jamb: tuple[float, float], near: list[Surface]) -> list[LineString]:
 def _angle(jamb: tuple[float, float], other: tuple[float, float], leaf: LineString) -> float:
     """Angle in [0, pi] at a jamb from the other jamb to the tip of a leaf."""
     tip = leaf.coords[-1]
-    towards_other = math.atan2(other[1] - jamb[1], other[0] - jamb[0])
-    towards_tip = math.atan2(tip[1] - jamb[1], tip[0] - jamb[0])
-    return abs(math.remainder(towards_other - towards_tip, 2.0 * math.pi))
+    return abs(wrap_angle(heading_between(jamb, other) - heading_between(jamb, tip)))

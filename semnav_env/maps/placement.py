@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from shapely import Polygon
 
-from semnav_env.features.frames import Point, Pose, points_to_parent
+from semnav_env.features.frames import FloatArray, Point, Pose, points_to_parent
 from semnav_env.maps.box_room import HAS_ROOM, IS_DOUBTFUL, SolidEdges
 from semnav_env.maps.floor_plan import FloorPlan, Region
 from semnav_env.robots import RobotSpec, robot_spec
@@ -17,11 +17,28 @@ MAX_DRAWS = 2000
 """Largest number of poses drawn before a region counts as full."""
 
 
+def corners(robot: RobotSpec) -> FloatArray:
+    """Of the footprint in the robot frame, counter-clockwise, shape (4, 2)."""
+    x, y = robot.length / 2, robot.width / 2
+    return np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
+
+
 def footprint(robot: RobotSpec, pose: Pose) -> Polygon:
     """The rectangle that a robot covers at a pose (its centre and heading), world frame."""
-    x, y = robot.length / 2, robot.width / 2
-    corners = np.array([(x, y), (-x, y), (-x, -y), (x, -y)])
-    return Polygon(points_to_parent(pose, corners))
+    return Polygon(points_to_parent(pose, corners(robot)))
+
+
+def clearance(plan: FloorPlan, robot: RobotSpec, pose: Pose) -> float:
+    """Distance between the footprint and the nearest solid segment, metres; 0 if they touch.
+
+    Infinite in a plan without segments.
+    """
+    if len(plan.solids) == 0:
+        return math.inf
+    _, distances = plan.solids.query_nearest(
+        footprint(robot, pose), return_distance=True, all_matches=False
+    )
+    return float(distances[0])
 
 
 def placement_error(

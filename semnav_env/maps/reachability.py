@@ -10,6 +10,7 @@ import shapely
 from shapely import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 
+from semnav_env.features.frames import middle_of
 from semnav_env.maps.doorways import DRAWING_TOLERANCE, clear_width
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.maps.plan_fault import PlanFault, point_in
@@ -90,11 +91,7 @@ def _ends(corridor: Polygon) -> list[BaseGeometry]:
     corners = list(rectangle.exterior.coords)[:4]
     if math.dist(corners[0], corners[1]) > math.dist(corners[1], corners[2]):
         corners = [*corners[1:], corners[0]]
-    axis = LineString((_middle(corners[0], corners[1]), _middle(corners[2], corners[3])))
+    axis = LineString((middle_of(*corners[:2]), middle_of(*corners[2:])))
     if axis.length < 2 * END_DISTANCE:
         return [axis.centroid]
     return [axis.interpolate(END_DISTANCE), axis.interpolate(-END_DISTANCE)]
-
-
-def _middle(a: tuple[float, ...], b: tuple[float, ...]) -> tuple[float, float]:
-    return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2

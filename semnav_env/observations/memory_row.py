@@ -26,7 +26,7 @@ from semnav_env.observations.layout import (
     REMEMBERED_WALL_ROWS,
     ROW_SIZE,
 )
-from semnav_env.observations.row import to_robot, write_belief
+from semnav_env.observations.row import to_robot, write_row
 
 _WALLS, _WALLS_MASK = MEMORY_STARTS["remembered_walls"], MEMORY_STARTS["remembered_walls_mask"]
 _JUNCTIONS, _JUNCTIONS_MASK = MEMORY_STARTS["junctions"], MEMORY_STARTS["junctions_mask"]
@@ -44,15 +44,9 @@ def write_command_row(row: NDArray[np.float32], senses: Senses) -> None:
         row: shape (ROW_SIZE + beams + MEMORY_SIZE,).
         senses: arrays of the belief.
     """
-    write_command_belief(row, senses, senses.estimate)
-
-
-@kernel(counts_references=True)
-def write_command_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray) -> None:
-    """As `write_command_row`, with another belief than the last one, see `row.write_belief`."""
     split = ROW_SIZE + len(senses.ranges)
-    write_belief(row[:split], senses, estimate)
-    believed = estimate[0].pose
+    write_row(row[:split], senses)
+    believed = senses.estimate[0].pose
     pose, memory = (believed[0], believed[1], believed[2]), row[split:]
     memory[:] = 0.0
     known_walls, known_doors, counters = senses.remembered

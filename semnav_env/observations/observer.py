@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.belief import Belief, BeliefTracker
-from semnav_env.belief.estimate import estimate_of
 from semnav_env.commands import Command
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.observations.layout import (
@@ -25,7 +24,7 @@ from semnav_env.observations.layout import (
     command_space,
     scan_space,
 )
-from semnav_env.observations.row import write_belief, write_row
+from semnav_env.observations.row import write_row
 from semnav_env.robots import RobotSpec
 
 if TYPE_CHECKING:
@@ -39,22 +38,28 @@ class Moment(NamedTuple):
     """What an observation may be made of: the robot's side of one step.
 
     Attributes:
-        belief: pose, goal, clause and scene, odometry frame.
         tracker: ranges and features of the last scan, lidar frame, among others.
-        command: that the robot was told.
         tokens: of the command, shape (8, 5).
-        see: what depth cameras on the robot give now; None if it has none.
         instruction: the words in which the command was given.
+        see: what depth cameras on the robot give now; None if it has none.
         payload: that the robot carries, see `SemNavEnv(payload=...)`; None without one.
     """
 
-    belief: Belief
     tracker: BeliefTracker
-    command: Command
     tokens: NDArray[np.int64]
-    see: Callable[[DepthRig], PointCloud] | None = None
     instruction: str = ""
+    see: Callable[[DepthRig], PointCloud] | None = None
     payload: Any = None
+
+    @property
+    def belief(self) -> Belief:
+        """Pose, goal, clause and scene, odometry frame."""
+        return self.tracker.belief
+
+    @property
+    def command(self) -> Command:
+        """The command that the robot was told."""
+        return self.tracker.command
 
 
 @runtime_checkable
@@ -113,11 +118,11 @@ class EntryObservation:
         self.mode, self.extra, self.exact = mode, tuple(extra), mode == "truth"
         self.remembers = MEMORY_ENTRIES[0].name in MODES[mode]
         self.observes_features = "corners" in MODES[mode]
-        self._kernels = (write_row, write_belief)
+        self._write = write_row
         if self.remembers:
-            from semnav_env.observations.memory_row import write_command_belief, write_command_row
+            from semnav_env.observations.memory_row import write_command_row
 
-            self._kernels = (write_command_row, write_command_belief)
+            self._write = write_command_row
         self._names = tuple(name for name in MODES[mode] if name != "command")
 
     def space(self, robot: RobotSpec, lidar: LidarSpec) -> gym.spaces.Dict:
@@ -143,26 +148,12 @@ class EntryObservation:
 
     def observe(self, moment: Moment) -> dict[str, Array]:
         """The entries as fresh arrays."""
-        belief, tracker = moment.belief, moment.tracker
-        if belief is tracker.belief:
-            observation = self.observe_last(tracker, moment.tokens)
-        else:
-            row = np.empty(self.row_size, np.float32)
-            self._kernels[1](row, tracker.senses, estimate_of(belief))
-            observation = self._entries(row, moment.tokens)
-        for entry in self.extra:
-            observation[entry.name] = entry.observe(moment)
-        return observation
-
-    def observe_last(self, tracker: BeliefTracker, tokens: NDArray[np.int64]) -> dict[str, Array]:
-        """The entries of the mode for what is believed last, which need no `Moment`."""
         row = np.empty(self.row_size, np.float32)
-        self._kernels[0](row, tracker.senses)
-        return self._entries(row, tokens)
-
-    def _entries(self, row: NDArray[np.float32], tokens: NDArray[np.int64]) -> dict[str, Array]:
+        self._write(row, moment.tracker.senses)
         entries: dict[str, Array] = dict(zip(self._names, self._split(row)))  # noqa: B905, slower
-        entries["command"] = tokens.ravel().astype(np.int16)
+        entries["command"] = moment.tokens.ravel().astype(np.int16)
+        for entry in self.extra:
+            entries[entry.name] = entry.observe(moment)
         return entries
 
 

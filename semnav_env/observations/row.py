@@ -55,21 +55,9 @@ def write_row(row: NDArray[np.float32], senses: Senses) -> None:
         row: shape (ROW_SIZE,) or (ROW_SIZE + beams,).
         senses: arrays of the belief.
     """
-    write_belief(row, senses, senses.estimate)
-
-
-@kernel(borrows=True)
-def write_belief(row: NDArray[np.float32], senses: Senses, estimate: np.ndarray) -> None:
-    """As `write_row`, with another belief than the last one.
-
-    Args:
-        row: as in `write_row`.
-        senses: of which features, memory and ranges are written.
-        estimate: dtype `ESTIMATE`, shape (1,), of which pose, velocity, clause and target are.
-    """
-    believed = estimate[0]
+    believed = senses.estimate[0]
     pose = (believed.pose[0], believed.pose[1], believed.pose[2])
-    if senses.estimate[0].observes_features:
+    if believed.observes_features:
         _write_features(row, senses.features, senses.mount)
         _, doors, counters = senses.remembered
         _write_remembered(row, doors, counters[0].doors, pose)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.frames import FloatArray, Point, distances_along
 from semnav_env.rendering.backend import font_file, load_pygame, open_font
 from semnav_env.rendering.camera import Viewport
 from semnav_env.rendering.palette import WHITE, Colour
@@ -222,7 +222,7 @@ def dashed(points: FloatArray, dash: float, gap: float) -> list[FloatArray]:
     points = points[np.isfinite(points).all(axis=1)]
     if len(points) < 2:
         return []
-    along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))))
+    along = distances_along(points)
     starts = np.arange(0.0, along[-1], dash + gap)
     ends = np.minimum(starts + dash, along[-1])
     ticks = np.stack((starts, ends), axis=1)

@@ -8,7 +8,7 @@ import numpy as np
 
 from semnav_env.belief import BeliefTracker
 from semnav_env.features.clouds import PointCloud, find_door
-from semnav_env.features.frames import FloatArray, Pose, points_to_parent, relative
+from semnav_env.features.frames import ORIGIN, FloatArray, Pose, points_to_parent, relative
 from semnav_env.rendering import marks
 from semnav_env.rendering.camera import Camera
 from semnav_env.rendering.canvas import Canvas
@@ -34,8 +34,8 @@ def cloud_on_the_map(cloud: PointCloud, pose: Pose) -> FloatArray:
 
 def jambs_on_the_map(cloud: PointCloud, tracker: BeliefTracker, pose: Pose) -> FloatArray:
     """The jambs that a robot finds where it remembers doors, world frame, shape (n, 2)."""
-    belief = tracker.belief or tracker.believe()
-    here = tracker.scene().placed(relative(belief.pose, (0.0, 0.0, 0.0)))
+    belief = tracker.belief
+    here = tracker.scene().placed(relative(belief.pose, ORIGIN))
     near = [door for door in here.doors if math.hypot(*door.midpoint) <= LOOKED_AT]
     found = [find_door(cloud, door, DOOR_SIGMA) for door in near]
     jambs = [

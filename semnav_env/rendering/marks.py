@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.frames import FloatArray, Point, middle_of
 from semnav_env.features.scene import CornerKind
 from semnav_env.rendering import palette
 from semnav_env.rendering.canvas import Canvas, ShapeCanvas
@@ -79,7 +79,7 @@ def corner(canvas: ShapeCanvas, at: Point, kind: CornerKind) -> None:
 
 def corridor(canvas: ShapeCanvas, start: Point, end: Point) -> None:
     """A probe across a corridor with the midpoint where a robot would pass."""
-    middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    middle = middle_of(start, end)
     canvas.dashes([start, end], palette.CORRIDOR_MARK, 1.0, dash=2.0, gap=3.0)
     canvas.polygon(regular(middle, 4, 7.0), palette.WHITE)
     canvas.polygon(regular(middle, 4, 5.5), palette.CORRIDOR_MARK)

@@ -13,7 +13,7 @@ from semnav_env.commands.command import reference_of
 from semnav_env.commands.references import DoorReference
 from semnav_env.features.clouds import PointCloud
 from semnav_env.features.extraction import to_scene
-from semnav_env.features.frames import Point, Pose, compose, points_to_parent, relative
+from semnav_env.features.frames import ORIGIN, Point, Pose, compose, points_to_parent, relative
 from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.counted_doors import doors_along
 from semnav_env.grounding.follower import Follower
@@ -43,20 +43,12 @@ class RenderedEnvironment(Protocol):
     observation_type: ObservationType
     metadata: dict[str, Any]
     payload: Payload | None
+    robot: RobotSpec
+    world: World
 
     @property
     def belief(self) -> Belief:
         """What the robot believes."""
-        ...
-
-    @property
-    def robot(self) -> RobotSpec:
-        """The body."""
-        ...
-
-    @property
-    def world(self) -> World:
-        """The physics."""
         ...
 
     @property
@@ -68,7 +60,7 @@ class RenderedEnvironment(Protocol):
 def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
     """This moment of the episode, world frame."""
     tracker, verifier, pose = env.tracker, env.judge.verifier, env.world.pose
-    odometry_frame = compose(pose, relative(env.belief.pose, (0.0, 0.0, 0.0)))
+    odometry_frame = compose(pose, relative(env.belief.pose, ORIGIN))
     lidar = compose(pose, tracker.mount)
     remembered = tracker.scene()
     people, leaves = env.world.moving_shapes

@@ -8,7 +8,7 @@ import numpy as np
 
 from semnav_env.belief import BeliefTracker
 from semnav_env.commands.clauses import Clause, SearchHouse
-from semnav_env.features.frames import Pose, compose, to_parent
+from semnav_env.features.frames import ORIGIN, Pose, compose, to_parent
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.payload import PayloadMarks
 from semnav_env.rescue.outcome import Report, SearchOutcome, judge_reports
@@ -64,7 +64,7 @@ class PersonSearch:
         reach = self.settings.range_max
         self.coverage = RoomCoverage(plan, setup.robot, reach)
         self.reports: list[Report] = []
-        self._frame = (0.0, 0.0, 0.0) if setup.exact else start
+        self._frame = ORIGIN if setup.exact else start
         self._victims = [(v.centroid.x, v.centroid.y) for v in self.detector.victims]
         self._every = max(1, round(setup.control_hz / self.settings.rate_hz))
         self._step, self._seconds = 0, 0.0
@@ -90,8 +90,7 @@ class PersonSearch:
         self.gained = self.coverage.look(
             eye, detector.rays, detector.ranges, self.settings.range_max
         )
-        believed = tracker.believe() if tracker.belief is None else tracker.belief
-        new = self.people.update(detections, believed.pose, tracker.ranges)
+        new = self.people.update(detections, tracker.belief.pose, tracker.ranges)
         if new:
             self.reports += [Report(to_parent(self._frame, t.place), self._seconds) for t in new]
             right = self.outcome.found - found

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
 from semnav_env.features.checked_fields import Bounds, check_fields
-from semnav_env.features.validation import require
+from semnav_env.features.validation import by_name, require
 
 Extent: TypeAlias = Annotated[float, Bounds(0.02, 5.0, "m")]
 Offset: TypeAlias = Annotated[float, Bounds(-2.5, 2.5, "m")]
@@ -110,8 +110,4 @@ def robot_spec(name_or_spec: str | RobotSpec) -> RobotSpec:
     Raises:
         ValueError: no such robot; lists those there are.
     """
-    if isinstance(name_or_spec, RobotSpec):
-        return name_or_spec
-    if name_or_spec not in tuple(ROBOTS):
-        raise ValueError(f"no robot named {name_or_spec!r:.80}; there are: {', '.join(ROBOTS)}")
-    return ROBOTS[name_or_spec]
+    return by_name("robot", name_or_spec, RobotSpec, ROBOTS)

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from semnav_env.lazy_names import lazy_names
+from semnav_env.features.lazy_names import lazy_names
 from semnav_env.simulator.sensed import Motion, Sensed
 
 if TYPE_CHECKING:

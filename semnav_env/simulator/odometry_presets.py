@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from semnav_env.features.validation import by_name
 from semnav_env.simulator.odometry import EXACT, OdometrySettings
 
 USUAL_ODOMETRY = OdometrySettings()
@@ -52,9 +53,4 @@ def odometry_settings(name_or_settings: str | OdometrySettings) -> OdometrySetti
     Raises:
         ValueError: no such odometry; lists those there are.
     """
-    if isinstance(name_or_settings, OdometrySettings):
-        return name_or_settings
-    if name_or_settings not in tuple(ODOMETRIES):
-        problem = f"no odometry named {name_or_settings!r:.80}"
-        raise ValueError(f"{problem}; there are: {', '.join(ODOMETRIES)}")
-    return ODOMETRIES[name_or_settings]
+    return by_name("odometry", name_or_settings, OdometrySettings, ODOMETRIES)

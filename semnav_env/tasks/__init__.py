@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from semnav_env.lazy_names import lazy_names
+from semnav_env.features.lazy_names import lazy_names
 from semnav_env.tasks.episode_source import EpisodeSource
 from semnav_env.tasks.judge import EpisodeJudge, Judgement
 from semnav_env.tasks.mission_maker import MissionMaker

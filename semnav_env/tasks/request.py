@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from semnav_env import commands
 from semnav_env.commands import Command
-from semnav_env.commands.languages import language_of
 from semnav_env.features.frames import Pose
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.features.validation import finite_floats, shown
@@ -99,6 +98,8 @@ class EpisodeRequest:
             ValueError: neither text nor a command, or an unknown language.
             CommandError: the text is not understood.
         """
+        from semnav_env.commands.languages import language_of  # read when first spoken
+
         given, language = self.command, language_of(self.language)
         if given is None or isinstance(given, Command):
             return given

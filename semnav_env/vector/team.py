@@ -76,7 +76,7 @@ class Team:
             driven: which robots take part, shape (n,).
         """
         for k, tracker in enumerate(self._trackers):
-            if tracker.belief is not None and driven[k]:
+            if driven[k]:
                 tracker.let_go()
         by_python = self._need_python & driven
         for k in np.flatnonzero(by_python).tolist():

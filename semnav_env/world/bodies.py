@@ -6,8 +6,8 @@ import pymunk
 from pymunk.constraints import GearJoint, PivotJoint
 
 from semnav_env.features.frames import FloatArray, Pose, to_parent
+from semnav_env.maps.placement import corners
 from semnav_env.robots import RobotSpec
-from semnav_env.world.standing import corners
 
 SLOP = 1e-3
 """How deep shapes may overlap at rest, metres."""
@@ -59,7 +59,7 @@ def robot_body(robot: RobotSpec, start: Pose) -> tuple[pymunk.Body, pymunk.Shape
     body = pymunk.Body(robot.mass, inertia)
     body.position = to_parent(start, (robot.axle, 0.0))
     body.angle = start[2]
-    shape = pymunk.Poly(body, [(x - robot.axle, y) for x, y in corners(robot)])
+    shape = pymunk.Poly(body, [(x - robot.axle, y) for x, y in corners(robot).tolist()])
     shape.friction = SCRAPE
     return body, shape
 

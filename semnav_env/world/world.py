@@ -14,6 +14,7 @@ from semnav_env.features.frames import Contact, FloatArray, Pose, Twist
 from semnav_env.features.validation import finite_floats, shown
 from semnav_env.lidar.moving import NO_MOVING_THINGS
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.placement import clearance, has_room, placement_error
 from semnav_env.robots import RobotSpec
 from semnav_env.world.bodies import driving_joints, robot_body, vacant_space
 from semnav_env.world.chipmunk import (
@@ -25,7 +26,6 @@ from semnav_env.world.chipmunk_functions import address
 from semnav_env.world.contacts import Contacts, note_contacts
 from semnav_env.world.drive import demand_velocity, drive, settle
 from semnav_env.world.drive_record import drive_record
-from semnav_env.world.standing import clearance, standing_error
 
 if TYPE_CHECKING:
     from semnav_env.dynamics.moving import Moving
@@ -109,7 +109,7 @@ class World:
 
     def _begin(self, pose: Pose, seed: int) -> None:
         start = _finite(pose, "pose", "(x, y, heading)")
-        problem = standing_error(self.floor_plan, self.robot, start)
+        problem = placement_error(self.floor_plan, self.robot, start)
         if problem is not None:
             raise ValueError(problem)
         self._start, self._seed, self._journal = start, seed, array("d")
@@ -217,7 +217,7 @@ class World:
 
     def fits(self, pose: Pose) -> bool:
         """Whether the robot could stand at `pose`: inside the boundary, touching nothing."""
-        return standing_error(self.floor_plan, self.robot, pose) is None
+        return has_room(self.floor_plan, self.robot, pose)
 
     def _of_record(self, name: str) -> tuple[float, float, float]:
         self._require_reset()

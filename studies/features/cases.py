@@ -16,8 +16,8 @@ from semnav_env.features.scan import Scan
 from semnav_env.features.scene import Scene
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.truth import TrueView
 from studies.features.clutter import cluttered, free_floor
+from studies.truth import TrueView
 
 CORRIDOR, ANYWHERE = "corridor", "anywhere"
 PLACES = (CORRIDOR, ANYWHERE)

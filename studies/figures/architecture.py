@@ -44,7 +44,6 @@ ABOUT = {
     "semnav_env/routes": "routes in words, and the ways to named rooms",
     "semnav_env/simulator": "world, lidar and odometry behind `step(twist) -> Sensed`",
     "semnav_env/tasks": "what episodes are about, and what a step is worth",
-    "semnav_env/truth": "what an exact extractor would find in a floor plan",
     "semnav_env/vector": "many robots in one environment",
     "semnav_env/verifier": "the judge",
     "semnav_env/world": "the physics; the only folder that imports Pymunk",

@@ -36,7 +36,7 @@ def in_parts(record: Recorded) -> tuple[list[str], list[int]]:
         events = understand(robot.senses)
         if events:
             robot.think(events)
-        believed.append(described(robot.believe()))
+        believed.append(described(robot.belief))
         seen.append(events)
     return believed, seen
 
@@ -63,7 +63,7 @@ def test_a_completed_clause_is_an_event(record) -> None:
         seen.append(understand(robot.senses))
         robot.think(seen[-1])
     assert [k for k, events in enumerate(seen) if events & CLAUSE_DONE] == [5]
-    assert robot.believe().clause == 1
+    assert robot.belief.clause == 1
 
 
 def test_an_update_takes_numbers_of_numpy(record) -> None:

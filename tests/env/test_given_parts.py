@@ -12,9 +12,8 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from semnav_env.env import SemNavEnv
-from semnav_env.grounding import GoalKind, SeekGoal
 from semnav_env.lidar import TIM561, LidarSpec
-from semnav_env.observations import MODES, EntryObservation, Moment, SeenGoal
+from semnav_env.observations import MODES, EntryObservation, Moment
 from semnav_env.robots import RobotSpec
 from semnav_env.tasks import AddedTerms, RewardWeights, Tick
 from tests.support.episodes import START, actions
@@ -177,24 +176,3 @@ def test_the_robot_waits_as_long_at_every_rate() -> None:
         while env.belief.clause == 0:
             env.step(np.zeros(2))
         assert env.seconds == pytest.approx(3.0, abs=0.15)
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_a_belief_of_ones_own_is_observed_as_the_last_one_is(mode: str) -> None:
-    """A copy of the last belief gives the same arrays; another target stands in its own."""
-    env = SemNavEnv(observation=mode)
-    env.reset(seed=5, options=START)
-    for action in actions(12, 2):
-        observation, *_ = env.step(action)
-    moment = Moment(env.belief, env.tracker, env.tracker.command, env.tokens)
-    copied = moment._replace(belief=env.belief._replace())
-    again = env.observation_type.observe(copied)
-    assert {k: v.tobytes() for k, v in again.items()} == {
-        k: v.tobytes() for k, v in observation.items()
-    }
-    if "goal" in observation:
-        target = SeekGoal(env.belief.pose, "here")
-        belief = env.belief._replace(target=target)
-        own = env.observation_type.observe(moment._replace(belief=belief))["goal"]
-        seen = SeenGoal.read(own)
-        assert (seen.kind, seen.pose, seen.door) == (GoalKind.SEEK, (0.0, 0.0, 0.0), None)

@@ -23,13 +23,10 @@ AHEAD: Ends = (-0.5, 2.0, 0.5, 2.0)
 
 def test_a_filled_door_is_forgotten_and_comes_back() -> None:
     memory = SceneMemory()
-    for _ in range(20):
-        see(memory, doors=[AHEAD])
-    for _ in range(12):
-        see(memory, ranges=beams_that_end_at(2.0))
+    see(memory, doors=[AHEAD], scans=20)
+    see(memory, ranges=beams_that_end_at(2.0), scans=12)
     assert memory.size[1] == 0
-    for _ in range(9):
-        see(memory, doors=[AHEAD])
+    see(memory, doors=[AHEAD], scans=9)
     assert memory.size[1] == 1
 
 
@@ -47,10 +44,8 @@ def test_an_open_gap_in_which_most_scans_find_no_door_is_none() -> None:
 )
 def test_a_scan_without_a_view_is_no_evidence_on_a_door(ranges: FloatArray) -> None:
     memory = SceneMemory()
-    for _ in range(4):
-        see(memory, doors=[AHEAD])
-    for _ in range(20):
-        see(memory, ranges=ranges)
+    see(memory, doors=[AHEAD], scans=4)
+    see(memory, ranges=ranges, scans=20)
     assert memory.size[1] == 1
 
 
@@ -61,10 +56,8 @@ def test_a_scan_without_a_view_is_no_evidence_on_a_door(ranges: FloatArray) -> N
 )
 def test_only_a_good_view_speaks_against_a_door(pose: Pose) -> None:
     memory = SceneMemory()
-    for _ in range(4):
-        see(memory, doors=[AHEAD])
-    for _ in range(20):
-        see(memory, pose=pose)
+    see(memory, doors=[AHEAD], scans=4)
+    see(memory, pose=pose, scans=20)
     assert memory.size[1] == 1
 
 
@@ -75,12 +68,10 @@ def test_a_view_of_one_side_is_no_evidence_on_a_door(
     """Beams of one degree: the opening spans 76 to 104 degrees, beams 256 to 284."""
     for ranges in (beams_that_end_at(4.0), beams_that_end_at(4.0)[:286]):
         memory = SceneMemory()
-        for _ in range(4):
-            see(memory, doors=[AHEAD])
+        see(memory, doors=[AHEAD], scans=4)
         seen = ranges.copy()
         seen[hidden] = 0.5
-        for _ in range(40):
-            see(memory, ranges=seen)
+        see(memory, ranges=seen, scans=40)
         assert memory.size[1] == 1
 
 
@@ -89,13 +80,10 @@ WALL_AHEAD: Ends = (0.5, 2.0, -0.5, 2.0)
 
 def test_a_wall_seen_through_is_forgotten_and_comes_back() -> None:
     memory = SceneMemory()
-    for _ in range(200):
-        see(memory, walls=[WALL_AHEAD])
-    for _ in range(40):
-        see(memory, ranges=beams_that_end_at(3.0))
+    see(memory, walls=[WALL_AHEAD], scans=200)
+    see(memory, ranges=beams_that_end_at(3.0), scans=40)
     assert memory.size[0] == 0
-    for _ in range(3):
-        see(memory, walls=[WALL_AHEAD])
+    see(memory, walls=[WALL_AHEAD], scans=3)
     assert memory.size[0] == 1
 
 
@@ -106,45 +94,37 @@ def test_a_wall_seen_through_is_forgotten_and_comes_back() -> None:
 )
 def test_a_scan_without_a_view_is_no_evidence_on_a_wall(ranges: FloatArray) -> None:
     memory = SceneMemory()
-    for _ in range(4):
-        see(memory, walls=[WALL_AHEAD])
-    for _ in range(80):
-        see(memory, ranges=ranges)
+    see(memory, walls=[WALL_AHEAD], scans=4)
+    see(memory, ranges=ranges, scans=80)
     assert memory.size[0] == 1
 
 
 def test_a_long_wall_is_given_up_by_those_who_pass_close_to_it() -> None:
     """Of a wall of 12 m they see but a quarter in good view."""
     memory = SceneMemory()
-    for _ in range(3):
-        see(memory, walls=[(6.0, 0.8, -6.0, 0.8)])
-    for _ in range(40):
-        see(memory, ranges=beams_that_end_at(2.0))
+    see(memory, walls=[(6.0, 0.8, -6.0, 0.8)], scans=3)
+    see(memory, ranges=beams_that_end_at(2.0), scans=40)
     assert memory.size == (0, 0)
 
 
 def test_a_view_through_a_doorway_keeps_a_long_wall() -> None:
     memory = SceneMemory()
-    for _ in range(3):
-        see(memory, walls=[(6.0, 0.8, -6.0, 0.8)])
+    see(memory, walls=[(6.0, 0.8, -6.0, 0.8)], scans=3)
     at_wall, behind = beams_that_end_at(0.8), beams_that_end_at(5.0)
     angles = ANGLES[0] + ANGLES[1] * np.arange(360)
     through = np.abs(np.cos(angles)) * 0.8 < 0.5 * np.sin(angles)
     ranges = np.where(through, behind, at_wall)
-    for _ in range(40):
-        see(memory, ranges=ranges)
+    see(memory, ranges=ranges, scans=40)
     assert memory.size == (1, 0)
 
 
 def test_a_full_memory_forgets_what_was_seen_least() -> None:
     memory = SceneMemory()
-    for _ in range(5):
-        see(memory, [WALL_A], [DOOR_A])
+    see(memory, [WALL_A], [DOOR_A], scans=5)
     for k in range(MAX_WALLS + 10):
         x = 10.0 + 5.0 * k
         see(memory, [(x, 0.0, x + 1.0, 0.0)], [(x, 3.0, x + 1.0, 3.0)])
-    for _ in range(3):
-        see(memory, [(-9.0, 0.0, -8.0, 0.0)], [DOOR_B])
+    see(memory, [(-9.0, 0.0, -8.0, 0.0)], [DOOR_B], scans=3)
     scene = memory.scene()
     assert memory.size == (2, 2)
     assert scene.doors[0].start == pytest.approx(DOOR_A[:2])

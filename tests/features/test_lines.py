@@ -9,8 +9,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import ExtractorSettings, Scan, Scene, Wall, extract
-from semnav_env.features.frames import Point, Pose
+from semnav_env.features import ExtractorSettings, Scan, Wall, extract
+from semnav_env.features.frames import Point
 from tests.support.raycaster import polyline, scan_of
 
 coordinates = st.floats(-10.0, 10.0)
@@ -38,28 +38,6 @@ def test_both_ends_of_a_wall_lie_on_its_line(wall: Wall) -> None:
     assert distance >= 0.0
     for x, y in (wall.start, wall.end):
         assert x * math.cos(theta) + y * math.sin(theta) == pytest.approx(distance, abs=1e-9)
-
-
-@given(walls, poses)
-def test_the_covariance_does_not_depend_on_the_frame(wall: Wall, pose: Pose) -> None:
-    moved = Scene(walls=(wall,)).placed(pose).walls[0]
-    for one, other in ((wall.start, moved.start), (wall.end, moved.end)):
-        assert variance_beside(wall, one) == pytest.approx(variance_beside(moved, other), rel=1e-6)
-    assert wall.centroid is not None
-    beside_centroid = variance_beside(wall, wall.centroid)
-    assert beside_centroid == pytest.approx(wall.offset_deviation**2, rel=1e-6)
-
-
-def variance_beside(wall: Wall, point: Point) -> float:
-    """Variance of d - n(theta) . p for a point p on the wall, to first order."""
-    theta, _ = wall.line
-    slope = point[0] * math.sin(theta) - point[1] * math.cos(theta)
-    gradient = np.array((slope, 1.0))
-    return float(gradient @ wall.line_covariance @ gradient)
-
-
-def test_a_wall_of_a_floor_plan_is_certain() -> None:
-    assert (Wall((0.0, 1.0), (2.0, 1.0)).line_covariance == 0.0).all()
 
 
 def squared_errors(

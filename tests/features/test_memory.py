@@ -39,8 +39,7 @@ def test_a_door_counts_the_sooner_the_surer_its_sightings_are(
 
 def test_a_door_stays_when_it_is_out_of_view() -> None:
     memory = SceneMemory()
-    for _ in range(3):
-        see(memory, doors=[DOOR_A])
+    see(memory, doors=[DOOR_A], scans=3)
     for _ in range(50):
         see(memory)
     (door,) = memory.scene().doors
@@ -113,8 +112,7 @@ def test_of_two_doors_in_one_place_the_more_seen_counts() -> None:
 
 def test_doors_beside_each_other_both_count() -> None:
     memory = SceneMemory()
-    for _ in range(3):
-        see(memory, doors=[DOOR_A, (4.1, 1.0, 5.1, 1.0), (3.0, 2.2, 4.0, 2.2)])
+    see(memory, doors=[DOOR_A, (4.1, 1.0, 5.1, 1.0), (3.0, 2.2, 4.0, 2.2)], scans=3)
     assert memory.size[1] == 3
 
 
@@ -132,8 +130,7 @@ def test_doors_beside_each_other_both_count() -> None:
 )
 def test_which_walls_are_one(other: Ends, joined: bool) -> None:
     memory = SceneMemory()
-    for _ in range(2):
-        see(memory, walls=[WALL_A, other])
+    see(memory, walls=[WALL_A, other], scans=2)
     assert memory.size[0] == (1 if joined else 2)
 
 
@@ -147,8 +144,7 @@ def test_a_wall_grows_with_what_is_seen_of_it() -> None:
 
 def test_a_cleared_memory_is_empty() -> None:
     memory = SceneMemory()
-    for _ in range(3):
-        see(memory, [WALL_A], [DOOR_A])
+    see(memory, [WALL_A], [DOOR_A], scans=3)
     memory.clear()
     assert memory.size == (0, 0)
     assert memory.scene().walls == ()

@@ -58,6 +58,6 @@ def test_bad_cloud_entries_are_named():
         CloudEntry(DepthRig.spot(), 0)
     env = clouded()
     env.reset(seed=3, options=START)
-    moment = Moment(env.belief, env.tracker, env.tracker.command, env.tokens)
+    moment = Moment(env.tracker, env.tokens)
     with pytest.raises(ValueError, match="no depth cameras"):
         CloudEntry(DepthRig.spot()).observe(moment)

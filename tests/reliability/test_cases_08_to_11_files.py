@@ -15,8 +15,8 @@ import pytest
 
 from semnav_env.episodes import load_episodes
 from semnav_env.episodes.files import to_line
+from semnav_env.features.decompression import decompressed
 from semnav_env.features.readers import open_log
-from semnav_env.features.reading import decompressed
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.importers import import_map
 from tests.reliability.bombs import BOMBS

@@ -5,9 +5,9 @@ import pytest
 from shapely import LineString, Point
 
 from semnav_env.maps import Material, bundled_names, load_floor_plan
-from semnav_env.truth import TrueView
-from semnav_env.truth.shapes import fit_circle
 from studies.features.clutter import cluttered
+from studies.truth import TrueView
+from studies.truth.shapes import fit_circle
 from tests.support.evaluation_cases import OFFICE, cases
 from tests.support.small_plans import empty_hall
 

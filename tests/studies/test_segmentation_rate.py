@@ -13,10 +13,10 @@ from hypothesis.extra import numpy as hnp
 from semnav_env.features import ExtractorSettings
 from semnav_env.lidar import TIM561
 from semnav_env.maps import load_floor_plan
-from semnav_env.truth import TrueView
 from studies.__main__ import STUDIES
 from studies.segmentation.segment_labels import NO_SEGMENT, found_lines, label, labelled_scans
 from studies.segmentation.segmentation import detected_length, measure, segmentation_rate
+from studies.truth import TrueView
 from tests.support.small_plans import closed, plan_of
 
 SETTINGS = ExtractorSettings()

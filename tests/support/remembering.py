@@ -29,8 +29,9 @@ def see(
     pose: Pose = HERE,
     ranges: FloatArray = NOTHING,
     confidence: float = 0.8,
+    scans: int = 1,
 ) -> None:
-    """Show the memory one scan, taken at `pose`, of things given in the memory's frame."""
+    """Show the memory scans, taken at `pose`, of things given in the memory's frame."""
     wall_array, door_array = np.zeros(CAPACITY["walls"], WALL), np.zeros(CAPACITY["doors"], DOOR)
     for array, items in ((wall_array, walls), (door_array, doors)):
         for entry, (x1, y1, x2, y2) in zip(array, items, strict=False):
@@ -39,7 +40,8 @@ def see(
     door_array["confidence"] = confidence
     counts = np.zeros(4, dtype=np.int64)
     counts[WALLS], counts[DOORS] = len(walls), len(doors)
-    memory.update(wall_array, door_array, counts, ranges, ANGLES, pose)
+    for _ in range(scans):
+        memory.update(wall_array, door_array, counts, ranges, ANGLES, pose)
 
 
 def beams_that_end_at(y: float) -> FloatArray:

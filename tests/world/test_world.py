@@ -190,9 +190,9 @@ def test_a_robot_fits_where_it_touches_nothing_and_not_outside() -> None:
 @pytest.mark.parametrize(
     ("pose", "message"),
     [
-        ((0.56, 2.0, 0.3), "outside the boundary of small"),
-        ((30.0, 2.0, 0.0), "outside the boundary of small"),
-        ((5.2, 2.3, 0.0), "at the pose .5.2, 2.3, 0.0. the wheelchair would stand in"),
+        ((0.56, 2.0, 0.3), "reaches over the boundary of small"),
+        ((30.0, 2.0, 0.0), "is outside small"),
+        ((5.2, 2.3, 0.0), "a wheelchair at .5.2, 2.3, 0. overlaps"),
         ((math.nan, 2.0, 0.0), "pose is .*nan.* must be three finite numbers"),
         ((1.0, 2.0), "pose is .* must be three finite numbers"),
         ("here", "pose is 'here'; it must be three finite numbers"),

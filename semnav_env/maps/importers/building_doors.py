@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from semnav_env.features.frames import FloatArray, Point
+from semnav_env.features.frames import FloatArray, Point, middle_of
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 from semnav_env.maps.importers.fitting import fit_door
 from semnav_env.maps.importers.gaps import LEAST_DOORWAY_DISTANCE, find_doorways
@@ -119,7 +119,7 @@ def _further(
 ) -> Iterator[PlanDoor]:
     """Unlabelled doorways that keep the rules, with generated names."""
     taken = [(door.start, door.end) for door in doors.values()]
-    middles = [_middle(*ends) for ends in (*taken, *((each.start, each.end) for each in labels))]
+    middles = [middle_of(*ends) for ends in (*taken, *((each.start, each.end) for each in labels))]
     for doorway in find_doorways(plan.regions, plan.solids, is_free):
         if any(math.dist(doorway.midpoint, middle) <= LEAST_DOORWAY_DISTANCE for middle in middles):
             continue
@@ -132,10 +132,6 @@ def _further(
         except FloorPlanError:
             continue
         yield door
-
-
-def _middle(start: Point, end: Point) -> Point:
-    return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
 
 
 def _turned(door: PlanDoor, plan: FloorPlan) -> PlanDoor:

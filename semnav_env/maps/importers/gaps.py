@@ -9,7 +9,7 @@ from itertools import pairwise
 import shapely
 from shapely import LineString, STRtree
 
-from semnav_env.features.frames import Point
+from semnav_env.features.frames import Point, middle_of
 from semnav_env.maps.doorways import NARROWEST_ROBOT
 from semnav_env.maps.floor_plan import PlanDoor, Region
 from semnav_env.maps.importers.fitting import Band
@@ -69,7 +69,7 @@ def places_beside(
         CROSSING_DEPTH * (start[1] - end[1]) / width,
         CROSSING_DEPTH * (end[0] - start[0]) / width,
     )
-    x, y = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    x, y = middle_of(start, end)
     left, right = (_place_at((x + s * side[0], y + s * side[1]), places) for s in (1.0, -1.0))
     return left, right
 

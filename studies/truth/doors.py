@@ -11,7 +11,7 @@ from semnav_env.features.frames import FloatArray, Point, Pose, to_local
 from semnav_env.features.scene import Door, SceneLeaf
 from semnav_env.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor
-from semnav_env.truth.sweep import Outline, distances_along, points_at
+from studies.truth.sweep import Outline, distances_along, points_at
 
 MIN_VISIBLE_SHARE = 1e-6
 """A smaller share of an opening in view is a matter of rounding."""

@@ -8,7 +8,7 @@ from semnav_env.features.frames import Point
 from semnav_env.features.scan import Scan
 from semnav_env.features.scene import CornerKind, CorridorProbe, Wall
 from semnav_env.features.settings import ExtractorSettings
-from semnav_env.truth.corners import Joint
+from studies.truth.corners import Joint
 
 END_ON = 0.1
 """Sine of the angle below which a probe passes along a wall instead of meeting it."""

@@ -12,8 +12,8 @@ import numpy as np
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.features.scene import Arc, Wall
-from semnav_env.truth.shapes import PlanCircle, Shapes
-from semnav_env.truth.sweep import NO_OWNER, Outline
+from studies.truth.shapes import PlanCircle, Shapes
+from studies.truth.sweep import NO_OWNER, Outline
 
 MAX_JOINT_GAP = 0.01
 """Stretches that end and begin this close together belong together, metres."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from semnav_env.features.frames import Point
 from semnav_env.features.scene import Arc, Corner, CornerKind, Wall
-from semnav_env.truth.runs import WallRun
+from studies.truth.runs import WallRun
 
 
 @dataclass(frozen=True)

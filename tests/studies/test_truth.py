@@ -13,10 +13,10 @@ from semnav_env.features import CornerKind, extract
 from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps import Material, PlanDoor, Surface, bundled_names, load_floor_plan
-from semnav_env.truth import TrueView, true_scene
 from studies.doors.door_sightings import Gate, View, matches
 from studies.features.cases import draw_cases
 from studies.features.overlap import Overlap
+from studies.truth import TrueView, true_scene
 from tests.support.small_plans import closed, empty_hall, plan_of
 
 ALL_AROUND = LidarSpec("all_around", 720, -math.pi, math.tau / 720, range_max=20.0)

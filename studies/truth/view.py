@@ -13,12 +13,12 @@ from semnav_env.features.scene import Arc, Scene, Wall
 from semnav_env.features.settings import ExtractorSettings
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.truth.corners import find_joints
-from semnav_env.truth.corridors import true_corridors
-from semnav_env.truth.doors import open_doors, see_door
-from semnav_env.truth.runs import cut_into_runs, seam
-from semnav_env.truth.shapes import Shapes
-from semnav_env.truth.sweep import NO_OWNER, Outline, at_range, crossings, sweep
+from studies.truth.corners import find_joints
+from studies.truth.corridors import true_corridors
+from studies.truth.doors import open_doors, see_door
+from studies.truth.runs import cut_into_runs, seam
+from studies.truth.shapes import Shapes
+from studies.truth.sweep import NO_OWNER, Outline, at_range, crossings, sweep
 
 DEFAULT_SETTINGS = ExtractorSettings()
 
