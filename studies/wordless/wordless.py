@@ -25,7 +25,6 @@ from semnav_env.agents.hearing.learning import Learner
 from semnav_env.agents.hearing.network import NetworkShape
 from semnav_env.agents.hearing.torch_network import TorchGrounding
 from semnav_env.agents.learning.files import save_tensors
-from semnav_env.belief import BeliefTracker
 from semnav_env.commands import encode, parse
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode
@@ -54,12 +53,6 @@ class WordlessObservation(EntryObservation):
     def observe(self, moment: Moment) -> dict[str, NDArray[Any]]:
         """The entries as fresh arrays."""
         return without_words(super().observe(moment))
-
-    def observe_last(
-        self, tracker: BeliefTracker, tokens: NDArray[np.int64]
-    ) -> dict[str, NDArray[Any]]:
-        """The entries for what is believed last."""
-        return without_words(super().observe_last(tracker, tokens))
 
 
 class WordlessAgent(HearingAgent):
