@@ -208,9 +208,10 @@ def _mirrored_clause(clause: Clause) -> Clause:
     return clause
 
 
-def _with(clause: Any, name: str, value: object) -> Any:
+def _with(clause: Any, name: str, value: object) -> Clause:
     """A clause with another value of a field."""
-    return replace(clause, **{name: value})
+    changed: Clause = replace(clause, **{name: value})
+    return changed
 
 
 CHANGES: tuple[tuple[float, Callable[[TrainingText, np.random.Generator], TrainingText]], ...] = (
