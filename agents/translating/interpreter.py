@@ -22,12 +22,13 @@ from semnav_env.commands.speech.recognition import recognised
 from semnav_env.commands.words import pieces
 
 ENOUGH = 0.8
-"""Least probability of a translation that is asked about, chosen on the development sets: without
-the author that is measured, no feasible text is asked about wrongly from here on."""
+"""Least probability of a translation that is asked about, chosen on the second author's sets, of
+which the bundled network read nothing: from here on none of their feasible texts is asked about
+wrongly."""
 
 DIFFERING = 0.9
 """Least probability of a translation that is asked about beside what the grammar understands,
-chosen on the development sets: with less, more is asked needlessly and no more misreadings are
+chosen on the same sets: with less, more is asked needlessly and no more misreadings are
 prevented."""
 
 NEVER_ASKED = ("beyond", "no", "not", "instead", "but", "or")

@@ -43,7 +43,12 @@ START, END, REFUSE = "start", "end", "refuse"
 
 _LITERALS = ("0", "1", "2", "3", "4", "5", "-1", "-2", "0.5", "45", "60", "90", "180")
 _OTHER_SIDES = (Side.AHEAD, Side.BEHIND, Side.OPPOSITE)
-_FIXED = {"leave": Leave(), "back": GoBack(), "search": SearchHouse(), "stop": Stop()}
+_FIXED: dict[str, Clause] = {
+    "leave": Leave(),
+    "back": GoBack(),
+    "search": SearchHouse(),
+    "stop": Stop(),
+}
 
 SYMBOLS = (
     *(START, END, REFUSE),

@@ -87,9 +87,10 @@ def outcome_of(sentence: Sentence, interpreter: Interpreter) -> ParseOutcome:
         return _asked(error.readings, sentence)
     except CommandError:
         return ParseOutcome.REFUSED
-    if len(found) > 1:
+    command, *others = found
+    if others:
         return _asked(found, sentence)
-    return ParseOutcome.UNDERSTOOD if _is_right(found[0], sentence) else ParseOutcome.MISREAD
+    return ParseOutcome.UNDERSTOOD if _is_right(command, sentence) else ParseOutcome.MISREAD
 
 
 def _asked(found: Sequence[Command], sentence: Sentence) -> ParseOutcome:

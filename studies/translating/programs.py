@@ -119,7 +119,8 @@ def _place(place: Step) -> tuple[list[Clause], Any]:
             return [], PlaceReference(Place.END)
         case ("door", ordinal, side, relation, others):
             named = {"other": OTHER, "any": 1, "nearest": 1}
-            door = DoorReference(named.get(ordinal, ordinal), side and Side(side))
+            counted = named[ordinal] if ordinal in named else int(ordinal)
+            door = DoorReference(counted, side and Side(side))
             return _relation(relation, others, door)
         case (kind, ordinal):
             return [], PlaceReference(Place(kind.replace("-", "_")), ordinal)

@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -100,7 +101,7 @@ def _revalued_clause(clause: Clause, swaps: bool, rng: np.random.Generator) -> C
         return clause
     new = _revalued_reference(what, swaps, rng)
     name = next(key for key in ("until", "at", "door", "what") if getattr(clause, key, 0) is what)
-    return replace(clause, **{name: new})
+    return _with(clause, name, new)
 
 
 def _revalued_reference(
@@ -200,11 +201,17 @@ def _mirrored_clause(clause: Clause) -> Clause:
     for name in ("door", "until", "what"):
         value = getattr(clause, name, None)
         if isinstance(value, Side):
-            return replace(clause, **{name: Side(_SWAPPED[value])})
+            return _with(clause, name, Side(_SWAPPED[value]))
         if isinstance(value, DoorReference) and value.side is not None:
             side = Side(_SWAPPED.get(value.side, value.side))
-            return replace(clause, **{name: replace(value, side=side)})
+            return _with(clause, name, replace(value, side=side))
     return clause
+
+
+def _with(clause: Any, name: str, value: object) -> Clause:
+    """A clause with another value of a field."""
+    changed: Clause = replace(clause, **{name: value})
+    return changed
 
 
 CHANGES: tuple[tuple[float, Callable[[TrainingText, np.random.Generator], TrainingText]], ...] = (

@@ -23,7 +23,7 @@ class TorchTranslator(nn.Module):
         generator = torch.Generator().manual_seed(seed)
         for name, size in shape.tensors().items():
             self.register_parameter(_flat(name), nn.Parameter(_drawn(name, size, generator)))
-        self.register_buffer("places", torch.from_numpy(positions(LONGEST_TEXT, shape.width)))
+        self.places = torch.from_numpy(positions(LONGEST_TEXT, shape.width))
 
     def arrays(self) -> dict[str, NDArray[np.float32]]:
         """Copies of the parameters as arrays, as `TranslatorNetwork` takes them."""

@@ -109,7 +109,7 @@ def trained(
             group["lr"] = settings.rate * _pace(step, settings)
         loss = _loss(model, next(batches))
         optimizer.zero_grad()
-        loss.backward()
+        loss.backward()  # type: ignore[no-untyped-call]
         torch.nn.utils.clip_grad_norm_(model.parameters(), 1.0)
         optimizer.step()
         total += loss.item()
