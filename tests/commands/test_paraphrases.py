@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -71,6 +72,17 @@ def test_readings_can_be_imported_after_parsing() -> None:
     from semnav_env.commands import readings
 
     assert readings("stop") == (parse("stop"),)
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_a_sign_and_a_verb_set_off_what_depends_on_a_condition(language: str) -> None:
+    command = parse("if you see the first door, turn left at the first corner")
+    unclear = {
+        "en": r" and then |[,;.] (then )?left at",
+        "de": r" und dann |[,;.] (dann )?(an|bei) der \w+ \w+ links([.,]|$)",
+    }
+    for text in paraphrases(command, np.random.default_rng(0), 40, language):
+        assert not re.search(unclear[language], text), text
 
 
 def test_the_same_generator_says_the_same() -> None:

@@ -237,6 +237,14 @@ def test_the_first_door_behind_a_closed_one_is_the_next(language: str) -> None:
     assert all(readings(str(text), language) == (command,) for text in texts)
 
 
+def test_no_draft_leads_past_a_corner() -> None:
+    """Around it, or straight on? Both are said so; a turn at the corner is drawn instead."""
+    past_corner = Follow(PlaceReference(Place.CORNER), past=True)
+    assert all(drafter(seed).problem((past_corner,)) is not None for seed in range(10))
+    commands = [drafter(seed).feasible(2, CommandTopic.FOLLOW) for seed in range(40)]
+    assert not any(past_corner in command.clauses for command in commands if command)
+
+
 def test_passing_doors_and_turning_by_degrees_are_said_underway() -> None:
     commands = [drafter(seed).feasible(3, CommandTopic.TURN) for seed in range(40)]
     clauses = [clause for command in commands if command for clause in command.clauses]

@@ -145,6 +145,10 @@ class ItemReader(ItemWords):
                     continue
                 if kind == "then" and not before and stop - at > MAX_FIRST_THEN:
                     continue
+                first = self.lexicon.find(self.words, at, "after doing")
+                ends = stop >= len(self.words) - 1
+                if kind == "then" and ends and first is not None and first[1] > at + 1:
+                    continue  # "turn right after you've left the room" says what is done first
                 if kind in ("before doing", "after doing") and not self._begins_clause(at, stop):
                     continue
                 if kind in ("in", "out", "before it") and self._begins_noun(stop):
