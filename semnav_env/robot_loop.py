@@ -60,6 +60,7 @@ class RobotLoop:
         self._parts, self._seconds = state
         simulator, tracker, verifier = self._parts
         self._tracker, self._world = tracker, simulator.world
+        tracker.read_ranges_in(simulator.last_ranges)
         self._arrays = join_robot(simulator.arrays, tracker.senses, verifier.record)
 
     def look(self) -> int:
@@ -124,9 +125,8 @@ def run_period(
 
 @kernel(borrows=True)
 def _tell_mind(robot: RobotArrays, seconds: float) -> None:
-    """Give what was sensed to the robot's mind."""
+    """Give what was sensed to the robot's mind, which reads the ranges where they are."""
     sensing, estimate = robot.simulator.sensing[0], robot.senses.estimate[0]
-    robot.senses.ranges[:] = robot.simulator.ranges
     driven = robot.simulator.drive[0]
     estimate.contact_count = driven.contact_count
     for k in range(driven.contact_count):

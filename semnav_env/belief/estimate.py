@@ -10,7 +10,7 @@ import numpy as np
 
 from semnav_env.belief.belief import Belief
 from semnav_env.features.frames import MOST_CONTACTS, FloatArray, Pose, Twist
-from semnav_env.grounding.clause_progress import GOAL_RECORD, goal_entry
+from semnav_env.grounding.clause_progress import GOAL_RECORD, put_goal
 
 ESTIMATE = np.dtype(
     [("contact_count", "i8"), ("odometry", "f8", 3), ("seconds", "f8")]
@@ -81,5 +81,6 @@ def estimate_of(belief: Belief) -> np.ndarray:
     """The fields of an estimate that a belief tells: velocity, pose, clause and target."""
     estimate = np.zeros(1, ESTIMATE)
     estimate["velocity"], estimate["pose"] = belief.velocity, belief.pose
-    estimate["clause"], estimate["target"] = belief.clause, goal_entry(belief.target)
+    estimate["clause"] = belief.clause
+    put_goal(estimate, "target", belief.target)
     return estimate

@@ -6,13 +6,15 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from semnav_env.belief.belief import Belief
-from semnav_env.belief.tracker import NO_WAYS, ORIGIN, BeliefTracker
+from semnav_env.belief.tracker import NO_WAYS, BeliefTracker
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings, Scan
 from semnav_env.features.frames import Pose, compose, relative, wrap_angle
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.features.readers import LogError, LogRecord
 from semnav_env.grounding.ways import Way
+
+ORIGIN: Pose = (0.0, 0.0, 0.0)
 
 
 def follow_log(

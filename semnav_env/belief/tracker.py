@@ -44,13 +44,12 @@ from semnav_env.features.kernels.scratch import (
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
-from semnav_env.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, goal_entry
+from semnav_env.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, put_goal
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.ways import KnownWays, Way
 from semnav_env.rules import Rules, with_doors_of
 
 NO_WAYS: Mapping[int, Way] = MappingProxyType({})
-ORIGIN: Pose = (0.0, 0.0, 0.0)
 
 
 class BeliefTracker:
@@ -94,7 +93,7 @@ class BeliefTracker:
     def __init__(
         self,
         lidar: str | LidarSpec = "tim561",
-        mount: Pose = ORIGIN,
+        mount: Pose = (0.0, 0.0, 0.0),
         extractor: ExtractorSettings = ExtractorSettings(),
         corrects_drift: bool = True,
         known_scene: Scene | None = None,
@@ -117,9 +116,7 @@ class BeliefTracker:
         self._told = ToldWays()
         self._period = 1.0 / self.lidar.rate_hz
         self._begun = False
-        self._known_scene: SceneSource | None = (
-            None if known_scene is None else KnownScene(known_scene)
-        )
+        self._known_scene = None if known_scene is None else KnownScene(known_scene)
         self._last_source: Callable[[], RememberedScene | None] = nothing
         self.senses = self._join()
 
@@ -143,6 +140,11 @@ class BeliefTracker:
     def use_scratch(self, scratch: Scratch) -> None:
         """Use other working memory; trackers of one thread that share it spare the cache."""
         self._scratch = scratch
+        self.senses = self._join()
+
+    def read_ranges_in(self, ranges: FloatArray) -> None:
+        """Take the array that a simulator writes, shape (beams,), for `ranges`."""
+        self.ranges = ranges
         self.senses = self._join()
 
     def begin(self, command: Command, ways: Mapping[int, Way] = NO_WAYS) -> None:
@@ -243,11 +245,13 @@ class BeliefTracker:
             note_look(self.senses)
         if looked or events & ON_WAY:
             self._target = follower.target(pose)
-            estimate["clause"], estimate["target"] = follower.active, goal_entry(self._target)
+            estimate["clause"] = follower.active
+            put_goal(self._estimate, "target", self._target)
 
     def believe(self) -> Belief:
         """What is believed after the last scan."""
-        follower, source = self.follower, self._known_scene
+        follower = self.follower
+        source: SceneSource | None = self._known_scene
         if source is None:
             source = remembered = RememberedScene(self.memory, self.bumps)
             self._last_source = ref(remembered)

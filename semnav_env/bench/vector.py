@@ -13,7 +13,8 @@ from semnav_env.vector import SemNavVectorEnv
 def vector_part(steps: int, robots: int, threads: int, **options: Any) -> Part:
     """The step of a vector environment, seconds for each robot.
 
-    Robots that hit something begin anew while the clock stands still.
+    The clock stands still while robots begin anew, as in `single.step_parts`: those that hit
+    something and those whose episode is over.
 
     Args:
         steps: of one robot in a timing, about.
@@ -21,7 +22,7 @@ def vector_part(steps: int, robots: int, threads: int, **options: Any) -> Part:
         threads: in which they are driven.
         options: of `SemNavEnv`.
     """
-    envs = SemNavVectorEnv(robots, threads=threads, **options)
+    envs = SemNavVectorEnv(robots, threads=threads, autoreset_mode="Disabled", **options)
     envs.reset(seed=0)
     shape = envs.single_action_space.shape or ()
     actions = cruising_actions(max(1, steps // robots), (robots, *shape))
@@ -30,7 +31,7 @@ def vector_part(steps: int, robots: int, threads: int, **options: Any) -> Part:
         begin = time.perf_counter()
         for action in actions:
             _, _, terminated, truncated, infos = envs.step(action)
-            stopped = infos.get("in_contact", terminated) & ~terminated & ~truncated
+            stopped = infos["in_contact"] | terminated | truncated
             if stopped.any():
                 paused = time.perf_counter()
                 envs.reset(options={"reset_mask": stopped})

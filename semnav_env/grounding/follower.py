@@ -24,8 +24,8 @@ from semnav_env.grounding.clause_progress import (
     CLAUSE_DONE,
     CLAUSE_PROGRESS,
     TRAIL_DUE,
-    goal_entry,
     note_pose,
+    put_goal,
 )
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
@@ -211,7 +211,8 @@ class Follower:
     def _lead_to(self, goal: Goal) -> None:
         self.goal = goal
         is_open = not self.done and self.impossible is None
-        self._write(goal=goal_entry(goal), is_open=is_open)
+        put_goal(self.progress, "goal", goal)
+        self._write(is_open=is_open)
 
     def _write(self, **values: object) -> None:
         """Set fields of the record."""

@@ -19,6 +19,8 @@ from semnav_env.features.scene import Door, PlainWalls, StillScene
 OFFICE_PREFIX = "office"
 """First part of the names of generated offices, as in "office:medium:17"."""
 
+_USUAL_RULES = DoorRules()
+
 
 class Material(StrEnum):
     """Material of a surface; glass stops the body but not the beam."""
@@ -204,7 +206,7 @@ class FloorPlan:
     @property
     def scene(self) -> StillScene:
         """`scene_by` the usual rules."""
-        return self.scene_by(DoorRules())
+        return self.scene_by(_USUAL_RULES)
 
     def scene_by(self, rules: DoorRules) -> StillScene:
         """All walls (glass included) and all doors that count by some rules, world frame."""

@@ -93,6 +93,7 @@ class Simulator:
         world: the physics.
         lidar: on its mount.
         odometry: dead reckoning.
+        last_ranges: of the last scan, metres, shape (beams,); always the same array.
         arrays: what the compiled `sense` reads and writes; made anew when it is copied.
     """
 
@@ -110,7 +111,7 @@ class Simulator:
         self.lidar = Lidar(self.world.still, spec, robot.lidar_mount, self.world.moving_shapes)
         self.odometry = Odometry(setup.odometry)
         self._seconds = 1.0 / setup.control_hz
-        self._ranges = np.zeros(spec.beams)
+        self.last_ranges = np.zeros(spec.beams)
         self._record = np.zeros(1, SENSING)
         self._record["exact"] = setup.exact
         self._join()
@@ -118,7 +119,7 @@ class Simulator:
     def _join(self) -> None:
         records = self.world.record, self.odometry.record, self._record
         x, y, heading = map(float, self.lidar.mount)
-        self.arrays = join_simulator(*records, self.lidar.arrays, (x, y, heading), self._ranges)
+        self.arrays = join_simulator(*records, self.lidar.arrays, (x, y, heading), self.last_ranges)
         self._numbers = self._record.view(np.float64)[:NUMBERS]
 
     def __getstate__(self) -> dict[str, Any]:
@@ -201,7 +202,7 @@ class Simulator:
         )
         touched = bool(events & TOUCHED)
         return Sensed(
-            self._ranges,
+            self.last_ranges,
             (odometry_x, odometry_y, odometry_heading),
             (forward, left, turn),
             self.world.touches if touched else [],

@@ -171,8 +171,7 @@ class Verifier:
         return self._fulfils is None or self._fulfils(self.mission.command.clauses[clause])
 
     def _pose(self) -> Pose:
-        x, y, heading = self._state[["x", "y", "heading"]][0].item()
-        return x, y, heading
+        return self.read()[:3]
 
     def _scene(self) -> Scene:
         return self.mission.scene
