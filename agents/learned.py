@@ -135,5 +135,5 @@ class LearnedAgent:
         if self._shield is None:
             return self._action.copy()
         more = points_to_parent(pose, unseen(row, 0))
-        points = np.vstack((self._observer.surroundings[0].points, more))
+        points = np.vstack((self._observer.memories[0].points, more))
         return self._shield.checked(self._action, points, pose, velocity)

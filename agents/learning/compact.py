@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
-from semnav_env.agents.learning.surroundings import PROBED_MOVES, SECTORS, Surroundings
+from semnav_env.agents.learning.room_memory import PROBED_MOVES, SECTORS, RoomMemory
 from semnav_env.agents.planning.obstacles import points_of_segments
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.lidar_spec import LidarSpec
@@ -44,11 +44,11 @@ class CompactObserver:
         lidar: of all.
 
     Attributes:
-        surroundings: the remembered obstacles of each.
+        memories: the remembered obstacles of each.
     """
 
     def __init__(self, robots: Sequence[RobotSpec], lidar: LidarSpec) -> None:
-        self.surroundings = [Surroundings(robot, lidar) for robot in robots]
+        self.memories = [RoomMemory(robot, lidar) for robot in robots]
         self._sideways = np.array([[robot.holonomic] for robot in robots], np.float32)
 
     def forget(self, robots: NDArray[np.bool_]) -> None:
@@ -58,7 +58,7 @@ class CompactObserver:
             robots: whose, shape (n,).
         """
         for k in np.flatnonzero(robots):
-            self.surroundings[k].forget()
+            self.memories[k].forget()
 
     def observe(self, observation: Observation, robots: Sequence[int] | None = None) -> Array:
         """The body, the goal, the velocity and the room around, each value in [-1, 1].
@@ -84,9 +84,9 @@ class CompactObserver:
         poses = np.column_stack((odometry[:, :2], headings)).astype(np.float64).tolist()
         rooms = []
         for row, k in enumerate(index.tolist()):
-            surroundings, (x, y, turned) = self.surroundings[k], poses[row]
-            surroundings.take_in((x, y, turned), observation["scan"][row])
-            rooms.append(surroundings.room((x, y, turned), unseen(observation, row)))
+            memory, (x, y, turned) = self.memories[k], poses[row]
+            memory.take_in((x, y, turned), observation["scan"][row])
+            rooms.append(memory.room((x, y, turned), unseen(observation, row)))
         clearances = np.stack([room.clearances for room in rooms])
         free = np.stack([room.free for room in rooms])
         return np.concatenate(

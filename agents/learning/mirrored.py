@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.learning.surroundings import PROBED_MOVES, SECTORS
+from semnav_env.agents.learning.room_memory import PROBED_MOVES, SECTORS
 
 Array = NDArray[Any]
 

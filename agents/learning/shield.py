@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.learning.surroundings import BodyShape, body_shape
+from semnav_env.agents.learning.room_memory import BodyShape, body_shape
 from semnav_env.agents.planning.free import points_around
 from semnav_env.agents.planning.motion import Move, moved
 from semnav_env.features.checked_fields import Length, Share, check_fields
@@ -90,26 +90,22 @@ class Shield:
         margin = self._margin(velocity)
         near = points_around(pose, points, REACH)
         wanted = np.array([action[0], action[1] if robot.holonomic else 0.0, action[-1]], float)
-        shares = np.outer(_SHARES, wanted)
         order = np.argsort(np.abs(self._others - wanted).sum(axis=1), kind="stable")
-        tried = np.vstack((shares, self._others[order]))
-        tried *= (robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate)
-        limits = (robot.max_acceleration, robot.max_acceleration, robot.max_turn_acceleration)
+        tried = np.vstack((np.outer(_SHARES, wanted), self._others[order]))
         k = first_free(
             near,
             self._shape,
-            tried,
+            tried * (robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate),
             velocity,
-            limits,
+            (robot.max_acceleration, robot.max_acceleration, robot.max_turn_acceleration),
             settings.foresight,
             margin,
             settings.deeper,
         )
-        self._held = self._held + 1 if k < 0 or k >= len(shares) else 0
+        self._held = self._held + 1 if k < 0 or k >= len(_SHARES) else 0
         if k < 0:
             return np.zeros_like(action)
-        chosen = np.vstack((shares, self._others[order]))[k]
-        return np.asarray(chosen if robot.holonomic else chosen[[0, 2]], np.float32)
+        return np.asarray(tried[k] if robot.holonomic else tried[k, [0, 2]], np.float32)
 
     def _margin(self, velocity: Twist) -> float:
         """The margin now: less for a while after the shield has held a robot that stands."""

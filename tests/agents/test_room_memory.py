@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.agents.learning.surroundings import (
+from semnav_env.agents.learning.room_memory import (
     NO_HIT,
     PROBED_MOVES,
     SECTORS,
-    Surroundings,
+    RoomMemory,
 )
 from semnav_env.robots import ROBOTS
 from tests.support.compact_observations import LIDAR
@@ -25,7 +25,7 @@ CHAIR = ROBOTS["wheelchair"]
 
 
 def room(points, robot=CHAIR):
-    return Surroundings(robot, LIDAR).room(HERE, np.array(points, float).reshape(-1, 2))
+    return RoomMemory(robot, LIDAR).room(HERE, np.array(points, float).reshape(-1, 2))
 
 
 @pytest.mark.parametrize(
@@ -35,7 +35,7 @@ def test_a_hit_is_as_near_as_it_is_to_the_footprint(beam, x, y):
     """The lidar is 0.45 m before the centre, beams are 1/3 of a degree apart; beam 405 is ahead."""
     scan = np.full(LIDAR.beams, LIDAR.range_max, np.float32)
     scan[beam] = 1.0
-    around = Surroundings(CHAIR, LIDAR)
+    around = RoomMemory(CHAIR, LIDAR)
     around.take_in(HERE, scan)
     around.take_in(HERE, scan)  # one hit may be noise
     clearances = around.room(HERE, NOTHING).clearances
@@ -47,7 +47,7 @@ def test_a_hit_is_as_near_as_it_is_to_the_footprint(beam, x, y):
 
 def test_what_was_ahead_is_remembered_behind():
     scan = np.full(LIDAR.beams, 2.0, np.float32)
-    around = Surroundings(ROBOTS["spot"], LIDAR)
+    around = RoomMemory(ROBOTS["spot"], LIDAR)
     around.take_in(HERE, scan)
     around.take_in(HERE, scan)
     seen = around.room(HERE, NOTHING).clearances

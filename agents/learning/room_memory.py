@@ -48,7 +48,7 @@ class BodyShape(NamedTuple):
     axle: float
 
 
-class Room(NamedTuple):
+class RoomAround(NamedTuple):
     """The room around a robot.
 
     Attributes:
@@ -61,7 +61,7 @@ class Room(NamedTuple):
     free: NDArray[np.float32]
 
 
-class Surroundings:
+class RoomMemory:
     """The obstacles around one robot.
 
     Args:
@@ -93,7 +93,7 @@ class Surroundings:
         self._memory.update(compose(pose, self._mount), scan, self._beams, self._range_max)
         self.points = self._memory.points()
 
-    def room(self, pose: Pose, more: FloatArray) -> Room:
+    def room(self, pose: Pose, more: FloatArray) -> RoomAround:
         """The room around the robot.
 
         Args:
@@ -104,7 +104,7 @@ class Surroundings:
         nearest = np.full(SECTORS, NO_HIT, np.float32)
         free = np.ones(len(PROBED_MOVES), np.float32)
         measure_room(points, self._shape, PROBED_MOVES, nearest, free)
-        return Room(nearest, free)
+        return RoomAround(nearest, free)
 
 
 def body_shape(robot: RobotSpec) -> BodyShape:
