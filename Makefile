@@ -45,7 +45,9 @@ $(VENV)/.test: pyproject.toml constraints.txt
 	$(BIN)/pip install -q -c constraints.txt -e ".[render,rl,ros,dev]"
 	touch $@
 
+# Seed 0, one core: some 15 minutes for `drive` and 11 for `listener` of processor time.
 policies: $(VENV)/.test
+	$(BIN)/semnav train drive --seed 0 --out out/policies/drive
 	$(BIN)/semnav train listener --seed 0 --out out/policies/listener
 	$(BIN)/python -m studies translator --out out/policies/translator
 

@@ -10,10 +10,19 @@ from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
 from semnav_env.agents.learning.actions import for_body
-from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver
+from semnav_env.agents.learning.compact import (
+    COMPACT_ENTRIES,
+    COMPACT_SIZE,
+    CompactObserver,
+    unseen,
+)
 from semnav_env.agents.learning.files import AGENT_FILE, POLICY_FILE, AgentDescription, load_tensors
+from semnav_env.agents.learning.inertia import Inertia
 from semnav_env.agents.learning.policy import Policy
+from semnav_env.agents.learning.shield import Shield
+from semnav_env.features.frames import points_to_parent
 from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.observations import read_odometry
 from semnav_env.observations.layout import GOAL
 from semnav_env.robots import RobotSpec, robot_spec
 
@@ -54,12 +63,16 @@ class LearnedAgent:
         policy: from a compact observation to an action.
         robots: names of the bodies that it was trained on.
         repeat: steps for which an action holds.
+        shielded: whether each action is checked against the remembered obstacles, see `Shield`.
     """
 
     observation = "all"
 
-    def __init__(self, policy: Policy, robots: tuple[str, ...], repeat: int) -> None:
+    def __init__(
+        self, policy: Policy, robots: tuple[str, ...], repeat: int, shielded: bool = True
+    ) -> None:
         self.policy, self.robots, self.repeat = policy, robots, repeat
+        self.shielded = shielded
         self._held = 0
         self._observer: CompactObserver
         self._robot: RobotSpec
@@ -105,15 +118,22 @@ class LearnedAgent:
             trained = " and ".join(map(repr, self.robots))
             raise ValueError(f"this agent was trained on {trained}, not {self._robot.name!r}")
         self._observer = CompactObserver([self._robot], LidarSpec(**info["lidar"]))
+        self._shield = Shield(self._robot) if self.shielded else None
+        self._inertia = Inertia(self._robot)
         self._held = 0
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The action; the policy chooses a new one every `repeat` steps, unless it is to stop."""
         if observation["goal"][_STOP]:
             return np.zeros(self._robot.action_size, np.float32)
+        row = {name: observation[name][None] for name in COMPACT_ENTRIES}
+        pose, velocity = read_odometry(observation)
         if self._held == 0:
-            row = {name: observation[name][None] for name in ("goal", "odometry", "scan")}
-            action = self.policy.act(self._observer.observe(row)[0])
+            action = self._inertia.act(self.policy, self._observer.observe(row)[0], pose)
             self._action = for_body(action, self._robot.action_size)
         self._held = (self._held + 1) % self.repeat
-        return self._action.copy()
+        if self._shield is None:
+            return self._action.copy()
+        more = points_to_parent(pose, unseen(row, 0))
+        points = np.vstack((self._observer.memories[0].points, more))
+        return self._shield.checked(self._action, points, pose, velocity)

@@ -18,6 +18,12 @@ from semnav_env.agents.searching.agent import Explorer, PlanSearcher
 AgentSource: TypeAlias = str | Callable[[], Agent]
 """What an agent is made from, see `make_agent`."""
 
+
+def listener_drives() -> Agent:
+    """The agent without a planner: what "listener" hears is where "drive" drives to."""
+    return HearingAgent.load("listener", LearnedAgent.load("drive"))
+
+
 _BUILT_IN: dict[str, Callable[[], Agent]] = {
     "scripted": ScriptedAgent,
     "oracle": OracleAgent,
@@ -25,6 +31,7 @@ _BUILT_IN: dict[str, Callable[[], Agent]] = {
     "random": RandomAgent,
     "searcher": PlanSearcher,
     "explorer": Explorer,
+    "listener_drives": listener_drives,
 }
 
 
@@ -32,9 +39,10 @@ def make_agent(source: AgentSource) -> Agent:
     """A new agent.
 
     Args:
-        source: "scripted", "oracle", "blind", "random", "searcher", "explorer" or a name of
-            `pretrained_names` or `hearing_names`; the folder of a trained agent;
-            "package.module:Class"; or a class or function that is called without arguments.
+        source: "scripted", "oracle", "blind", "random", "searcher", "explorer",
+            "listener_drives" or a name of `pretrained_names` or `hearing_names`; the folder of a
+            trained agent; "package.module:Class"; or a class or function that is called without
+            arguments.
 
     Raises:
         ValueError: there is no such agent, or what was made is none; says what would be right.

@@ -1,4 +1,4 @@
-"""The agent that hears the command: a learned grounding, driven by the scripted agent's planner."""
+"""The agent that hears the command: a learned grounding, and another agent that drives to goals."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.base import Observation
+from semnav_env.agents.base import Agent, Observation
 from semnav_env.agents.hearing.card import CARD_FILE, load_network
 from semnav_env.agents.hearing.clause_state import ClauseState
 from semnav_env.agents.hearing.elements import Description, describe
@@ -46,13 +46,14 @@ def hears(source: str | Path) -> bool:
 
 
 class HearingAgent:
-    """Grounds the clause under way by a network, and drives to its goal with the planner.
+    """Grounds the clause under way by a network, and lets another agent drive to its goal.
 
     It sees neither `goal` nor `clause`. Which clause is under way it keeps itself: it goes on when
     the network says that the clause is done.
 
     Args:
         network: the trained one.
+        driver: an agent that is given goals; the scripted one, a planner, if None.
 
     Attributes:
         decisions: what the network was asked in the last call of `act`.
@@ -60,21 +61,26 @@ class HearingAgent:
 
     observation = "command"
 
-    def __init__(self, network: GroundingNetwork) -> None:
+    def __init__(self, network: GroundingNetwork, driver: Agent | None = None) -> None:
         self.network = network
-        self._driver = ScriptedAgent()
+        self._driver: Agent = driver or ScriptedAgent()
         self.decisions: list[Decision] = []
 
     @classmethod
-    def load(cls, path: str | Path) -> Self:
+    def load(cls, path: str | Path, driver: Agent | None = None) -> Self:
         """The agent in a folder that `semnav train` wrote, or one of `hearing_names`.
+
+        Args:
+            path: the folder or the name.
+            driver: see the class.
 
         Raises:
             ValueError: there is none, it is damaged, or it does not fit this version.
             OSError: a file cannot be read.
             ImportError: safetensors is not installed.
         """
-        return cls(load_network(BUNDLED_FOLDER / path if path in hearing_names() else Path(path)))
+        folder = BUNDLED_FOLDER / path if path in hearing_names() else Path(path)
+        return cls(load_network(folder), driver)
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode with the body and the lidar of `info`."""

@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import torch
+from torch import Tensor
 
-from semnav_env.agents.learning.imitation import Tensors
+from semnav_env.agents.learning.imitation import Tensors, pauses
+from semnav_env.agents.learning.mirrored import mirrored_actions, mirrored_observations
 
 if TYPE_CHECKING:
     from stable_baselines3 import PPO
 
-EPOCHS, BATCH_SIZE, LEARNING_RATE = 25, 512, 2e-3
+EPOCHS, BATCH_SIZE, LEARNING_RATE = 40, 512, 2e-3
 """Passes over the demonstrations, decisions in a gradient step, and the largest step size."""
 
 HUBER_BETA = 0.2
@@ -24,28 +26,43 @@ VALUE_WEIGHT = 0.01
 def clone(model: PPO, demonstrations: Tensors, seed: int) -> None:
     """Teach the mean of the policy the actions, and the value function the returns.
 
+    Every other batch, by chance, is mirrored: left and right are exchanged.
+
     Args:
         model: whose weights are changed.
         demonstrations: "observations", "actions" and "returns", a row for each decision.
         seed: of the order of the decisions.
     """
-    observations, actions, returns = (
-        torch.from_numpy(demonstrations[name]) for name in ("observations", "actions", "returns")
-    )
-    count = len(observations)
+    kept = ~pauses(demonstrations)
+    parts = [demonstrations[name][kept] for name in ("observations", "actions", "returns")]
+    other = [mirrored_observations(parts[0]), mirrored_actions(parts[1]), parts[2]]
+    both = [[torch.from_numpy(part) for part in each] for each in (parts, other)]
+    count = len(parts[0])
     batches = max(1, count // BATCH_SIZE)
-    policy, order = model.policy, torch.Generator().manual_seed(seed)
-    optimizer = torch.optim.Adam(policy.parameters(), LEARNING_RATE)
+    order = torch.Generator().manual_seed(seed)
+    optimizer = torch.optim.Adam(model.policy.parameters(), LEARNING_RATE)
     schedule = torch.optim.lr_scheduler.OneCycleLR(
-        optimizer, LEARNING_RATE, total_steps=EPOCHS * batches
+        optimizer, LEARNING_RATE, total_steps=EPOCHS * batches, pct_start=0.15
     )
     for _ in range(EPOCHS):
         for rows in torch.randperm(count, generator=order).chunk(batches):
-            hidden, hidden_value = policy.mlp_extractor(observations[rows])
-            wanted, values = policy.action_net(hidden), policy.value_net(hidden_value).flatten()
-            loss = torch.nn.functional.smooth_l1_loss(wanted, actions[rows], beta=HUBER_BETA)
-            loss += VALUE_WEIGHT * torch.nn.functional.mse_loss(values, returns[rows])
+            side = int(torch.randint(2, (), generator=order))
+            loss = _loss(model, *(part[rows] for part in both[side]))
             optimizer.zero_grad()
             torch.autograd.backward(loss)
             optimizer.step()
             schedule.step()
+
+
+def _loss(model: PPO, observations: Tensor, actions: Tensor, returns: Tensor) -> Tensor:
+    """The error of a batch; a body that cannot move sideways may say anything of that."""
+    policy = model.policy
+    hidden, hidden_value = policy.mlp_extractor(observations)
+    wanted, values = policy.action_net(hidden), policy.value_net(hidden_value).flatten()
+    error = torch.nn.functional.smooth_l1_loss(wanted, actions, beta=HUBER_BETA, reduction="none")
+    if actions.shape[1] == 3:
+        weights = torch.ones_like(error)
+        weights[:, 1] = observations[:, 0]
+        error = error * weights
+    loss = error.sum(dim=1).mean()
+    return loss + VALUE_WEIGHT * torch.nn.functional.mse_loss(values, returns)

@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
-from semnav_env.agents.learning.clearance_memory import SECTORS, ClearanceMemory
+from semnav_env.agents.learning.room_memory import PROBED_MOVES, SECTORS, RoomMemory
+from semnav_env.agents.planning.obstacles import points_of_segments
+from semnav_env.features.frames import FloatArray
 from semnav_env.features.lidar_spec import LidarSpec
-from semnav_env.observations.layout import GOAL, ODOMETRY
+from semnav_env.observations.layout import BUMP_ROWS, GOAL, ODOMETRY
 from semnav_env.robots import RobotSpec
 
 Array = NDArray[np.float32]
@@ -21,8 +23,14 @@ _GOAL_PARTS = [GOAL.columns.index(name) for name in ("x", "cosine", "door_start_
 _VELOCITY = ODOMETRY.columns.index("forward")
 """Where in the odometry the velocity begins."""
 
-COMPACT_SIZE = 1 + GOAL.size + ODOMETRY.size - _VELOCITY + SECTORS
+COMPACT_SIZE = 1 + GOAL.size + ODOMETRY.size - _VELOCITY + SECTORS + len(PROBED_MOVES)
 """Length of a compact observation: the body, the goal, the velocity, the room around."""
+
+VELOCITY = slice(1 + GOAL.size, 1 + GOAL.size + ODOMETRY.size - _VELOCITY)
+"""Where a compact observation has the velocity."""
+
+COMPACT_ENTRIES = ("goal", "odometry", "scan", "bumps", "bumps_mask")
+"""Entries of the observation that it is made of."""
 
 PLACE_SCALE, CLEARANCE_SCALE = 1.0, 0.3
 """Lengths that are squashed to a half, metres: contact is decided by few centimetres."""
@@ -34,10 +42,13 @@ class CompactObserver:
     Args:
         robots: the body of each.
         lidar: of all.
+
+    Attributes:
+        memories: the remembered obstacles of each.
     """
 
     def __init__(self, robots: Sequence[RobotSpec], lidar: LidarSpec) -> None:
-        self._memory = ClearanceMemory(robots, lidar)
+        self.memories = [RoomMemory(robot, lidar) for robot in robots]
         self._sideways = np.array([[robot.holonomic] for robot in robots], np.float32)
 
     def forget(self, robots: NDArray[np.bool_]) -> None:
@@ -46,7 +57,8 @@ class CompactObserver:
         Args:
             robots: whose, shape (n,).
         """
-        self._memory.forget(robots)
+        for k in np.flatnonzero(robots):
+            self.memories[k].forget()
 
     def observe(self, observation: Observation, robots: Sequence[int] | None = None) -> Array:
         """The body, the goal, the velocity and the room around, each value in [-1, 1].
@@ -62,15 +74,21 @@ class CompactObserver:
         Returns:
             Shape (n, COMPACT_SIZE): whether the body moves sideways; the kind of goal (4), its
             place (2), cosine and sine of its heading, the start (2) and end (2) of its door,
-            whether it has one; the velocity forward, left and turning; and the clearance in each
-            direction.
+            whether it has one; the velocity forward, left and turning; the clearance in each
+            direction; and which share of each of `PROBED_MOVES` is free, from -1 to 1.
         """
         index = np.arange(len(self._sideways)) if robots is None else np.asarray(robots)
         goal, odometry = observation["goal"], observation["odometry"]
         kind, place, heading, jambs, has_door = np.split(goal, _GOAL_PARTS, axis=-1)
-        turned = np.arctan2(odometry[:, 3], odometry[:, 2])
-        poses = np.column_stack((odometry[:, :2], turned)).astype(np.float64)
-        clearances = self._memory.clearances(index, poses, observation["scan"])
+        headings = np.arctan2(odometry[:, 3], odometry[:, 2])
+        poses = np.column_stack((odometry[:, :2], headings)).astype(np.float64).tolist()
+        rooms = []
+        for row, k in enumerate(index.tolist()):
+            memory, (x, y, turned) = self.memories[k], poses[row]
+            memory.take_in((x, y, turned), observation["scan"][row])
+            rooms.append(memory.room((x, y, turned), unseen(observation, row)))
+        clearances = np.stack([room.clearances for room in rooms])
+        free = np.stack([room.free for room in rooms])
         return np.concatenate(
             (
                 self._sideways[index],
@@ -80,12 +98,32 @@ class CompactObserver:
                 _squash_place(jambs[:, :2]),
                 _squash_place(jambs[:, 2:]),
                 has_door,
-                _squash(odometry[:, _VELOCITY:]),
+                squashed(odometry[:, _VELOCITY:]),
                 clearances / (CLEARANCE_SCALE + clearances),
+                2.0 * free - 1.0,
             ),
             axis=-1,
             dtype=np.float32,
         )
+
+
+def unseen(observation: Observation, row: int) -> FloatArray:
+    """Obstacles that are no hits: what was bumped into, and the jambs of the goal's door.
+
+    Args:
+        observation: a row for each robot.
+        row: of one.
+
+    Returns:
+        Points in the robot frame, metres, shape (n, 2).
+    """
+    counted = observation["bumps_mask"][row] > 0
+    bumps = observation["bumps"][row].reshape(BUMP_ROWS, 4)[counted].astype(np.float64)
+    goal = observation["goal"][row]
+    jambs = goal[_GOAL_PARTS[2] : _GOAL_PARTS[3]].reshape(-1, 2)[: 2 * int(goal[-1])]
+    touched = points_of_segments(bumps) if len(bumps) else bumps.reshape(-1, 2)
+    points: FloatArray = np.vstack((touched, jambs))
+    return points
 
 
 def _squash_place(place: Array) -> Array:
@@ -94,6 +132,6 @@ def _squash_place(place: Array) -> Array:
     return np.asarray(place / (PLACE_SCALE + distance), np.float32)
 
 
-def _squash(values: Array) -> Array:
+def squashed(values: Array) -> Array:
     """Each value on its own."""
     return np.asarray(values / (1.0 + np.abs(values)), np.float32)

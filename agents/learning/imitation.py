@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.learning.actions import from_body
-from semnav_env.agents.learning.compact import CompactObserver
+from semnav_env.agents.learning.compact import COMPACT_ENTRIES, VELOCITY, CompactObserver
 from semnav_env.agents.learning.files import load_tensors, save_tensors
 from semnav_env.agents.learning.presets import Preset
 from semnav_env.agents.scripted import ScriptedAgent
@@ -24,6 +24,9 @@ SHARD_SIZE = 20
 PERTURBED_SHARE, PERTURBATION_RATE, PERTURBATION_SIGMA = 0.5, 0.12, 0.5
 """Share of episodes with perturbed actions, the chance that a decision of these is the first of one
 to three perturbed ones, and the standard deviation of the perturbation."""
+
+STANDING = 0.05
+"""Velocity, squashed, and action below which a robot stands."""
 
 
 def demonstrations(preset: Preset, seed: int, folder: Path) -> Iterator[int]:
@@ -44,6 +47,18 @@ def demonstrations(preset: Preset, seed: int, folder: Path) -> Iterator[int]:
 def load_demonstrations(folder: Path) -> Tensors:
     """All demonstrations in a folder, one after the other."""
     return joined([load_tensors(path) for path in sorted(folder.glob("*.safetensors"))])
+
+
+def pauses(demonstrations: Tensors) -> NDArray[np.bool_]:
+    """In which decisions the scripted agent stands and waits, shape (n,).
+
+    It does so before it plans anew, which a policy cannot know: one that imitates it stands still
+    for ever.
+    """
+    velocity, actions = demonstrations["observations"][:, VELOCITY], demonstrations["actions"]
+    largest = np.maximum(np.abs(velocity).max(axis=1), np.abs(actions).max(axis=1))
+    waits: NDArray[np.bool_] = largest < STANDING
+    return waits
 
 
 def joined(parts: list[Tensors]) -> Tensors:
@@ -94,7 +109,7 @@ class Demonstrator:
         observations, actions, rewards = [], [], []
         over = False
         while not over:
-            row = {name: entry[None] for name, entry in observation.items()}
+            row = {name: observation[name][None] for name in COMPACT_ENTRIES}
             observations.append(observer.observe(row)[0])
             disturbance, wanted, reward = noise.draw(), [], 0.0
             for _ in range(self._preset.repeat):

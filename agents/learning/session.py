@@ -97,8 +97,7 @@ def train(
         return limits.fraction(first, trainer.steps, time.monotonic() - start)
 
     trainer.save()
-    demonstrated = trainer.prepare() if fraction() < 1.0 else ()
-    for share in demonstrated:
+    for share in trainer.prepare():
         if stopped():
             return
         yield SessionProgress(share, None, False)

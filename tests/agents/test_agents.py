@@ -102,9 +102,8 @@ def test_an_episode_begins_where_no_added_box_stands() -> None:
 
 
 def test_an_unknown_agent_is_an_error_that_lists_the_known_ones() -> None:
-    with pytest.raises(
-        ValueError, match="scripted, oracle, blind, random, searcher, explorer, drive"
-    ):
+    names = "scripted, oracle, blind, random, searcher, explorer, listener_drives, drive, listener"
+    with pytest.raises(ValueError, match=names):
         make_agent("psychic")
 
 

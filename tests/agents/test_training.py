@@ -72,6 +72,7 @@ def test_the_same_seed_learns_the_same(tmp_path):
 def test_a_loaded_agent_acts_as_the_trained_model_does(tmp_path):
     trainer = train(tmp_path)
     agent = LearnedAgent.load(tmp_path)
+    agent.shielded = False
     [env, *_] = trainer.model.get_env().get_attr("unwrapped")
     info = {"robot": vars(env.robot), "lidar": vars(env.lidar_spec)}
     rng = np.random.default_rng(0)
@@ -80,6 +81,8 @@ def test_a_loaded_agent_acts_as_the_trained_model_does(tmp_path):
             "scan": rng.uniform(0.05, 10, 811).astype(np.float32),
             "odometry": rng.normal(size=7).astype(np.float32),
             "goal": rng.normal(size=13).astype(np.float32),
+            "bumps": np.zeros(64, np.float32),
+            "bumps_mask": np.zeros(16, np.float32),
         }
         seen["goal"][3] = 0.0  # where it is to stop it asks no model
         agent.reset(info)

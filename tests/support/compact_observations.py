@@ -5,6 +5,7 @@ import numpy as np
 from semnav_env.agents.learning.compact import CompactObserver
 from semnav_env.features.lidar_spec import lidar_spec
 from semnav_env.observations import GOAL
+from semnav_env.observations.layout import BUMP_ROWS
 from semnav_env.robots import ROBOTS
 
 LIDAR = lidar_spec("tim561")
@@ -13,7 +14,14 @@ LIDAR = lidar_spec("tim561")
 def observation(scan, goal=None, velocity=(0, 0, 0)):
     odometry = np.array([0, 0, 1, 0, *velocity], np.float32)
     goal = np.zeros(GOAL.size, np.float32) if goal is None else goal
-    return {"scan": np.asarray(scan, np.float32), "odometry": odometry, "goal": goal}
+    bumps = np.zeros((2, BUMP_ROWS * 4), np.float32)
+    return {
+        "scan": np.asarray(scan, np.float32),
+        "odometry": odometry,
+        "goal": goal,
+        "bumps": bumps[0],
+        "bumps_mask": bumps[1, :BUMP_ROWS],
+    }
 
 
 def compact(seen, robot="wheelchair", lidar=LIDAR):
