@@ -273,9 +273,7 @@ class BeliefTracker:
 
     def scene(self) -> Scene:
         """What is known now, in the odometry frame."""
-        if self.known_scene is not None:
-            return self.known_scene
-        return self.bumps.join(self.memory.scene())
+        return self.known_scene or self.bumps.join(self.memory.scene())
 
     @property
     def features(self) -> Features:
@@ -293,12 +291,10 @@ class BeliefTracker:
     def let_go(self) -> None:
         """Forget the last belief, before `understand`; who still has it keeps its scene."""
         self._belief = None
-        if self._last_source() is not None:
-            self._keep_last_scene()
+        self._keep_last_scene()
 
     def _keep_last_scene(self) -> None:
         """Copy what the last belief remembers, if somebody still has that belief."""
-        source = self._last_source()
-        if source is not None:
+        if (source := self._last_source()) is not None:
             source.keep()
         self._last_source = nothing
