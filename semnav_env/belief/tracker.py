@@ -285,7 +285,7 @@ class BeliefTracker:
     def hits(self) -> FloatArray:
         """Where the last beams ended, lidar frame, shape (n, 2); NaN without a return."""
         spec = self.lidar
-        valid = (self.ranges >= spec.range_min) & (self.ranges < spec.range_max)
+        valid = (spec.range_min <= self.ranges) & (self.ranges < spec.range_max)
         return np.where(valid, self.ranges, np.nan)[:, None] * self._beams
 
     def let_go(self) -> None:
