@@ -46,13 +46,10 @@ class _VariedLanguage(Language):
         "if you see the door, left at the corner".
         """
         polite, parts = self._any_of("{command}", "command"), command.parts(self)
-        dependent = (
-            2 * index
-            for index, link in enumerate(links_of(command.clauses))
-            if link in (Link.THEN, Link.OTHERWISE)
-        )
+        links = links_of(command.clauses)
+        dependent = (2 * i for i, link in enumerate(links) if link in (Link.THEN, Link.OTHERWISE))
         is_clear = all(
-            not parts[at - 1][0].isspace()
+            (links[at // 2] is Link.OTHERWISE or not parts[at - 1][0].isspace())
             and (not isinstance(command.clauses[at // 2], Turn) or self._says_verb(parts[at]))
             for at in dependent
         )

@@ -20,6 +20,7 @@ from semnav_env.commands import (
     paraphrases,
     readings,
 )
+from semnav_env.commands.command import may_count_on
 from semnav_env.commands.errors import CommandError
 from semnav_env.commands.languages import language_of
 
@@ -77,7 +78,10 @@ def worded(
     if closed and draw < PARAPHRASED_SHARE:
         text = _but_for_a_closed_one(command, language) or text
     elif draw < CORRECTED_SHARE:
-        text = _corrected(command, language, rng) or text
+        corrected = _corrected(command, language, rng)
+        if corrected and len(command.clauses) > 1 and may_count_on(*command.clauses[-2:]):
+            return None  # "past the first door and from there to the third, no, the second"
+        text = corrected or text
     elif draw < CORRECTED_SHARE + PARAPHRASED_SHARE:
         text = next(iter(paraphrases(command, rng, 1, language)), text)
     try:
