@@ -99,9 +99,9 @@ def _without_slips(
     meant = understand(corrected[0], lexicon, names).commands
     if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
         return None
-    word = next(iter(corrected[1].values()))
+    right = ", ".join(dict.fromkeys(corrected[1].values()))
     ways = tuple(command.say(lexicon.language) for command in meant)
-    raise AmbiguousCommandError(text[:200], meant, ways, suggestion=word)
+    raise AmbiguousCommandError(text[:200], meant, ways, suggestion=right)
 
 
 def _ask_without_unread(

@@ -11,12 +11,12 @@ from semnav_env.commands.command import MAX_CLAUSES, Command
 from semnav_env.commands.command_readings import commands_of
 from semnav_env.commands.one_reading import OutOfPlaceError
 from semnav_env.commands.references import Side
-from semnav_env.commands.speech.backwards import driven_backwards
 from semnav_env.commands.speech.items import Item, ItemKind, Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
 from semnav_env.commands.speech.reader import ItemReader
 from semnav_env.commands.speech.rewriting import rewritten
 from semnav_env.commands.speech.segmentation import MAX_PARTS, ClauseSegmentation, Parting, close
+from semnav_env.commands.speech.told_distances import problem_of_distance
 from semnav_env.commands.speech.unread import without_unread
 
 
@@ -119,8 +119,8 @@ def _understand(
             ("a question is not a command", found[-1].start, found[-1].stop),
         )
     items = rewritten(found)
-    if driven := driven_backwards(items, words, lexicon):
-        return Understanding((), 0.0, tuple(items), 0, driven)
+    if told := problem_of_distance(items, words, lexicon):
+        return Understanding((), 0.0, tuple(items), 0, told)
     while items and items[-1].kind in (ItemKind.NO, ItemKind.SIGN):
         items.pop()
     segmentation = ClauseSegmentation(items)
