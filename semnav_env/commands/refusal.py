@@ -44,8 +44,8 @@ def refusal(
     nearest = nearest_word(words, lexicon.words)
     suggestion = None if hint or nearest == words else nearest
     as_written = normalised.original[place[0] : place[0] + place[1]]
-    no_room = f'there is no room "{as_written}"' if rooms else f'"{as_written}" is not understood'
-    problem = no_room if is_room else _problem(found, words)
+    no_room = f'there is no room "{as_written}"'
+    problem = no_room if is_room and rooms else _problem(found, as_written)
     return CommandError(problem, normalised.original, *place, (), suggestion, hint)
 
 

@@ -3,6 +3,8 @@
 import pytest
 
 from semnav_env.commands import AmbiguousCommandError, CommandError, parse
+from semnav_env.scripts.ground import understood
+from semnav_env.tasks.request import EpisodeRequest
 
 ROOMS = ("lab", "office", "kitchen")
 
@@ -123,3 +125,11 @@ def test_rooms_are_listed_only_where_one_may_be_meant(text: str) -> None:
 )
 def test_a_house_is_searched_in_german_words(text: str) -> None:
     assert str(parse(text)) == "search the house"
+
+
+def test_the_language_of_a_text_is_recognised_everywhere() -> None:
+    around = parse("turn around")
+    assert EpisodeRequest("dreh dich um").checked_command(()) == around
+    assert understood("dreh dich um") == around
+    with pytest.raises(CommandError, match="this is German"):
+        EpisodeRequest("nimm die Tür", language="en").checked_command(())

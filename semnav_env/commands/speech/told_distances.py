@@ -1,4 +1,4 @@
-"""Finds distances that no command can say: driven backwards, or before a turn that is named first."""
+"""Finds distances that no command can say: backwards, or up to a turn that is named first."""
 
 from __future__ import annotations
 
