@@ -5,14 +5,15 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 
 from semnav_env.commands.words import pieces
 
 MAX_NAME = 40
 """The longest plain name, characters."""
 
-_GERMAN_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
+GERMAN_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
+"""The letters of German that a plain name has not, as it spells them."""
 _NUMBERED = re.compile(r"(?:room|[a-z]*)[ _-]?(\d+)[ ._-](\d+[a-z]?)")
 
 
@@ -22,7 +23,7 @@ def plain_name(name: str) -> str:
     It has small letters a to z and digits, parted by single spaces, dots, hyphens or underscores.
     """
     folded = "".join(
-        _GERMAN_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold()
+        GERMAN_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold()
     )
     kept = re.sub(r"[^a-z0-9._-]+", " ", folded)
     single = re.sub(r"([ ._-])[ ._-]*", r"\1", kept)
@@ -41,54 +42,6 @@ def spoken_names(names: Sequence[str]) -> dict[str, str]:
     once = {said: name for said, name in short if often[said] == 1}
     as_written = {name: name for name in plain} | {_in_words(name): name for name in plain}
     return once | {_said(name): name for name in plain} | as_written
-
-
-def name_phrases(names: Sequence[str]) -> dict[tuple[str, ...], str]:
-    """The plain name of each room by the words that people say for it."""
-    found: dict[tuple[str, ...], str] = {}
-    for name in names:
-        folded = "".join(_GERMAN_LETTERS.get(c, c) for c in name.casefold()).replace("\u2019", "'")
-        found[tuple(p.text for p in pieces(folded) if p.text != "'")] = plain_name(name)
-    for said, name in spoken_names(names).items():
-        words = tuple(piece.text for piece in pieces(said))
-        found[words] = name
-        if len(words) == 2 and words[0] in _ROOM_WORDS and words[1][0].isdigit():
-            found.setdefault(words[1:], name)
-    for words, name in tuple(found.items()):
-        for other in _in_other_words(words):
-            found.setdefault(other, name)
-    return found
-
-
-def kinds_of_rooms(names: Iterable[tuple[str, ...]]) -> frozenset[str]:
-    """The words for kinds of rooms, such as "office" or "labor", that are in these names."""
-    said = {word for words in names for word in words}
-    return frozenset(word for kind in _KINDS for word in kind if said.intersection(kind))
-
-
-def _in_other_words(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    """A name with one of its words in other words or in the other language: "labor" for "lab"."""
-    for at, word in enumerate(words):
-        for kind in _KINDS:
-            if word in kind:
-                yield from ((*words[:at], other, *words[at + 1 :]) for other in kind)
-
-
-_KINDS = (
-    ("office", "buero"),
-    ("lab", "laboratory", "labor"),
-    ("kitchen", "kueche"),
-    ("bathroom", "bad", "badezimmer"),
-    ("bedroom", "schlafzimmer"),
-    ("library", "bibliothek"),
-    ("workshop", "werkstatt"),
-    ("toilet", "toilette", "wc"),
-)
-"""Words for one kind of room, in both languages."""
-
-
-_ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
-"""Words that people leave out before a room's number."""
 
 
 def _in_words(name: str) -> str:

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from semnav_env.commands.references import LAST, OTHER, Side
-from semnav_env.commands.rooms import kinds_of_rooms
 from semnav_env.commands.speech.items import Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
 from semnav_env.commands.speech.noun_memory import NounMemory
 from semnav_env.commands.speech.noun_words import NounWords
 from semnav_env.commands.speech.numerals import read_number
+from semnav_env.commands.speech.room_words import kinds_of_rooms
 
 DOORLIKE = ("door", "room", "one")
 """Kinds of nouns that have a side."""

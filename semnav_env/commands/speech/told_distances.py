@@ -19,9 +19,9 @@ def problem_of_distance(
 
     "Reverse" alone, and "reverse, then go two metres", turn the robot around.
     """
-    for before, item in pairwise(items):
-        if item.kind is ItemKind.DISTANCE and list(words[before.start : item.start]) == ["in"]:
-            return AHEAD, before.start, item.stop
+    for before, each in pairwise(items):
+        if each.kind is ItemKind.DISTANCE and list(words[before.start : each.start]) == ["in"]:
+            return AHEAD, before.start, each.stop
     clause: list[Item] = []
     for item in [*items, None]:
         if item is not None and item.kind not in JOINTS:
