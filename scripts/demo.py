@@ -43,7 +43,7 @@ class Arguments:
         command: what to say to the robot.
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path;
             heidelberg_hallway if not given, for a search a generated house.
-        language: of the command: en or de (english, german).
+        language: of the command: en or de (english, german); recognised if not given.
         robot: wheelchair or spot.
         agent: scripted, oracle, blind, random, drive, listener (trained), the folder of a
             trained agent, or package.module:Class; searcher (knows the plan) or explorer for a
@@ -59,7 +59,7 @@ class Arguments:
 
     command: Positional[str]
     map: str | None = None
-    language: str = "en"
+    language: str | None = None
     robot: str = "wheelchair"
     agent: str | None = None
     pose: str | None = None

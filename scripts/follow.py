@@ -34,7 +34,7 @@ class Arguments:
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag; see `semnav extract --help`.
         command: what the robot is told; rooms cannot be named, because nobody points them out.
-        language: of the command: en or de (english, german).
+        language: of the command: en or de (english, german); recognised if not given.
         mount: pose of the lidar on the robot, x,y,heading in metres and radians.
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
         first: number of the first scan, from 1.
@@ -47,7 +47,7 @@ class Arguments:
 
     log: Positional[Path]
     command: Positional[str]
-    language: str = "en"
+    language: str | None = None
     mount: str = "0,0,0"
     topic: str | None = None
     first: int = 1

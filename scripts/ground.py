@@ -39,7 +39,7 @@ class Arguments:
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         pose: where the robot stands, x,y,heading in metres and radians.
         robot: wheelchair or spot.
-        language: of the command: en or de (english, german).
+        language: of the command: en or de (english, german); recognised if not given.
         json: print as JSON.
     """
 
@@ -47,7 +47,7 @@ class Arguments:
     pose: str
     map: str = "heidelberg_hallway"
     robot: str = "wheelchair"
-    language: str = "en"
+    language: str | None = None
     json: bool = False
 
     def run(self) -> int:
@@ -80,7 +80,7 @@ def _line(row: dict[str, Any]) -> str:
     return f"{row['kind']:<6}{x:>9.3f}{y:>9.3f}{heading:>14.3f}  {row['understood']}{door}"
 
 
-def understood(text: str, language: str = "en", rooms: tuple[str, ...] = ()) -> Command:
+def understood(text: str, language: str | None = None, rooms: tuple[str, ...] = ()) -> Command:
     """The command that a text says; for a place alone, the command to go there.
 
     Raises:
@@ -94,7 +94,7 @@ def understood(text: str, language: str = "en", rooms: tuple[str, ...] = ()) -> 
             raise
         return to[0]
     except CommandError as error:
-        if language != "en":
+        if language not in (None, "en"):
             raise
         try:
             return parse(f"go to {text}", language, rooms)

@@ -15,10 +15,10 @@ from semnav_env.commands.errors import CommandError
 from semnav_env.commands.languages import english, languages
 from semnav_env.commands.normalise import normalise
 from semnav_env.commands.references import Side
-from semnav_env.commands.rooms import name_phrases
 from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of
 from semnav_env.commands.speech.numerals import read_number
 from semnav_env.commands.speech.recognition import recognised
+from semnav_env.commands.speech.room_words import name_phrases
 from semnav_env.commands.words import pieces
 
 _Key = TypeVar("_Key")

@@ -24,7 +24,7 @@ class CommandError(ValueError):
         position: index in `text` of the first wrong character; None if the whole text is wrong.
         length: number of wrong characters.
         expected: words that could stand there.
-        suggestion: the known word that was probably meant.
+        suggestion: the known word that was probably meant, or several with commas.
         hint: advice on what to say instead.
     """
 
@@ -75,6 +75,7 @@ class AmbiguousCommandError(CommandError):
     Attributes:
         readings: these commands, the likelier first.
         differences: for each reading the clauses in which it differs, in the text's language.
+        later: whether these begin later than the text, behind what is clear.
     """
 
     def __init__(
@@ -84,18 +85,31 @@ class AmbiguousCommandError(CommandError):
         differences: tuple[str, ...],
         suggestion: str | None = None,
         unread: str = "",
+        later: bool = False,
     ) -> None:
-        ways = " or ".join(f'"{difference}"' for difference in differences)
+        ways = " or ".join(_quoted(("... " if later else "") + each) for each in differences)
         if suggestion:
-            super().__init__(f"did you mean {ways}?", text, suggestion=suggestion)
+            super().__init__(f"did you mean {ways}?", text, hint=f"corrected: {suggestion}")
         elif unread:
             problem = f'"{unread}" is not understood: did you mean {ways}?'
             super().__init__(problem, text, hint="say it without that")
         else:
             super().__init__(f"this can mean {ways}", text, hint="say which")
-        self.args = (text, readings, differences, suggestion, unread)
+        self.args = (text, readings, differences, suggestion, unread, later)
+        self.suggestion = suggestion
         self.readings = readings
         self.differences = differences
+        self.later = later
+
+    @property
+    def summary(self) -> str:
+        """The question and advice in one line."""
+        return "; ".join(part for part in (self.problem, self.hint) if part)
+
+
+def _quoted(text: str) -> str:
+    """A text in quotation marks, in single ones if it has double ones itself."""
+    return f"'{text}'" if '"' in text else f'"{text}"'
 
 
 def listed(words: tuple[str, ...]) -> str:

@@ -33,7 +33,9 @@ def parse(text: str, language: str | Language | None = None, rooms: Sequence[str
     command, *others = found
     if others:
         spoken = english() if language is None else language_of(language)
-        raise AmbiguousCommandError(_beginning(text), found, differences(found, spoken))
+        apart = differences(found, spoken)
+        later = not command.say(spoken).startswith(apart[0])
+        raise AmbiguousCommandError(_beginning(text), found, apart, later=later)
     return command
 
 

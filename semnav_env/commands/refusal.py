@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import dropwhile, takewhile
 
 from semnav_env.commands.errors import CommandError, listed
 from semnav_env.commands.languages import languages
 from semnav_env.commands.normalise import NormalisedText
-from semnav_env.commands.speech.items import Item, ItemKind
+from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of
 from semnav_env.commands.speech.recognition import votes
 from semnav_env.commands.speech.typos import nearest_word
 from semnav_env.commands.speech.understanding import Understanding
-from semnav_env.commands.words import TextPiece
+from semnav_env.commands.words import TextPiece, pieces
 
 
 def refusal(
@@ -34,19 +35,48 @@ def refusal(
         rooms: names of the rooms that there are.
         forced: whether the language was given and not recognised.
     """
-    start, stop = _fault(found, len(said))
+    start, stop = _unknown_room(found, said, lexicon) or _fault(found, len(said))
     place = normalised.span(said[start].start, said[max(start, stop - 1)].stop)
     words = normalised.text[said[start].start : said[max(start, stop - 1)].stop]
     foreign = _other_language([piece.text for piece in said], lexicon) if forced else None
-    hint = foreign or _hint(found, words, lexicon, rooms)
+    is_room = _unknown_room(found, said, lexicon) is not None
+    hint = foreign or (_rooms(rooms) if is_room else _hint(found, words, lexicon, rooms))
     nearest = nearest_word(words, lexicon.words)
     suggestion = None if hint or nearest == words else nearest
-    return CommandError(_problem(found, words), normalised.original, *place, (), suggestion, hint)
+    as_written = normalised.original[place[0] : place[0] + place[1]]
+    no_room = f'there is no room "{as_written}"'
+    problem = no_room if is_room and rooms else _problem(found, as_written)
+    return CommandError(problem, normalised.original, *place, (), suggestion, hint)
+
+
+def _unknown_room(
+    found: Understanding, said: Sequence[TextPiece], lexicon: SpeechLexicon
+) -> tuple[int, int] | None:
+    """The words' numbers of "toilet" in "go to the toilet": a kind of room that is no room here."""
+    if found.problem is not None or any(item.kind is ItemKind.UNKNOWN for item in found.items):
+        return None
+    words = [piece.text for piece in said]
+    rest = list(dropwhile(lambda item: item.kind in JOINTS, found.items[found.reached :]))
+    for item in takewhile(lambda item: item.kind not in JOINTS, rest):
+        if isinstance(item.value, Noun) and item.value.kind == "area":
+            for at in range(item.start, item.stop):
+                if (noun := lexicon.find(words, at, "noun")) and noun[0] == "area":
+                    return at, noun[1]
+    return None
+
+
+def _rooms(rooms: Sequence[str]) -> str:
+    if not rooms:
+        return "no room is known by its name without a floor plan: say which door"
+    return f"the rooms here are: {listed(tuple(rooms))}"
 
 
 def _problem(found: Understanding, words: str) -> str:
     if found.problem is not None:
         return found.problem[0]
+    first = next((item for item in found.items if item.kind is ItemKind.UNKNOWN), None)
+    if first is not None and isinstance(first.value, ValueError):
+        return str(first.value)
     return f'"{words}" is not understood'
 
 
@@ -57,7 +87,8 @@ def _hint(
     language = lexicon.language
     said = "; ".join(command.say(language) for command in found.part)
     understood = f'understood: "{said}"' if said else ""
-    if found.problem is not None:
+    outside = any(isinstance(item.value, ValueError) for item in found.items)
+    if found.problem is not None or outside:
         return understood or None
     advice = language.hint(words) or language.hint(words.split(" ")[0])
     kinds = [item.kind for item in found.items]
@@ -65,9 +96,21 @@ def _hint(
         advice = language.hint("not") or language.hint("nicht")
     elif advice is None and ItemKind.OR in kinds:
         advice = language.hint("or") or language.hint("oder")
-    if advice is None and rooms and nearest_word(words, lexicon.words) is None:
+    if (
+        advice is None
+        and rooms
+        and _may_be_room(words, lexicon)
+        and nearest_word(words, lexicon.words) is None
+    ):
         advice = f"the rooms here are: {listed(tuple(rooms))}"
     return "; ".join(part for part in (understood, advice) if part) or None
+
+
+def _may_be_room(words: str, lexicon: SpeechLexicon) -> bool:
+    """Whether words can name a room: "to the archive", but not "dock" or "the person"."""
+    each = [piece.text for piece in pieces(words)]
+    begins = any(lexicon.find(each, 0, kind) for kind in ("prep", "det", "noun"))
+    return begins and not lexicon.of_class("beyond").intersection(each)
 
 
 def _fault(found: Understanding, count: int) -> tuple[int, int]:

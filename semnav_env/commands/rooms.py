@@ -12,7 +12,8 @@ from semnav_env.commands.words import pieces
 MAX_NAME = 40
 """The longest plain name, characters."""
 
-_GERMAN_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
+GERMAN_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
+"""The letters of German that a plain name has not, as it spells them."""
 _NUMBERED = re.compile(r"(?:room|[a-z]*)[ _-]?(\d+)[ ._-](\d+[a-z]?)")
 
 
@@ -22,7 +23,7 @@ def plain_name(name: str) -> str:
     It has small letters a to z and digits, parted by single spaces, dots, hyphens or underscores.
     """
     folded = "".join(
-        _GERMAN_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold()
+        GERMAN_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold()
     )
     kept = re.sub(r"[^a-z0-9._-]+", " ", folded)
     single = re.sub(r"([ ._-])[ ._-]*", r"\1", kept)
@@ -41,24 +42,6 @@ def spoken_names(names: Sequence[str]) -> dict[str, str]:
     once = {said: name for said, name in short if often[said] == 1}
     as_written = {name: name for name in plain} | {_in_words(name): name for name in plain}
     return once | {_said(name): name for name in plain} | as_written
-
-
-def name_phrases(names: Sequence[str]) -> dict[tuple[str, ...], str]:
-    """The plain name of each room by the words that people say for it."""
-    found: dict[tuple[str, ...], str] = {}
-    for name in names:
-        folded = "".join(_GERMAN_LETTERS.get(c, c) for c in name.casefold()).replace("\u2019", "'")
-        found[tuple(p.text for p in pieces(folded) if p.text != "'")] = plain_name(name)
-    for said, name in spoken_names(names).items():
-        words = tuple(piece.text for piece in pieces(said))
-        found[words] = name
-        if len(words) == 2 and words[0] in _ROOM_WORDS and words[1][0].isdigit():
-            found.setdefault(words[1:], name)
-    return found
-
-
-_ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
-"""Words that people leave out before a room's number."""
 
 
 def _in_words(name: str) -> str:

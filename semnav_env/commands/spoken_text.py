@@ -12,7 +12,6 @@ from semnav_env.commands.languages import english
 from semnav_env.commands.normalise import normalise
 from semnav_env.commands.refusal import refusal
 from semnav_env.commands.repeats import told_once
-from semnav_env.commands.rooms import name_phrases
 from semnav_env.commands.speech.items import ItemKind
 from semnav_env.commands.speech.lexicon import (
     SpeechLexicon,
@@ -22,6 +21,7 @@ from semnav_env.commands.speech.lexicon import (
     without,
 )
 from semnav_env.commands.speech.recognition import lexicon_for, recognised
+from semnav_env.commands.speech.room_words import name_phrases
 from semnav_env.commands.speech.typos import corrected_words
 from semnav_env.commands.speech.understanding import Understanding, understand
 from semnav_env.commands.words import TextPiece, pieces
@@ -99,9 +99,9 @@ def _without_slips(
     meant = understand(corrected[0], lexicon, names).commands
     if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
         return None
-    word = next(iter(corrected[1].values()))
+    right = ", ".join(dict.fromkeys(corrected[1].values()))
     ways = tuple(command.say(lexicon.language) for command in meant)
-    raise AmbiguousCommandError(text[:200], meant, ways, suggestion=word)
+    raise AmbiguousCommandError(text[:200], meant, ways, suggestion=right)
 
 
 def _ask_without_unread(

@@ -29,7 +29,7 @@ class EpisodeRequest:
 
     Attributes:
         command: text or `Command`.
-        language: of the text.
+        language: of the text; None to recognise it.
         implicit_steps: whether to do what goes without saying, such as leaving the room first.
         pose: start of the robot's centre (x, y, heading), world frame.
         floor_plan: a bundled name, a path or a `FloorPlan`.
@@ -44,7 +44,7 @@ class EpisodeRequest:
     """
 
     command: str | Command | None = None
-    language: str = "en"
+    language: str | None = None
     implicit_steps: bool = True
     pose: Any = None
     floor_plan: str | Path | FloorPlan | None = None
@@ -85,7 +85,7 @@ class EpisodeRequest:
     def instruction(self) -> str:
         """The command in the words in which it was said; empty if none is asked for."""
         if isinstance(self.command, Command):
-            return self.words or self.command.say(self.language)
+            return self.words or self.command.say(self.language or "en")
         return self.command or ""
 
     def checked_command(self, rooms: tuple[str, ...]) -> Command | None:
@@ -100,7 +100,8 @@ class EpisodeRequest:
         """
         from semnav_env.commands.languages import language_of  # read when first spoken
 
-        given, language = self.command, language_of(self.language)
+        given = self.command
+        language = None if self.language is None else language_of(self.language)
         if given is None or isinstance(given, Command):
             return given
         if isinstance(given, str):

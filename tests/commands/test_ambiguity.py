@@ -58,7 +58,7 @@ def test_what_tells_the_readings_apart_is_said(code: str, text: str) -> None:
     error = error_of(text, code)
     assert len(set(error.differences)) == len(error.readings)
     for difference, reading in zip(error.differences, error.readings, strict=True):
-        assert f'"{difference}"' in str(error)
+        assert f'{difference}"' in str(error)
         assert len(parse(difference, code).clauses) <= len(reading.clauses)
 
 

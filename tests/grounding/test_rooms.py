@@ -79,9 +79,9 @@ def test_an_unknown_room_is_answered_with_known_ones() -> None:
 
 
 def test_a_misspelt_room_is_answered_with_the_nearest_one() -> None:
-    with pytest.raises(CommandError, match='did you mean "library"') as caught:
+    with pytest.raises(CommandError, match="corrected: library") as caught:
         parse("go to the libary", rooms=("library", "kitchen"))
-    assert caught.value.hint is None
+    assert caught.value.suggestion == "library"
 
 
 def test_room_numbers_may_be_short_where_they_are_unique() -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
+from semnav_env.commands.references import Side
 from semnav_env.commands.speech.items import Noun
 
 COUNTABLE = ("door", "room", "intersection", "corner", "t_junction", "turning")
@@ -18,11 +19,14 @@ class NounMemory:
         last: the noun that was named last; None at the beginning.
         counts_on: "at the first crossing, ..., at the second one" is the next one.
         went_on: some noun could be counted on.
+        passed: counted doors on both sides before one on a side, which may count those there alone:
+            "pass two doors, then the third on the left"; with that side.
     """
 
     last: Noun | None = None
     counts_on: bool = False
     went_on: bool = False
+    passed: dict[Noun, Side] = field(default_factory=dict)
 
     def remember(self, noun: object) -> None:
         """Note what a later noun can stand for."""
@@ -59,6 +63,8 @@ class NounMemory:
             return noun
         same = (noun.kind in ("one", last.kind) and last.side in (None, noun.side)) or noun.elliptic
         if same and noun.ordinal == last.ordinal + 1:
+            if last.side is None and noun.side is not None and last.kind in ("door", "room"):
+                self.passed[last] = noun.side
             return replace(noun, ordinal=1, side=noun.side or last.side)
         return noun
 

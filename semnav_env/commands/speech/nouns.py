@@ -11,6 +11,7 @@ from semnav_env.commands.speech.lexicon import SpeechLexicon
 from semnav_env.commands.speech.noun_memory import NounMemory
 from semnav_env.commands.speech.noun_words import NounWords
 from semnav_env.commands.speech.numerals import read_number
+from semnav_env.commands.speech.room_words import kinds_of_rooms
 
 DOORLIKE = ("door", "room", "one")
 """Kinds of nouns that have a side."""
@@ -60,7 +61,7 @@ class NounReader(NounWords):
                 behind = self._side_behind(replace(noun, side=None), here)
                 if self._plain_side(at) and (behind or self._plain_side(here)):
                     return None  # "right, second door left": a turn before it
-                return self._behind(noun, here)
+                return self._of_a_kind(*self._behind(noun, here), self.words[here - 1])
             adjective = self.find(here, "adj")
             longest = adjective[1] if adjective else 0
             was_article, is_article = is_article, False
@@ -88,6 +89,13 @@ class NounReader(NounWords):
         told = self._without_head(noun, here) if said_which else None
         bare = told is not None and not determined and told[0].side is None
         return None if bare else told
+
+    def _of_a_kind(self, noun: Noun, stop: int, word: str) -> tuple[Noun, int]:
+        """Of "the office" where there are "office 1" and "office 2": a room, though not which."""
+        bare = noun.ordinal is None and noun.side is None and not noun.at_end and noun.definite
+        if noun.kind == "room" and bare and word in kinds_of_rooms(self.names):
+            return replace(noun, kind="named", name=word), stop
+        return noun, stop
 
     def _is_elliptic_turn(self, at: int, noun: Noun) -> bool:
         places = ("intersection", "corner", "t_junction")
@@ -118,9 +126,11 @@ class NounReader(NounWords):
 
     def _head(self, at: int, noun: Noun) -> tuple[Noun, int] | None:
         """The noun itself."""
-        if named := self._name(at):
+        found = self.find(at, "noun")
+        counted = found is not None and found[0] == "room" and noun.ordinal is not None
+        if (named := self._name(at)) and not (counted and found and named[1] == found[1]):
             return replace(noun, kind="named", name=named[0]), named[1]
-        if found := self.find(at, "noun"):
+        if found:
             kind, stop = found
             numbered = None if noun.counted else self._numbered(stop)
             if kind == "room" and (named := self._name(stop) or numbered):

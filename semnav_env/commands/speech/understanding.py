@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise, product
 
 from semnav_env.commands.clause_readings import ClauseReadings
 from semnav_env.commands.command import MAX_CLAUSES, Command
 from semnav_env.commands.command_readings import commands_of
 from semnav_env.commands.one_reading import OutOfPlaceError
-from semnav_env.commands.speech.items import Item, ItemKind
+from semnav_env.commands.references import Side
+from semnav_env.commands.speech.items import Item, ItemKind, Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
 from semnav_env.commands.speech.reader import ItemReader
 from semnav_env.commands.speech.rewriting import rewritten
 from semnav_env.commands.speech.segmentation import MAX_PARTS, ClauseSegmentation, Parting, close
+from semnav_env.commands.speech.told_distances import problem_of_distance
 from semnav_env.commands.speech.unread import without_unread
 
 
@@ -63,9 +65,11 @@ def understand(
             again = ItemReader(words, lexicon, names, exact, waits)
             again.nouns.memory.counts_on = True
             texts.append(again.items())
+        if reader.nouns.memory.passed:
+            texts.append(_passed_on_side(first, reader.nouns.memory.passed))
         if leave_out:
             texts = [without_unread(items or [], words, lexicon) for items in texts]
-        found += [_understand(words, items) for items in texts if items is not None]
+        found += [_understand(words, items, lexicon) for items in texts if items is not None]
     if not found:
         return Understanding((), 0.0, ())
     right = [each for each in found if each.commands]
@@ -92,7 +96,19 @@ def _variants(words: Sequence[str]) -> list[tuple[bool, bool]]:
     return list(product(exact, waits))
 
 
-def _understand(words: Sequence[str], found: Sequence[Item]) -> Understanding:
+def _passed_on_side(items: Sequence[Item], passed: Mapping[Noun, Side]) -> list[Item]:
+    """Of "Pass two doors, then the third on the left": only those on the left are counted."""
+    return [
+        replace(item, value=replace(item.value, side=passed[item.value]))
+        if isinstance(item.value, Noun) and item.value in passed
+        else item
+        for item in items
+    ]
+
+
+def _understand(
+    words: Sequence[str], found: Sequence[Item], lexicon: SpeechLexicon
+) -> Understanding:
     asks = bool(found) and found[-1].value == "?"
     if asks and not any(item.kind is ItemKind.COULD_YOU for item in found):
         return Understanding(
@@ -103,6 +119,8 @@ def _understand(words: Sequence[str], found: Sequence[Item]) -> Understanding:
             ("a question is not a command", found[-1].start, found[-1].stop),
         )
     items = rewritten(found)
+    if told := problem_of_distance(items, words, lexicon):
+        return Understanding((), 0.0, tuple(items), 0, told)
     while items and items[-1].kind in (ItemKind.NO, ItemKind.SIGN):
         items.pop()
     segmentation = ClauseSegmentation(items)
