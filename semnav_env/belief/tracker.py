@@ -122,8 +122,9 @@ class BeliefTracker:
     def _join(self) -> Senses:
         self._buffer, self._contacts = self._estimate.data, self._estimate["contacts"][0]
         sensor = self.lidar.sensor, self._beams, self._record, self._scratch, self.mount
-        known: Any = self.memory.arrays, self.bumps.arrays, self._estimate, self._progress
-        return join_senses(*sensor, self.ranges, self._features, *known, self._told.arrays)
+        known: tuple[Any, Any] = self.memory.arrays, self.bumps.arrays
+        mind: tuple[Any, Any, Any] = self._estimate, self._progress, self._told.arrays
+        return join_senses(*sensor, self.ranges, self._features, *known, *mind)
 
     def __getstate__(self) -> dict[str, Any]:
         self._keep_last_scene()

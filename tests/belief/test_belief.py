@@ -71,7 +71,7 @@ def test_a_first_scan_in_millimetres_is_refused(drive) -> None:
 def test_a_first_scan_without_any_return_is_taken(value: float) -> None:
     tracker = BeliefTracker(lidar="tim561")
     tracker.begin(parse(COMMAND))
-    assert tracker.update(np.full(811, value), (0.0, 0.0, 0.0)).goal is None
+    assert tracker.update(np.full(811, value), (0.0, 0.0, 0.0)).scene.walls == ()
 
 
 def test_it_needs_nothing_of_the_simulator(drive, tmp_path: Path) -> None:
