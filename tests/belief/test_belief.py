@@ -180,6 +180,11 @@ def test_semnav_follow_says_when_its_mind_changed(drive, tmp_path: Path, capsys)
     assert picture.stat().st_size > 10_000
     assert main(["follow", str(path), record.command, "--limit", "10"]) == 1
     assert "0 of 2 clauses" in capsys.readouterr().out
+    assert main(["follow", str(path), record.command]) == 0
+    said = capsys.readouterr().out
+    assert "clause 2  " in said
+    assert "clause 3" not in said
+    assert "  all clauses done\nbelieved to be done: 2 of 2 clauses" in said
 
 
 def test_a_belief_keeps_its_scene_when_its_robot_is_pickled(drive) -> None:
