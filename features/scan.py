@@ -133,11 +133,16 @@ def _check_ranges(ranges: ArrayLike, range_max: float) -> FloatArray:
     array: FloatArray = raw.astype(np.float64)
     if masked is not None:
         array[masked] = np.nan
-    _check_unit(array, range_max)
+    check_unit(array, range_max)
     return array
 
 
-def _check_unit(ranges: FloatArray, range_max: float) -> None:
+def check_unit(ranges: FloatArray, range_max: float) -> None:
+    """Refuse ranges that must be millimetres.
+
+    Raises:
+        ValueError: at least half of the returns lie beyond 20 times `range_max`.
+    """
     far = 20.0 * range_max
     if not (ranges > far).any():  # spares most scans the median
         return

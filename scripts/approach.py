@@ -25,6 +25,9 @@ from semnav_env.scripts.outputs import check_file
 
 TABLE_HEADINGS = f"{'x, m':>9}{'y, m':>9}{'heading':>9}{'area error':>12}{'angle error':>13}"
 
+CORNER_TOUCHES = "safe for the ellipse, but a corner of the body touches a wall"
+"""What is said of a pose that is safe as Mes counts, and that the body cannot take."""
+
 
 @dataclass(frozen=True)
 class Arguments:
@@ -67,7 +70,7 @@ class Arguments:
         if self.plot is not None:
             from semnav_env.approach.draw import save_approach
 
-            save_approach(floor_plan, plan, robot, self.plot, start)
+            save_approach(floor_plan, self.door, plan, robot, self.plot, start)
         after = None if behind is None else (*behind[:2], behind[2] + math.pi)
         print(json.dumps(_outcome(plan, after)) if self.json else _text(self.door, plan))
         if self.plot is not None and not self.json:
@@ -132,7 +135,9 @@ def _pose(pose: Pose | None) -> dict[str, float] | None:
 
 
 def _text(door: str, plan: ApproachPlan) -> str:
-    counts = f"{len(plan.ranked)} poses, {plan.clear_count} clear of walls, {len(plan.safe)} safe"
+    whole = sum(each.body_clear for each in plan.safe)
+    counts = f"{len(plan.ranked)} poses, {plan.clear_count} clear of walls, {len(plan.safe)} safe "
+    counts += f"for the ellipse, {whole} of these for the whole body"
     best = plan.best
     if best is None:
         taken = "no pose lets the body stand before the door"
@@ -145,6 +150,6 @@ def _text(door: str, plan: ApproachPlan) -> str:
 
 def _line(each: CandidatePose) -> str:
     x, y, heading = each.pose
-    why = each.refusal or ("" if each.body_clear else "the corners of the body touch a wall")
+    why = each.refusal or ("" if each.body_clear else CORNER_TOUCHES)
     errors = f"{each.area_error:>12.5f}{each.angle_error:>13.5f}"
     return f"{x:>9.3f}{y:>9.3f}{heading:>9.4f}{errors}  {why}".rstrip()

@@ -31,6 +31,9 @@ STEPS_PER_FRAME = 3
 STEPS_PER_SEARCH_FRAME = 60
 """The same for a search, which takes minutes: the film is twenty times as fast."""
 
+KNOWS_THE_PLAN = "agent searcher, which knows the floor plan; --agent explorer does without"
+"""What is said of the agent of a search where none is named."""
+
 
 @dataclass(frozen=True)
 class Arguments:
@@ -167,6 +170,8 @@ class Arguments:
         verdict = "done" if info["is_success"] else " / ".join(outcome["verdicts"])
         pose = ",".join(f"{value:.2f}" for value in start["pose"])
         print(f"from {pose} in {start['floor_plan']}")
+        if "search" in outcome and self.agent is None:
+            print(KNOWS_THE_PLAN)
         print(
             f'"{start["command"]}": {verdict} after {seconds:.1f} s and '
             f"{info['path_length']:.1f} m, {info['collisions']} collisions"

@@ -42,7 +42,7 @@ SHOWN_MEASURES = {
     "clauses": "clauses",
     "seconds": "seconds",
 }
-"""The measures that are shown for each command, and their headings."""
+"""The measures that are shown for each command, and their headings in both tables."""
 
 
 @dataclass(frozen=True)
@@ -204,7 +204,8 @@ def _measures_table(everything: Summary) -> Table:
     )
     for name, mean in everything.means.items():
         worst = (_written(row[name]) for row in everything.worst)
-        table.add_row(name.replace("_", " "), _written(mean), *worst)
+        heading = SHOWN_MEASURES.get(name, name.replace("_", " "))
+        table.add_row(heading, _written(mean), *worst)
     return table
 
 

@@ -74,7 +74,7 @@ class Arguments:
         if self.plot is not None:
             from semnav_env.rendering.belief_picture import save_beliefs
 
-            save_beliefs(self.plot, beliefs, str(command))
+            save_beliefs(self.plot, beliefs, len(command.clauses), str(command))
             if not self.json:
                 print(f"wrote {self.plot}")
         return 0 if done == len(command.clauses) else 1
@@ -110,8 +110,10 @@ class Arguments:
         if self.json:
             return json.dumps(said)
         x, y, _ = belief.pose
-        mind = "done" if over else f"{said['goal']:<5} {'; '.join(belief.reasons)}"
-        return f"scan {record.line:>6}  at {x:7.2f} {y:7.2f}  clause {said['clause']}  {mind}"
+        at = f"scan {record.line:>6}  at {x:7.2f} {y:7.2f}"
+        if over:
+            return f"{at}  all clauses done"
+        return f"{at}  clause {said['clause']}  {said['goal']:<5} {'; '.join(belief.reasons)}"
 
 
 def _mind(belief: Belief) -> tuple[int, str, tuple[str, ...]]:

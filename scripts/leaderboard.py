@@ -26,7 +26,8 @@ class Arguments:
     """Make a table of agents from files that `semnav evaluate --out` wrote.
 
     Each file is of one evaluation: one agent, one split, one body. Trainings of one preset with
-    different seeds are one row. In brackets are intervals of 95 %.
+    different seeds are one row. In brackets are intervals of 95 %: of a bootstrap, or Wilson's
+    where all episodes agree.
 
     Attributes:
         files: results, JSON Lines, or such compressed by gzip.

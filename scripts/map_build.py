@@ -101,6 +101,7 @@ class Arguments:
             save_picture(plan, self.picture)
         counts = {
             "scans": line_map.scans,
+            "repeated": line_map.repeated,
             "walls": len(line_map.walls),
             "doors": len(plan.doors),
             "out": str(self.out),
@@ -108,7 +109,9 @@ class Arguments:
         if self.json:
             print(json.dumps(counts))
         else:
-            print("{scans} scans, {walls} walls, {doors} doors\nwrote {out}".format(**counts))
+            left_out = " ({repeated} more left out, taken where the one before was)"
+            said = f"{{scans}} scans{left_out if line_map.repeated else ''}, {{walls}} walls"
+            print(f"{said}, {{doors}} doors\nwrote {{out}}".format(**counts))
             if self.picture:
                 print(f"wrote {self.picture}")
 

@@ -157,7 +157,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
         events = self._loop.drive(self._actions.twist(action))
         judgement, outcome = self.think(*events), self.judge.outcome
         terms = self._terms(judgement, outcome.in_contact != 0, action)
-        terminated = self.judge.verifier.over
+        terminated = self.judge.verifier.over and not self.judge.truncated
         truncated = not terminated and self.simulator.steps >= self.max_steps
         ended = self.conclude(truncated) if terminated or truncated else {}
         info = self.judge.info_of(outcome)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import wraps
+from inspect import signature
 from itertools import product
 from typing import Any, Generic, ParamSpec, TypeVar
 
@@ -29,10 +30,18 @@ PLAYED_SPEED, PLAYED_YAW_RATE = 0.5, 0.4
 
 
 def takes_plain_settings(function: Callable[P, R]) -> Callable[P, R]:
-    """Let a function take dictionaries of all fields for settings, see `plain_settings`."""
+    """Let a function take dictionaries of all fields for settings, see `plain_settings`.
+
+    An argument that it does not have is a `TypeError` that names the nearest one.
+    """
+    known = list(signature(function).parameters)[1:]
 
     @wraps(function)
     def taking(*args: P.args, **kwargs: P.kwargs) -> R:
+        for name in kwargs.keys() - known:
+            from semnav_env.plain_settings import no_argument
+
+            raise no_argument(name, known)
         if any(isinstance(value, Mapping) for value in kwargs.values()):
             from semnav_env.plain_settings import SETTINGS, from_plain  # few environments need it
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
+from difflib import get_close_matches
 from typing import Any, cast, get_type_hints
 
 from semnav_env.dynamics import Dynamics
@@ -28,6 +29,13 @@ SETTINGS: dict[str, type] = {
     "rules": Rules,
 }
 """Arguments of the environment that may be dictionaries, and what these stand for."""
+
+
+def no_argument(name: str, known: list[str]) -> TypeError:
+    """The error that names the argument of the environment that was meant."""
+    near = get_close_matches(name, known, 1)
+    hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(known)}"
+    return TypeError(f"SemNavEnv has no argument {name!r}; {hint}")
 
 
 def from_plain(value: Any, kind: Any) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +19,9 @@ RESAMPLES = 2000
 
 INTERVAL = (2.5, 97.5)
 """Percentiles of the resampled means between which a mean lies, of 95 %."""
+
+DEVIATIONS = 1.96
+"""Standard deviations of a normal distribution on each side of the mean that hold 95 %."""
 
 WORST_SHARE = 0.05
 """Share of the episodes over which the worst are averaged."""
@@ -106,14 +110,25 @@ def _estimate(trainings: Sequence[Sequence[Attempt]], name: str) -> Estimate:
 
     The interval is a percentile bootstrap. A resample draws as many trainings as there are, and of
     each as many episodes of each number of clauses as it has (stratified; Agarwal et al. 2021).
+    Resamples of episodes that all agree have no spread; then the interval is Wilson's.
     """
     rng = np.random.default_rng(0)
     resampled = np.array([_resampled(training, name, rng) for training in trainings])
     drawn = rng.integers(len(trainings), size=(len(trainings), RESAMPLES))
     means = np.take_along_axis(resampled, drawn, axis=0).mean(axis=0)
     low, high = np.percentile(means, INTERVAL).tolist()
-    values = [np.mean(_values(training, name)) for training in trainings]
-    return Estimate(float(np.mean(values)), low, high)
+    mean = float(np.mean([np.mean(_values(training, name)) for training in trainings]))
+    if low == high:
+        low, high = wilson_interval(mean, sum(map(len, trainings)))
+    return Estimate(mean, low, high)
+
+
+def wilson_interval(share: float, count: int) -> tuple[float, float]:
+    """Interval of 95 % of a share that was measured on `count` episodes (Wilson 1927)."""
+    weight = DEVIATIONS**2 / count
+    centre = (share + weight / 2.0) / (1.0 + weight)
+    half = sqrt(share * (1.0 - share) * weight + weight**2 / 4.0) / (1.0 + weight)
+    return max(0.0, centre - half), min(1.0, centre + half)
 
 
 def _resampled(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
@@ -116,4 +117,5 @@ def common_causes(results: Sequence[Result]) -> list[tuple[str, int]]:
 
 def _short_cause(result: Result) -> str:
     verdict = next((verdict for verdict in result.verdicts if verdict in FAILURES), "answered")
-    return f"{verdict} in {result.kind}" if result.kind else verdict
+    words = re.sub("(?<=[a-z])(?=[A-Z])", " ", result.kind).lower()
+    return f'{verdict}, clause "{words}"' if words else verdict

@@ -37,6 +37,7 @@ class LineMap:
 
     Attributes:
         scans: how many were added.
+        repeated: how many were left out, because they were taken where the last one was.
     """
 
     def __init__(self, settings: MapSettings | None = None) -> None:
@@ -44,7 +45,7 @@ class LineMap:
         self._walls: list[MapWall | None] = []
         self._table = np.zeros((0, 5))
         self._doors = MapDoors(self._settings)
-        self.scans = 0
+        self.scans = self.repeated = 0
         self._last: Pose | None = None
 
     def add(self, scene: Scene, scan: Scan, pose: Pose) -> None:
@@ -56,6 +57,7 @@ class LineMap:
             pose: of the lidar in the map's frame.
         """
         if self._last is not None and not self._moved(self._last, pose):
+            self.repeated += 1
             return
         self._last = pose
         self.scans += 1

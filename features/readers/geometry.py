@@ -68,13 +68,23 @@ def checked_scan(
         raise BadRecordError("no beams")
     swept = abs(step) * (len(ranges) - 1)
     if not (abs(start) <= _FARTHEST and step != 0.0 and swept <= _WIDEST):
-        raise BadRecordError("angles that do not fit a sweep of one turn")
+        raise BadRecordError(_fault_of_angles(start, step, swept))
     if not 0 <= range_min < range_max:
         raise BadRecordError("limits of the range that are out of order")
     try:
         return Scan(ranges, start, step, range_min, range_max, stamp)
     except ValueError:
         raise BadRecordError("ranges that are not metres") from None
+
+
+def _fault_of_angles(start: float, step: float, swept: float) -> str:
+    """What is wrong with the angles of a scan, radians."""
+    fault = "angles that do not fit a sweep of one turn"
+    if abs(start) <= _FARTHEST and _WIDEST < swept <= 360.0:
+        return f"{fault}: angle_increment={step:g} looks like degrees; give radians"
+    if _FARTHEST < abs(start) <= 360.0:
+        return f"{fault}: angle_min={start:g} looks like degrees; give radians"
+    return fault
 
 
 def checked_pose(x: float, y: float, heading: float) -> Pose:

@@ -24,6 +24,9 @@ from semnav_env.robots import RobotSpec
 SAFE, REFUSED, BEST, SQUARE = "tab:green", "tab:red", "tab:blue", "tab:orange"
 """Colours of safe poses, of refused ones, of the best pose, and of the free-space square."""
 
+START = "0.3"
+"""Colour of the body where the robot starts."""
+
 ARROW_LENGTH = 0.16
 """Length of the arrow that shows a heading, metres."""
 
@@ -56,12 +59,18 @@ def draw_body(ax: Axes, pose: Pose, robot: RobotSpec, colour: str = BEST) -> Non
 
 
 def save_approach(
-    floor_plan: FloorPlan, plan: ApproachPlan, robot: RobotSpec, path: Path, start: Pose | None
+    floor_plan: FloorPlan,
+    door: str,
+    plan: ApproachPlan,
+    robot: RobotSpec,
+    path: Path,
+    start: Pose | None,
 ) -> None:
     """Write a picture of the poses before a door; the suffix of `path` says the format.
 
     Args:
         floor_plan: with the door.
+        door: its name.
         plan: the poses.
         robot: the body; it is drawn at the best pose and at the start.
         path: file to write.
@@ -77,14 +86,21 @@ def save_approach(
     draw_floor_plan(floor_plan, ax, names=False)
     draw_square(ax, plan)
     draw_poses(ax, plan.ranked)
+    named = {SQUARE: "square to be free", SAFE: "safe pose", REFUSED: "refused pose"}
     if plan.best is not None:
         draw_ellipse(ax, plan.best, ApproachSettings.for_robot(robot), BEST)
         draw_body(ax, plan.best, robot)
+        named[BEST] = "best pose: body and ellipse"
     if start is not None:
-        draw_body(ax, start, robot, "0.3")
+        draw_body(ax, start, robot, START)
+        named[START] = "start"
+    for colour, name in named.items():
+        ax.plot([], [], color=colour, lw=2.0, label=name)
+    ax.legend(loc="upper right", fontsize=8)
     x, y = plan.side.middle
     view = VIEW_MARGIN
     ax.set(xlim=(x - view, x + view), ylim=(y - view, y + view))
-    ax.set_title(f"{floor_plan.name}: {len(plan.safe)} of {len(plan.ranked)} poses are safe")
+    counts = f"{len(plan.safe)} of {len(plan.ranked)} poses are safe"
+    ax.set_title(f"{floor_plan.name}, door {door}, {robot.name}: {counts}")
     with replacing(path) as part:
         figure.savefig(part, dpi=100)

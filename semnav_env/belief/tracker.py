@@ -114,7 +114,7 @@ class BeliefTracker:
         self._progress = np.zeros(1, CLAUSE_PROGRESS)
         self._told = ToldWays()
         self._period = 1.0 / self.lidar.rate_hz
-        self._begun = False
+        self._begun = self._is_first = False
         self._known_scene = None if known_scene is None else KnownScene(known_scene)
         self._last_source: Callable[[], RememberedScene | None] = nothing
         self.senses = self._join()
@@ -170,7 +170,7 @@ class BeliefTracker:
         self._estimate[:] = np.zeros(1, ESTIMATE)
         self._estimate["scan"], self._estimate["corrects_drift"] = -1, self.corrects_drift
         self._estimate["observes_features"] = self._observes_features
-        self._begun = True
+        self._begun = self._is_first = True
 
     def update(
         self,
@@ -192,7 +192,7 @@ class BeliefTracker:
 
         Raises:
             RuntimeError: before the first `begin`.
-            ValueError: another number of ranges, or odometry that is not finite.
+            ValueError: other ranges (shape, or a first scan in mm), or odometry that is not finite.
         """
         self.take(ranges, odometry, velocity, bumps, seconds)
         events = understand(self.senses)
@@ -216,6 +216,10 @@ class BeliefTracker:
             raise ValueError(
                 f"ranges have shape {array.shape}; {self.lidar.name} gives {own.shape}"
             )
+        if self._is_first:
+            from semnav_env.features.scan import check_unit  # a simulated robot needs none
+
+            check_unit(array, self.lidar.range_max)
         x, y, heading = odometry
         if not math.isfinite(x + y + heading):
             raise ValueError(f"odometry is {odometry}; it must be a finite (x, y, heading)")
@@ -224,6 +228,7 @@ class BeliefTracker:
             velocity = mean_velocity(self._estimate[0], odometry, seconds)
         self.let_go()
         own[:] = array
+        self._is_first = False
         felt = min(len(bumps), MOST_CONTACTS)
         SENSED.pack_into(self._buffer, 0, felt, x, y, heading, seconds, *velocity)
         if felt:
@@ -261,15 +266,8 @@ class BeliefTracker:
             source = remembered = RememberedScene(self.memory, self.bumps)
             self._last_source = ref(remembered)
         forward, left, yaw_rate, x, y, heading = BELIEVED.unpack_from(self._buffer, BELIEVED_OFFSET)
-        return Belief(
-            (x, y, heading),
-            (forward, left, yaw_rate),
-            follower.active,
-            follower.goal,
-            self._target,
-            follower.impossible,
-            source,
-        )
+        told = follower.active, follower.goal, self._target, follower.impossible
+        return Belief((x, y, heading), (forward, left, yaw_rate), *told, source)
 
     def scene(self) -> Scene:
         """What is known now, in the odometry frame."""

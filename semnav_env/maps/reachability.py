@@ -12,8 +12,8 @@ from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features.frames import middle_of
 from semnav_env.maps.doorways import DRAWING_TOLERANCE, clear_width
-from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
-from semnav_env.maps.plan_fault import PlanFault, point_in
+from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region
+from semnav_env.maps.plan_fault import PlanFault, point_in, written
 from semnav_env.maps.reach import HEADING_COUNT, REACH_SPACING, Reach, reach
 from semnav_env.robots import RobotSpec
 
@@ -34,7 +34,8 @@ def unreachable_parts(plan: FloorPlan, robot: RobotSpec) -> list[PlanFault]:
 
     An open door is reached when the robot's centre gets onto its line; a room with an open door,
     when the whole robot gets in, though it may have to back out; a corridor, when its centre gets
-    near both ends. What lies behind closed doors need not be reachable.
+    near both ends. What lies behind closed doors need not be reachable, and of a room behind an
+    open door that is not reached only the door is named.
     """
     faults: list[PlanFault] = []
     for spacing, headings in SEARCH_GRIDS:
@@ -59,7 +60,8 @@ def _unreached(plan: FloorPlan, robot: RobotSpec, area: Reach) -> Iterator[PlanF
             for d in plan.doors
             if d.open and room.polygon.dwithin(_line(d).centroid, DRAWING_TOLERANCE)
         ]
-        if opens and not area.near(_inside(room, opens, robot)):
+        passed = any(area.near(_line(door)) for door in opens)
+        if passed and not area.near(_inside(room, opens, robot)):
             yield PlanFault(room.name, f"{body} cannot get into this room", point_in(room.polygon))
     for corridor in plan.corridors:
         for end in _ends(corridor.polygon):
@@ -72,7 +74,17 @@ def _of_door(door: PlanDoor, plan: FloorPlan, robot: RobotSpec, body: str) -> st
     clear = clear_width(door, plan)
     if clear < robot.width:
         return f"this open door leaves {clear:.2f} m; {body} needs more"
-    return f"{body} cannot get through this open door"
+    return f"{body} cannot get through this open door{_furniture_before(door, plan, robot)}"
+
+
+def _furniture_before(door: PlanDoor, plan: FloorPlan, robot: RobotSpec) -> str:
+    """The nearest furniture within a body's length of a door, in words; empty without any."""
+    pieces = (s.points for s in plan.surfaces if s.material is Material.FURNITURE)
+    near = min(map(LineString, pieces), key=_line(door).distance, default=None)
+    if near is None or (gap := near.distance(_line(door))) > robot.length:
+        return ""
+    at = shapely.get_point(shapely.shortest_line(_line(door), near), 1)
+    return f"; furniture at {written((at.x, at.y))} stands {gap:.2f} m from it"
 
 
 def _inside(room: Region, doors: list[PlanDoor], robot: RobotSpec) -> BaseGeometry:

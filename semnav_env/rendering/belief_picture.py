@@ -9,12 +9,15 @@ from semnav_env.belief import Belief
 from semnav_env.features.writing import replacing
 
 
-def save_beliefs(path: str | Path, beliefs: Sequence[Belief], title: str = "") -> None:
+def save_beliefs(
+    path: str | Path, beliefs: Sequence[Belief], clauses: int, title: str = ""
+) -> None:
     """Draw the way of a robot and what it remembers at its end, odometry frame.
 
     Args:
         path: file of the picture (.png, .pdf or .svg).
         beliefs: one per scan, in order; at least one.
+        clauses: number of clauses of the command.
         title: above the picture.
     """
     from matplotlib.figure import Figure  # takes half a second to import
@@ -27,14 +30,14 @@ def save_beliefs(path: str | Path, beliefs: Sequence[Belief], title: str = "") -
     for door in scene.doors:
         axes.plot(*zip(door.start, door.end, strict=True), color="tab:orange", lw=3.0)
     axes.plot(*zip(*(each.pose[:2] for each in beliefs), strict=True), color="tab:blue", lw=1.2)
-    for number, goal in _last_goals(beliefs).items():
+    for number, goal in _last_goals(beliefs, clauses).items():
         axes.plot(*goal, "o", color="tab:green", ms=16, alpha=0.6)
         axes.annotate(str(number), goal, ha="center", va="center", color="white", weight="bold")
     for colour, name in (
         ("0.25", "remembered wall"),
         ("tab:orange", "remembered door"),
         ("tab:blue", "believed way"),
-        ("tab:green", "last goal of a clause"),
+        ("tab:green", "last goal of the clause of this number"),
     ):
         axes.plot([], [], color=colour, lw=3.0, label=name)
     axes.set_aspect("equal")
@@ -44,7 +47,6 @@ def save_beliefs(path: str | Path, beliefs: Sequence[Belief], title: str = "") -
         figure.savefig(part, dpi=110)
 
 
-def _last_goals(beliefs: Sequence[Belief]) -> dict[int, tuple[float, float]]:
+def _last_goals(beliefs: Sequence[Belief], clauses: int) -> dict[int, tuple[float, float]]:
     """Where each clause led in the end, by its number from 1."""
-    clauses = {each.clause + 1: each.goal.pose[:2] for each in beliefs[:-1]}
-    return {number: place for number, place in clauses.items() if number <= len(clauses)}
+    return {each.clause + 1: each.goal.pose[:2] for each in beliefs if each.clause < clauses}

@@ -34,7 +34,10 @@ class EpisodeJudge:
     Attributes:
         verifier: says what became of each clause.
         verdicts: one per clause.
+        truncated: whether the time was over before the command was carried out.
     """
+
+    truncated = False
 
     def __init__(self, mission: Mission, payload: Payload | None = None) -> None:
         if payload is None and SearchHouse() in mission.command.clauses:
@@ -106,6 +109,7 @@ class EpisodeJudge:
         """End the episode, whose time may be over; returns what is known then, for `info`."""
         verifier = self.verifier
         if truncated:
+            self.truncated = True
             verifier.out_of_time()
             self.verdicts = verifier.verdicts
         return {

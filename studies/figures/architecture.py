@@ -62,7 +62,9 @@ TEMPLATE = """# Architecture
 
 The simulator and the robot meet only at the sensor: what goes from one to the other is what a
 real robot has, too. Files lie under `features/`, `semnav_env/`, `agents/` and `scripts/`; the
-first and the last two are installed, and imported, as `semnav_env.features` and so on.
+first and the last two are installed, and imported, as `semnav_env.features` and so on. In a git
+checkout `semnav_env/features`, `semnav_env/agents` and `semnav_env/scripts` are symbolic links to
+them, which zip files and Windows without `core.symlinks` break.
 
                  SIMULATOR                     |                ROBOT'S SIDE
                                                |

@@ -141,7 +141,7 @@ def test_a_split_is_evaluated_by_number_of_clauses(
     words = ["test_real", "--episodes", "2", "--pictures", str(tmp_path), "--out", str(out)]
     assert main(["evaluate", *words, "--recheck"]) == 0
     text = capsys.readouterr().out
-    assert "1 x stopped short in GoToDoor" in text
+    assert '1 x stopped short, clause "go to door"' in text
     assert "test_real-00100" in text
     assert "clause" in text
     assert "second opinion: 0 of 2" in text

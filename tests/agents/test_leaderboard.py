@@ -40,13 +40,29 @@ def test_the_interval_of_a_share_is_that_of_the_binomial() -> None:
     row = only(standings(attempts([1, 1, 1, 1, 0] * 80)))
     assert row.success.low == pytest.approx(0.8 - 1.96 * 0.02, abs=0.006)
     assert row.success.high == pytest.approx(0.8 + 1.96 * 0.02, abs=0.006)
-    assert row.contact_free == (1.0, 1.0, 1.0)
+
+
+@pytest.mark.parametrize(("won", "interval"), [(0, (0.0, 0.2425)), (1, (0.7575, 1.0))])
+def test_the_interval_of_episodes_that_all_agree_is_wilsons(
+    won: int, interval: tuple[float, float]
+) -> None:
+    """Of twelve episodes; a bootstrap would know no spread."""
+    row = only(standings(attempts([won] * 12)))
+    assert row.success.mean == won
+    assert (row.success.low, row.success.high) == pytest.approx(interval, abs=1e-4)
 
 
 def test_the_bootstrap_is_stratified_by_the_number_of_clauses() -> None:
-    """Where one clause always succeeds and two never do, there is nothing unsure."""
+    """Where two clauses never succeed, only one clause adds to the spread."""
+    row = only(standings(attempts([1, 1, 1, 0] * 100) + attempts([0] * 400, clauses=2)))
+    half = 1.96 * 0.5 * (0.75 * 0.25 / 400) ** 0.5
+    assert row.success.low == pytest.approx(0.375 - half, abs=0.003)
+    assert row.success.high == pytest.approx(0.375 + half, abs=0.003)
+
+
+def test_strata_that_each_agree_have_wilsons_interval() -> None:
     row = only(standings(attempts([1] * 30) + attempts([0] * 10, clauses=2)))
-    assert row.success == (0.75, 0.75, 0.75)
+    assert row.success == pytest.approx((0.75, 0.5981, 0.8581), abs=1e-4)
 
 
 def test_trainings_differ_more_than_episodes_tell() -> None:

@@ -56,6 +56,24 @@ def test_records_of_an_episode_give_the_same_beliefs(drive) -> None:
     assert robots_side.beliefs(record) == believed
 
 
+def test_a_first_scan_in_millimetres_is_refused(drive) -> None:
+    """And nothing is taken in: the same scan in metres begins as if there had been no other."""
+    record, believed = drive
+    ranges, odometry, velocity, bumps = record.sensed[0]
+    tracker = BeliefTracker(lidar="tim561", mount=record.mount)
+    tracker.begin(parse(record.command))
+    with pytest.raises(ValueError, match="they look like millimetres: divide them by 1000"):
+        tracker.update(1000.0 * ranges, odometry, velocity, bumps)
+    assert described(tracker.update(ranges, odometry, velocity, bumps)) == believed[0]
+
+
+@pytest.mark.parametrize("value", [0.0, np.inf, np.nan, 65.535])
+def test_a_first_scan_without_any_return_is_taken(value: float) -> None:
+    tracker = BeliefTracker(lidar="tim561")
+    tracker.begin(parse(COMMAND))
+    assert tracker.update(np.full(811, value), (0.0, 0.0, 0.0)).scene.walls == ()
+
+
 def test_it_needs_nothing_of_the_simulator(drive, tmp_path: Path) -> None:
     """In a process in which the simulator's modules cannot be imported."""
     record, believed = drive
@@ -162,6 +180,11 @@ def test_semnav_follow_says_when_its_mind_changed(drive, tmp_path: Path, capsys)
     assert picture.stat().st_size > 10_000
     assert main(["follow", str(path), record.command, "--limit", "10"]) == 1
     assert "0 of 2 clauses" in capsys.readouterr().out
+    assert main(["follow", str(path), record.command]) == 0
+    said = capsys.readouterr().out
+    assert "clause 2  " in said
+    assert "clause 3" not in said
+    assert "  all clauses done\nbelieved to be done: 2 of 2 clauses" in said
 
 
 def test_a_belief_keeps_its_scene_when_its_robot_is_pickled(drive) -> None:

@@ -59,6 +59,23 @@ def test_an_episode_ends_at_the_time_limit_and_says_so() -> None:
     assert ends[-1][2]["verdicts"] == ("out of time",)
 
 
+def test_an_argument_that_there_is_not_is_answered_with_the_nearest() -> None:
+    with pytest.raises(TypeError, match="no argument 'floorplan'; did you mean 'floor_plan'"):
+        gym.make("semnav_env:SemNav-v0", floorplan="office_cross")
+    with pytest.raises(TypeError, match="no argument 'zebra'; there are: robot, floor_plan, "):
+        SemNavEnv(zebra=1)  # type: ignore[call-arg]
+
+
+def test_an_episode_that_is_out_of_time_stays_truncated() -> None:
+    env = SemNavEnv(max_seconds=1.0)
+    env.reset(seed=0, options=START)
+    ends = [env.step(np.array([0.1, 0.0]))[2:] for _ in range(18)][-4:]
+    assert [(terminated, truncated) for terminated, truncated, _ in ends] == [(False, True)] * 4
+    assert {info["verdicts"] for _, _, info in ends} == {("out of time",)}
+    env.reset(seed=0, options=START)
+    assert env.step(np.array([0.1, 0.0]))[2:4] == (False, False)
+
+
 def test_standing_still_ends_as_stopped_short() -> None:
     env = fresh()
     for _ in range(200):

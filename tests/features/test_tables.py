@@ -106,7 +106,10 @@ def test_the_csv_of_rostopic_echo_is_understood(tmp_path):
         ("stamp,x,y\n1,2,3\n", "no column of ranges among 'stamp, x, y'; name them r0"),
         ("time,t,r0\n1,2,3\n", "2 columns that mean 'stamp'"),
         ("# angle_min=0 angle_increment=0.1\n", "no laser scan; expected rows of ranges"),
-        ("# angle_min=0 angle_increment=90\n1,2,3\n", "no laser scan.*1 x angles that do not fit"),
+        (
+            "# angle_min=0 angle_increment=90\n1,2,3\n",
+            "no laser scan.*angle_increment=90 looks like degrees",
+        ),
     ],
 )
 def test_a_csv_that_cannot_be_read_says_why(tmp_path, text, message):

@@ -32,6 +32,14 @@ def test_the_poses_are_printed_as_json(capsys: pytest.CaptureFixture[str]) -> No
     assert found["after"]["x"] < -6.2
 
 
+def test_the_text_tells_the_safe_ellipse_from_the_safe_body(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    _, text = said(capsys, "--door", "parents")
+    assert "3 safe for the ellipse, 1 of these for the whole body" in text
+    assert text.count("safe for the ellipse, but a corner of the body touches a wall") == 2
+
+
 def test_robot_start_obstacle_and_picture_are_taken(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
