@@ -15,7 +15,7 @@ from studies.translating.measure import counted, interpreters
 from studies.translating.texts import authored, disturbed, generated
 from studies.translating.training import TranslatorTraining, trained
 
-Author = Literal["first", "second"]
+Author = Literal["first", "second", "third"]
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Arguments:
     seed: int = 0
 
     def run(self) -> int:
-        """Train, write the files, and print what becomes of the other author's sentences."""
+        """Train, write the files, and print what becomes of the other authors' sentences."""
         folder = self.trained or self._train()
         print("| | kind | n |" + "".join(f" {each} |" for each in ParseOutcome))
         print("|---|---|---|" + "---|" * len(ParseOutcome))
@@ -79,4 +79,6 @@ class Arguments:
 
 def author_of(corpus: Path) -> Author:
     """Who wrote a development set."""
+    if corpus.stem.startswith("third_"):
+        return "third"
     return "second" if corpus.stem.startswith("second_") else "first"

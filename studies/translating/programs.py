@@ -107,7 +107,8 @@ def _condition(step: Step) -> list[Clause]:
 
 
 def _takes_next(first: Any, then: Steps, otherwise: Steps) -> bool:
-    return bool(first == DoorReference(1, first.side) and then and otherwise)
+    next_door = isinstance(first, DoorReference) and first == DoorReference(1, first.side)
+    return bool(next_door and then and otherwise)
 
 
 def _place(place: Step) -> tuple[list[Clause], Any]:
