@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from semnav_env.agents.hearing.elements import ELEMENT_SIZE, Description
 from semnav_env.agents.hearing.tokens import COMMAND_SIZE
+from semnav_env.agents.layers import layer_norm, linear, perceptron, softmax
 from semnav_env.agents.learning.policy import check_tensors
 from semnav_env.features.checked_fields import Count, check_fields
 from semnav_env.features.frames import Pose, compose, relative
@@ -31,9 +32,6 @@ has a door, and how far along its heading the next clause begins, metres."""
 
 FIT_SIZE = 9 + KINDS
 """Numbers that say how the robot stands to the proposed goal."""
-
-EPSILON = 1e-5
-"""Keeps the normalisation of a layer finite."""
 
 MASKED = -1e9
 """Score of an element that does not count."""
@@ -138,9 +136,9 @@ class GroundingNetwork:
         base = tuple(description.bases[element].tolist())
         ahead, aside, cosine, sine = offsets[element].tolist()
         pose = compose(base, (ahead, aside, math.atan2(sine, 1.0 + cosine)))
-        kinds = _softmax(outputs[:KINDS])
+        kinds = softmax(outputs[:KINDS])
         fit = fit_of(relative(pose, description.robot), kinds, description.elements[0])
-        advances = _softmax(self._perceptron("advance", np.concatenate((query, fit))))
+        advances = softmax(self._perceptron("advance", np.concatenate((query, fit))))
         doors = np.flatnonzero(description.jambs[:count].any(axis=1))
         door = None
         if outputs[KINDS] > 0.0 and len(doors):
@@ -158,32 +156,22 @@ class GroundingNetwork:
         told = self._perceptron("command", command)
         x = np.vstack((told[:d], self._perceptron("embed", elements) + told[d:]))
         for k in range(self.shape.layers):
-            x = x + self._attend(k, self._norm(f"{k}.norm.0", x))
-            x = x + self._perceptron(f"{k}.feed", self._norm(f"{k}.norm.1", x))
-        x = self._norm("norm", x)
+            x = x + self._attend(k, layer_norm(self._tensors, f"{k}.norm.0", x))
+            x = x + self._perceptron(f"{k}.feed", layer_norm(self._tensors, f"{k}.norm.1", x))
+        x = layer_norm(self._tensors, "norm", x)
         proposals = self._perceptron("offset", x[1:])
         return proposals[:, 0], proposals[:, 1:], self._perceptron("goal", x[0]), x[0]
 
     def _attend(self, k: int, x: Array) -> Array:
         n, heads = len(x), self.shape.heads
-        parts = self._linear(f"{k}.attend", x).reshape(n, 3, heads, -1).transpose(1, 2, 0, 3)
-        queries, keys, values = parts
-        weights = _softmax(queries @ keys.transpose(0, 2, 1) / math.sqrt(queries.shape[-1]))
+        parts = linear(self._tensors, f"{k}.attend", x).reshape(n, 3, heads, -1)
+        queries, keys, values = parts.transpose(1, 2, 0, 3)
+        weights = softmax(queries @ keys.transpose(0, 2, 1) / math.sqrt(queries.shape[-1]))
         mixed = (weights @ values).transpose(1, 0, 2).reshape(n, -1)
-        return self._linear(f"{k}.merge", mixed)
+        return linear(self._tensors, f"{k}.merge", mixed)
 
     def _perceptron(self, name: str, x: Array) -> Array:
-        return self._linear(f"{name}.1", np.maximum(self._linear(f"{name}.0", x), 0.0))
-
-    def _linear(self, name: str, x: Array) -> Array:
-        result: Array = x @ self._tensors[f"{name}.weight"].T + self._tensors[f"{name}.bias"]
-        return result
-
-    def _norm(self, name: str, x: Array) -> Array:
-        centred = x - x.mean(axis=-1, keepdims=True)
-        scale = np.sqrt((centred**2).mean(axis=-1, keepdims=True) + EPSILON)
-        result: Array = centred / scale * self._tensors[f"{name}.weight"]
-        return result + self._tensors[f"{name}.bias"]
+        return perceptron(self._tensors, name, x)
 
 
 def fit_of(robot: Pose, kinds: Array, own: Array) -> Array:
@@ -206,9 +194,3 @@ def fit_of(robot: Pose, kinds: Array, own: Array) -> Array:
 
 STILL = ELEMENT_SIZE - 7
 """Where in the robot's element it says for how long it has stood."""
-
-
-def _softmax(values: Array) -> Array:
-    raised = np.exp(values - values.max(axis=-1, keepdims=True))
-    result: Array = raised / raised.sum(axis=-1, keepdims=True)
-    return result

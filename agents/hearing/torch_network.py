@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from semnav_env.agents.hearing.network import (
-    EPSILON,
     KINDS,
     MASKED,
     STILL,
     NetworkShape,
 )
+from semnav_env.agents.layers import EPSILON
 
 
 class Grounded(NamedTuple):

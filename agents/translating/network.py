@@ -16,14 +16,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.agents.layers import layer_norm, linear, perceptron, softmax
 from semnav_env.agents.translating.masking import MARKS
 from semnav_env.agents.translating.programs import END, START, SYMBOLS
 from semnav_env.features.checked_fields import Count, check_fields
 
 Array = NDArray[np.float32]
-
-EPSILON = 1e-5
-"""Keeps the normalisation of a layer finite."""
 
 SHORTEST, LONGEST = 3, 5
 """Lengths of the n-grams, characters, with a sign for the word's ends."""
@@ -124,7 +122,7 @@ class TranslatorNetwork:
         for k in range(self.shape.layers):
             x = x + self._attend(f"encode.{k}.self", x)
             x = x + self._feed(f"encode.{k}.feed", x)
-        return self._norm("encoded", x)
+        return layer_norm(self.tensors, "encoded", x)
 
     def log_shares(self, said: Sequence[int], encoded: Array) -> Array:
         """Log probability of each symbol behind the symbols that are said, shape (symbols,)."""
@@ -133,7 +131,7 @@ class TranslatorNetwork:
             x = x + self._attend(f"decode.{k}.self", x, causal=True)
             x = x + self._attend(f"decode.{k}.cross", x, encoded)
             x = x + self._feed(f"decode.{k}.feed", x)
-        scores = self._linear("say", self._norm("decoded", x[-1:]))[0]
+        scores = linear(self.tensors, "say", layer_norm(self.tensors, "decoded", x[-1:]))[0]
         shifted = scores - scores.max()
         result: Array = shifted - np.log(np.exp(shifted).sum())
         return result
@@ -157,28 +155,18 @@ class TranslatorNetwork:
         self, name: str, x: Array, other: Array | None = None, causal: bool = False
     ) -> Array:
         heads = self.shape.heads
-        plain = self._norm(f"{name}.norm", x)
+        plain = layer_norm(self.tensors, f"{name}.norm", x)
         memory = plain if other is None else other
-        query = self._linear(f"{name}.query", plain).reshape(len(x), heads, -1).swapaxes(0, 1)
-        both = self._linear(f"{name}.memory", memory).reshape(len(memory), 2, heads, -1)
+        query = (
+            linear(self.tensors, f"{name}.query", plain).reshape(len(x), heads, -1).swapaxes(0, 1)
+        )
+        both = linear(self.tensors, f"{name}.memory", memory).reshape(len(memory), 2, heads, -1)
         key, value = both.transpose(1, 2, 0, 3)
         scores = query @ key.swapaxes(1, 2) / math.sqrt(query.shape[-1])
         if causal:
             scores = np.where(np.tri(len(x), dtype=bool), scores, -np.inf)
-        raised = np.exp(scores - scores.max(axis=-1, keepdims=True))
-        mixed = raised / raised.sum(axis=-1, keepdims=True) @ value
-        return self._linear(f"{name}.merge", mixed.swapaxes(0, 1).reshape(len(x), -1))
+        mixed = softmax(scores) @ value
+        return linear(self.tensors, f"{name}.merge", mixed.swapaxes(0, 1).reshape(len(x), -1))
 
     def _feed(self, name: str, x: Array) -> Array:
-        inner = np.maximum(self._linear(f"{name}.0", self._norm(f"{name}.norm", x)), 0.0)
-        return self._linear(f"{name}.1", inner)
-
-    def _linear(self, name: str, x: Array) -> Array:
-        result: Array = x @ self.tensors[f"{name}.weight"].T + self.tensors[f"{name}.bias"]
-        return result
-
-    def _norm(self, name: str, x: Array) -> Array:
-        centred = x - x.mean(axis=-1, keepdims=True)
-        scale = np.sqrt((centred**2).mean(axis=-1, keepdims=True) + EPSILON)
-        result: Array = centred / scale * self.tensors[f"{name}.weight"]
-        return result + self.tensors[f"{name}.bias"]
+        return perceptron(self.tensors, name, layer_norm(self.tensors, f"{name}.norm", x))
