@@ -117,8 +117,9 @@ class LearnedAgent:
         if self._robot.name not in self.robots:
             trained = " and ".join(map(repr, self.robots))
             raise ValueError(f"this agent was trained on {trained}, not {self._robot.name!r}")
-        self._observer = CompactObserver([self._robot], LidarSpec(**info["lidar"]))
-        self._shield = Shield(self._robot) if self.shielded else None
+        lidar = LidarSpec(**info["lidar"])
+        self._observer = CompactObserver([self._robot], lidar)
+        self._shield = Shield(self._robot, lidar.rate_hz) if self.shielded else None
         self._inertia = Inertia(self._robot)
         self._held = 0
 

@@ -26,13 +26,16 @@ REACH = 2.4
 PERIOD = 0.1
 """Time between two tested poses, seconds."""
 
-CONTROL_HZ, STANDING_SPEED = 15.0, 0.03
-"""Steps a second; and the speed below which a robot stands, m/s or rad/s."""
+STANDING_SPEED = 0.03
+"""Speed below which a robot stands, m/s or rad/s."""
 
 _SHARES = (1.0, 0.6, 0.3)
+"""Shares of the wanted twist that are tried first."""
+
 _FORWARD = (0.0, 0.15, -0.15, 0.3, -0.3, 0.6)
 _TURNS = (0.0, 0.15, -0.15, 0.3, -0.3, 0.6, -0.6)
 _SIDEWAYS = (0.0, 0.4, -0.4)
+"""Parts of the twists that are tried then, nearest first: shares of the largest speeds."""
 
 
 @dataclass(frozen=True)
@@ -63,11 +66,15 @@ class Shield:
 
     Args:
         robot: the body.
+        control_hz: actions a second.
         settings: None for the defaults.
     """
 
-    def __init__(self, robot: RobotSpec, settings: ShieldSettings | None = None) -> None:
+    def __init__(
+        self, robot: RobotSpec, control_hz: float, settings: ShieldSettings | None = None
+    ) -> None:
         self._robot, self._settings = robot, settings or ShieldSettings()
+        self._patience = round(self._settings.patience * control_hz)
         self._shape = body_shape(robot)
         self._held = self._lenient = 0
         sideways = _SIDEWAYS if robot.holonomic else (0.0,)
@@ -109,7 +116,7 @@ class Shield:
 
     def _margin(self, velocity: Twist) -> float:
         """The margin now: less for a while after the shield has held a robot that stands."""
-        settings, steps = self._settings, round(self._settings.patience * CONTROL_HZ)
+        settings, steps = self._settings, self._patience
         if self._held >= steps and max(map(abs, velocity)) < STANDING_SPEED:
             self._held, self._lenient = 0, steps
         self._lenient -= self._lenient > 0

@@ -254,7 +254,9 @@ class BeliefTracker:
 
     @property
     def belief(self) -> Belief:
-        """What is believed after the last scan."""
+        """What is believed after the last scan; a `RuntimeError` before the first `begin`."""
+        if not self._begun:
+            raise RuntimeError("call begin() with a command first")
         if self._belief is None:
             self._belief = self._believe()
         return self._belief

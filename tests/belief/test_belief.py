@@ -101,9 +101,11 @@ def nothing() -> np.ndarray:
     return np.full(811, np.inf)
 
 
-def test_an_update_before_a_command_is_an_error() -> None:
+def test_an_update_and_a_belief_before_a_command_are_errors() -> None:
     with pytest.raises(RuntimeError, match=r"call begin\(command\)"):
         BeliefTracker().update(nothing(), (0.0, 0.0, 0.0))
+    with pytest.raises(RuntimeError, match=r"call begin\(\)"):
+        _ = BeliefTracker().belief
 
 
 @pytest.mark.parametrize(
