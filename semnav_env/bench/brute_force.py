@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose, points_to_local
+from semnav_env.bench.timing import Part, seconds_per_call
+from semnav_env.features.frames import ORIGIN, FloatArray, Pose, points_to_local
+from semnav_env.features.lidar_spec import TIM561
+
+YARDSTICK_SEGMENTS, YARDSTICK_SCANS = 208, 20
+"""Wall segments of the yardstick, whatever the floor plan, and scans of it in a timing."""
 
 
 def brute_force_ranges(pose: Pose, segments: FloatArray, angles: FloatArray) -> FloatArray:
@@ -28,3 +36,33 @@ def brute_force_ranges(pose: Pose, segments: FloatArray, angles: FloatArray) -> 
     met = (distance >= 0.0) & (place >= -1e-12) & (place <= 1.0 + 1e-12)
     nearest: FloatArray = np.where(met, distance, np.inf).min(axis=1, initial=np.inf)
     return nearest
+
+
+def yardstick() -> Part:
+    """A brute-force scan of a TiM561 in NumPy among random walls."""
+    rng, angles = np.random.default_rng(0), TIM561.angles
+    starts = rng.uniform(-15.0, 15.0, (YARDSTICK_SEGMENTS, 2))
+    segments = np.hstack((starts, starts + rng.uniform(-4.0, 4.0, starts.shape)))
+
+    def scan() -> None:
+        brute_force_ranges(ORIGIN, segments, angles)
+
+    name = f"brute-force scan, {len(angles)} beams, {len(segments)} segments"
+    return Part(name, lambda: seconds_per_call(scan, YARDSTICK_SCANS))
+
+
+def yardstick_alone() -> Part:
+    """The same scan in a process that does nothing else.
+
+    There the C library gives the memory of each large array back to the system, and every scan
+    pays for new pages; in a process that once held more memory it keeps them.
+    """
+    return Part("the same in a process of its own", _seconds_alone)
+
+
+def _seconds_alone() -> float:
+    words = (
+        f"from {__name__} import yardstick as y; part = y(); part.seconds(); print(part.seconds())"
+    )
+    done = subprocess.run([sys.executable, "-c", words], check=True, capture_output=True, text=True)
+    return float(done.stdout)

@@ -6,21 +6,16 @@ import math
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from semnav_env.bench.brute_force import brute_force_ranges
+from semnav_env.bench.brute_force import yardstick, yardstick_alone
 from semnav_env.bench.peers import peer_parts
 from semnav_env.bench.plans import repeated
 from semnav_env.bench.single import kernel_parts, step_parts
 from semnav_env.bench.start_up import compile_seconds, start_parts
-from semnav_env.bench.timing import Part, Timing, seconds_per_call, timings
+from semnav_env.bench.timing import Timing, timings
 from semnav_env.bench.vector import vector_part
 from semnav_env.env import SemNavEnv
 from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.maps import FloorPlan
-
-YARDSTICK_SEGMENTS = 208
-"""Wall segments of the brute-force scan, whatever the floor plan."""
 
 COPIES, BEAMS, ROBOTS = (1, 2, 10, 29), (201, 405, 811, 1621), (1, 8, 64, 256)
 """Sizes at which growth is timed: copies of the plan, beams of the lidar, robots."""
@@ -39,7 +34,7 @@ def benchmark(robots: int, threads: int, runs: int, steps: int, **options: Any) 
     step, reset = step_parts(steps, **options)
     counts = range(1, threads + 1)
     vector = [vector_part(steps, robots, count, **options) for count in counts]
-    parts = [yardstick(), step, *vector, *kernel_parts(steps, **options), reset]
+    parts = [yardstick(), yardstick_alone(), step, *vector, *kernel_parts(steps, **options), reset]
     env = SemNavEnv(**options)
     env.reset(seed=0)
     parts += peer_parts(env.floor_plan, env.robot, env.lidar_spec, env.world.pose)
@@ -83,16 +78,3 @@ def with_beams(beams: int) -> LidarSpec:
     """A TiM561 with more or fewer beams over the same angle."""
     increment = math.radians(270.0) / (beams - 1)
     return replace(TIM561, name=f"{beams} beams", beams=beams, angle_increment=increment)
-
-
-def yardstick() -> Part:
-    """A brute-force scan of a TiM561 in NumPy among random walls."""
-    rng, angles = np.random.default_rng(0), TIM561.angles
-    starts = rng.uniform(-15.0, 15.0, (YARDSTICK_SEGMENTS, 2))
-    segments = np.hstack((starts, starts + rng.uniform(-4.0, 4.0, starts.shape)))
-
-    def scan() -> None:
-        brute_force_ranges((0.0, 0.0, 0.0), segments, angles)
-
-    name = f"brute-force scan, {len(angles)} beams, {len(segments)} segments"
-    return Part(name, lambda: seconds_per_call(scan, 20))
