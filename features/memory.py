@@ -79,7 +79,7 @@ class SceneMemory:
             walls: `layout.WALL` array, lidar frame.
             doors: `layout.DOOR` array, lidar frame.
             counts: entries used, by kind.
-            ranges: of the scan, metres.
+            ranges: of the scan, metres, with `scan.plain_codes` for what is no return.
             angles: angle_min and angle_increment of the scan, radians.
             lidar_pose: of the lidar in the memory's frame.
         """
@@ -93,6 +93,8 @@ class SceneMemory:
             scan: the scan.
             lidar_pose: of the lidar in the memory's frame.
         """
+        from semnav_env.features.scan import plain_codes  # a simulated robot needs none
+
         walls, doors = np.zeros(len(scene.walls), WALL), np.zeros(len(scene.doors), DOOR)
         for array, items in ((walls, scene.walls), (doors, scene.doors)):
             for name, column in zip(ENDS, ends_of(items).T, strict=True):
@@ -101,7 +103,8 @@ class SceneMemory:
         counts = np.zeros(COUNTS_SIZE, np.int64)
         counts[WALLS], counts[DOORS] = len(walls), len(doors)
         angles = scan.angle_min, scan.angle_increment
-        self.update(walls, doors, counts, scan.ranges, angles, lidar_pose)
+        ranges = plain_codes(scan.ranges, scan.range_min, scan.range_max)
+        self.update(walls, doors, counts, ranges, angles, lidar_pose)
 
     def locate(self, scene: Scene, lidar_pose: Pose) -> Pose:
         """The pose of a lidar, corrected by the walls that it sees again (`kernels.drift`).

@@ -87,7 +87,8 @@ class Scan:
     def valid(self) -> np.ndarray:
         """Which beams returned a distance, shape (n,), bool."""
         with np.errstate(invalid="ignore"):
-            return (self.ranges >= self.range_min) & (self.ranges < self.range_max)
+            beyond_least = (self.ranges >= self.range_min) & (self.ranges > 0.0)
+            return beyond_least & (self.ranges < self.range_max)
 
 
 def _check_numbers(values: dict[str, float]) -> None:
@@ -152,3 +153,24 @@ def check_unit(ranges: FloatArray, range_max: float) -> None:
             f"ranges have a median of {np.median(returns):.0f} but range_max is {range_max} m; "
             "they look like millimetres: divide them by 1000"
         )
+
+
+def plain_codes(ranges: ArrayLike, range_min: float, range_max: float) -> FloatArray:
+    """A copy of ranges in which all that is no return is written in one way (REP 117).
+
+    Args:
+        ranges: metres, shape (n,).
+        range_min: shortest valid range, metres.
+        range_max: what is as far or farther is no return, metres.
+
+    Returns:
+        The returns as they are; -inf for what is too near to tell, which is -inf or lies between
+        0 and `range_min`; +inf for all else that is no return: NaN, 0, -1, a number for "nothing".
+    """
+    plain = np.array(ranges, dtype=np.float64)
+    with np.errstate(invalid="ignore"):
+        too_near = (plain == -np.inf) | ((plain > 0.0) & (plain < range_min))
+        nothing = ~((plain > 0.0) & (plain < range_max))
+    plain[nothing] = np.inf
+    plain[too_near] = -np.inf
+    return plain

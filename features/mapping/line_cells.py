@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.segmentation import is_return
 from semnav_env.features.mapping.lines import Line
 from semnav_env.features.scan import Scan
 
@@ -139,9 +140,9 @@ def _observe(
         if abs(sine) < _MIN_INCIDENCE_SINE or abs(across) > MAX_BEAM_LENGTH * abs(sine):
             continue
         reach = ranges[beam]
-        if not limits[0] <= reach < limits[1]:
-            # A negative infinite range was too near to tell (REP 117).
-            passes[k] += opening and not reach < 0.0
+        if not is_return(reach, *limits):
+            too_near = reach == -math.inf or 0.0 < reach < limits[0]  # nothing to tell (REP 117)
+            passes[k] += opening and not too_near
             continue
         front = side * (across + reach * sine)
         if front < -deep:

@@ -9,6 +9,7 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.segmentation import is_return
 
 X, Y, FOOT_X, FOOT_Y, NORMAL_X, NORMAL_Y, SPACING, VARIANCE, TILT, RANGE = range(10)
 """Rows of a surface: a point, its foot on the line through its neighbours, that line's unit
@@ -44,9 +45,10 @@ def range_noise(ranges: FloatArray, limits: tuple[float, float]) -> Any:
     sizes = np.empty(len(ranges))
     count = 0
     for i in range(1, len(ranges) - 1):
-        near = min(ranges[i - 1], ranges[i], ranges[i + 1])
-        if limits[0] <= near and max(ranges[i - 1], ranges[i], ranges[i + 1]) < limits[1]:
-            sizes[count] = abs(ranges[i - 1] - 2.0 * ranges[i] + ranges[i + 1])
+        before, here, after = ranges[i - 1], ranges[i], ranges[i + 1]
+        # Each by itself: what `min` and `max` make of a NaN depends on where it stands.
+        if is_return(before, *limits) and is_return(here, *limits) and is_return(after, *limits):
+            sizes[count] = abs(before - 2.0 * here + after)
             count += 1
     median = np.median(sizes[:count]) if count > 10 else 0.0
     return min(max(median / (_NORMAL_MEDIAN * math.sqrt(6.0)), _MIN_NOISE), _MAX_NOISE)
@@ -85,7 +87,7 @@ def sense_surface(
         out[RANGE, i] = 0.0
         out[X, i] = r * directions[i, 0]
         out[Y, i] = r * directions[i, 1]
-        if limits[0] <= r < limits[1]:
+        if is_return(r, *limits):
             index[count] = i
             count += 1
     first = 0

@@ -216,9 +216,9 @@ class BeliefTracker:
             raise ValueError(
                 f"ranges have shape {array.shape}; {self.lidar.name} gives {own.shape}"
             )
-        if self._is_first:
-            from semnav_env.features.scan import check_unit  # a simulated robot needs none
+        from semnav_env.features.scan import check_unit, plain_codes  # a simulated robot needs none
 
+        if self._is_first:
             check_unit(array, self.lidar.range_max)
         x, y, heading = odometry
         if not math.isfinite(x + y + heading):
@@ -227,7 +227,7 @@ class BeliefTracker:
         if velocity is None:
             velocity = mean_velocity(self._estimate[0], odometry, seconds)
         self.let_go()
-        own[:] = array
+        own[:] = plain_codes(array, self.lidar.range_min, self.lidar.range_max)
         self._is_first = False
         felt = min(len(bumps), MOST_CONTACTS)
         SENSED.pack_into(self._buffer, 0, felt, x, y, heading, seconds, *velocity)

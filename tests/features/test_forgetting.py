@@ -7,6 +7,8 @@ import pytest
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.memory import MAX_DOORS, MAX_WALLS, SceneMemory
+from semnav_env.features.scan import Scan
+from semnav_env.features.scene import Scene
 from tests.support.remembering import (
     ANGLES,
     DOOR_A,
@@ -130,3 +132,32 @@ def test_a_full_memory_forgets_what_was_seen_least() -> None:
     assert scene.doors[0].start == pytest.approx(DOOR_A[:2])
     used = memory.arrays[2][0]
     assert (used["walls"], used["doors"]) == (MAX_WALLS, MAX_DOORS)
+
+
+CODES = [np.nan, np.inf, 0.0, -1.0, 10.0, 81.83]
+"""What drivers write for a beam without a return."""
+
+
+def scan_of(ranges: FloatArray, code: float) -> Scan:
+    """One degree a beam, with a code for what is no return."""
+    return Scan(np.where(np.isfinite(ranges), ranges, code), *ANGLES, range_max=10.0)
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_beams_without_return_never_speak_against_a_wall(code: float) -> None:
+    memory = SceneMemory()
+    see(memory, walls=[WALL_AHEAD], scans=4)
+    for _ in range(80):
+        memory.see(Scene(), scan_of(NOTHING, code), (0.0, 0.0, 0.0))
+    assert memory.size[0] == 1
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_a_door_through_which_beams_find_nothing_is_given_up(code: float) -> None:
+    beyond = beams_that_end_at(2.0)
+    beyond[256:285] = np.inf
+    memory = SceneMemory()
+    see(memory, doors=[AHEAD], scans=4)
+    for _ in range(40):
+        memory.see(Scene(), scan_of(beyond, code), (0.0, 0.0, 0.0))
+    assert memory.size[1] == 0

@@ -264,3 +264,20 @@ def test_a_vector_map_keeps_its_walls(tmp_path):
     plan = load_floor_plan(load_vector_map(path).plan)
     assert plan.name == "floor"
     np.testing.assert_array_equal(plan.segments, [[0.0, 1.0, 2.0, 1.0]])
+
+
+@pytest.mark.parametrize("code", [np.nan, np.inf, -np.inf, 0.0, -1.0, 10.0, 81.83])
+def test_what_stands_for_no_return_makes_no_difference(code):
+    one, other = office_scan((5.0, 9.0, 0.1)), office_scan((5.1, 9.02, 0.12), 1)
+    lost = np.random.default_rng(0).random(len(one.ranges)) < 0.15
+
+    def matched(value):
+        scans = [replace_ranges(each, np.where(lost, value, each.ranges)) for each in (one, other)]
+        return match_scans(*scans).pose
+
+    assert matched(code) == matched(np.inf)
+
+
+def replace_ranges(scan, ranges):
+    limits = 0.0, scan.range_max
+    return Scan(ranges, scan.angle_min, scan.angle_increment, *limits)

@@ -7,13 +7,14 @@ import pytest
 from hypothesis import given
 
 from semnav_env.features import Scan
+from semnav_env.features.scan import plain_codes
 from tests.support.strategies import awkward_scans
 
 
 @given(awkward_scans())
 def test_a_valid_range_is_positive_and_within_the_limits(scan: Scan) -> None:
     for distance, valid in zip(scan.ranges, scan.valid, strict=True):
-        assert valid == (scan.range_min <= distance < scan.range_max)
+        assert valid == (distance > 0.0 and scan.range_min <= distance < scan.range_max)
 
 
 def test_angles_run_counter_clockwise_from_angle_min() -> None:
@@ -100,3 +101,14 @@ def test_what_a_masked_array_hides_is_no_return() -> None:
     ranges = np.ma.masked_greater(np.array([1.0, 2.0, 5.0, 3.0]), 4.0)
     scan = Scan(ranges, 0.0, 0.1)
     np.testing.assert_array_equal(scan.valid, [True, True, False, True])
+
+
+def test_zero_is_no_return_even_where_no_range_is_too_short() -> None:
+    assert Scan([0.0, 1.0, 2.0], 0.0, 0.1, range_min=0.0).valid.tolist() == [False, True, True]
+
+
+def test_plain_codes_tell_nothing_from_too_near() -> None:
+    said = [1.0, np.nan, np.inf, 0.0, -1.0, 10.0, 81.83, -np.inf, 0.02, 9.99]
+    plain = plain_codes(said, 0.05, 10.0)
+    assert plain.tolist() == [1.0, *[np.inf] * 6, -np.inf, -np.inf, 9.99]
+    assert plain_codes(plain, 0.05, 10.0).tolist() == plain.tolist()
