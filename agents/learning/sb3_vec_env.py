@@ -122,6 +122,7 @@ class SB3VecEnv(VecEnv):
         """Set an attribute of single environments to a value."""
         for env in self._chosen(indices):
             env.set_wrapper_attr(attr_name, value)
+        self.vector.read_settings()
 
     def env_method(
         self, method_name: str, *arguments: Any, indices: VecEnvIndices = None, **options: Any

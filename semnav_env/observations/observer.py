@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
 
@@ -163,6 +164,8 @@ def as_observation(value: object) -> ObservationType:
     Raises:
         ValueError: no such mode, or an object that makes no observations.
     """
+    if isinstance(value, EntryObservation):
+        return copy(value)  # its layout is that of one environment's lidar
     if isinstance(value, ObservationType) and not isinstance(value, type):
         return value
     if isinstance(value, str):

@@ -10,7 +10,6 @@ import numpy as np
 from semnav_env.commands import Command, SearchHouse
 from semnav_env.dynamics import Dynamics
 from semnav_env.env import SemNavEnv
-from semnav_env.features.validation import check_count
 from semnav_env.observations import EntryObservation
 from semnav_env.rescue.people_entry import PeopleEntry
 from semnav_env.rescue.person_search import PersonSearch
@@ -74,10 +73,7 @@ def search_and_rescue_vector(
         each: arguments that differ, one mapping for each robot.
         options: for all robots, and those of `SemNavVectorEnv`.
     """
-    check_count("num_envs", num_envs)
-    own = [{}] * num_envs if each is None else each
-    parts = [{"payload": PersonSearch(), **one} for one in own]
-    return SemNavVectorEnv(num_envs, each=parts, **_search_options(**options))
+    return SemNavVectorEnv(num_envs, each=each, **_search_options(**options))
 
 
 def _search_options(

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from copy import deepcopy
 from inspect import signature
 from typing import Any
 
 from semnav_env.commands.suggest import did_you_mean
 from semnav_env.env import SemNavEnv
 from semnav_env.vector.member import TeamMember
+
+REMEMBERING = ("payload", "rewards")
+"""Arguments that may remember an episode: of what is given for all robots each gets a copy."""
 
 
 def made(each: Sequence[Mapping[str, Any]], options: Mapping[str, Any]) -> list[TeamMember]:
@@ -26,7 +30,8 @@ def made(each: Sequence[Mapping[str, Any]], options: Mapping[str, Any]) -> list[
     for k, own in enumerate(each):
         _check_names(k, own)
         with naming_robot(k if own else None):
-            envs.append(TeamMember(**{**options, **own}))
+            copies = {name: deepcopy(options[name]) for name in REMEMBERING if name in options}
+            envs.append(TeamMember(**{**options, **copies, **own}))
     _check_alike(envs)
     return envs
 

@@ -63,7 +63,11 @@ class EachObservation:
 
 def team_observations(envs: Sequence[SemNavEnv]) -> TeamObservations:
     """The fast way where it serves, for environments that have been reset."""
-    kind = envs[0].observation_type
-    if type(kind) is EntryObservation and not kind.extra:
-        return EntryRows(envs, kind)
+    kinds = [env.observation_type for env in envs]
+    first = kinds[0]
+    if type(first) is EntryObservation and all(
+        type(kind) is EntryObservation and kind.mode == first.mode and not kind.extra
+        for kind in kinds
+    ):
+        return EntryRows(envs, first)
     return EachObservation(envs)

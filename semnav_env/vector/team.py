@@ -48,10 +48,8 @@ class Team:
         self._log = np.zeros((LOG_LENGTH, count, 3))
         self._logged = np.zeros((LOG_LENGTH, count), dtype=bool)
         self._log_length = 0
-        beams = envs[0].lidar_spec.beams
-        self._scratch: list[Scratch] = []
-        for first, last in self._parts:
-            self._scratch += [allocate_scratch(beams)] * (last - first)
+        self._beams, self._scratch = 0, list[Scratch]()
+        self._make_room(max(env.lidar_spec.beams for env in envs))
         self._trackers = [env.tracker for env in envs]
         self._need_python = np.zeros(count, dtype=bool)
         self._robots = list_of(_arrays(envs[0]), count)
@@ -61,6 +59,7 @@ class Team:
     def renew(self, index: int) -> None:
         """Take in a robot whose environment has been reset."""
         env = self._envs[index]
+        self._make_room(env.lidar_spec.beams)
         env.tracker.use_scratch(self._scratch[index])
         self._trackers[index], self._need_python[index] = env.tracker, env.world.needs_python
         put(self._robots, index, _arrays(env))
@@ -107,6 +106,13 @@ class Team:
         """Stop the threads."""
         if self._pool is not None:
             self._pool.shutdown()
+
+    def _make_room(self, beams: int) -> None:
+        """Working memory for scans of that many beams, which the robots of a thread share."""
+        if beams > self._beams:
+            self._beams, self._scratch = beams, []
+            for first, last in self._parts:
+                self._scratch += [allocate_scratch(beams)] * (last - first)
 
     def _note(self, twists: FloatArray, driven: NDArray[np.bool_]) -> None:
         if self._log_length == LOG_LENGTH:

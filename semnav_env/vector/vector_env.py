@@ -87,7 +87,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self._rewards = team_rewards(self.envs)
         self._over = np.zeros(num_envs, dtype=bool)
         self._verdicts = np.full(num_envs, None, dtype=object)
-        self._refused = False
+        self._unbegun = np.zeros(num_envs, dtype=bool)
         self._observations: TeamObservations
 
     def reset(
@@ -118,10 +118,9 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         if self._team is None and not mask.all():
             raise ValueError("the first reset must be of all robots: leave reset_mask away")
         infos: Infos = {}
-        self._refused = True  # until all have begun
+        self._unbegun |= mask
         for k in _indices(mask):
             infos = self._begin(infos, k, seeds[k], joined(k, common, own[k]))
-        self._refused = False
         if self._team is None:
             self._gather()
         return self._observations.observe(self._gathered), infos
@@ -135,8 +134,11 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             gymnasium.error.ClosedEnvironmentError: after `close`.
         """
         self._check_open()
-        if self._team is None or self._refused:
+        if self._team is None:
             raise RuntimeError("call reset() before step()")
+        if self._unbegun.any():
+            waiting = np.flatnonzero(self._unbegun)
+            raise RuntimeError(f"reset robots {waiting} first: what they were told was refused")
         driven = ~self._over
         if self.autoreset_mode is AutoresetMode.DISABLED and not driven.all():
             raise RuntimeError(f"robots {np.flatnonzero(self._over)} must be reset first")
@@ -148,6 +150,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             begin, self._over = held.over, np.zeros_like(held.over)
             infos = self._final(infos, held.over)
+        self._unbegun |= begin
         for k in _indices(begin):
             infos = self._begin(infos, k)
         observations = self._observations.observe(self._team)
@@ -171,6 +174,11 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         values = values if isinstance(values, list | tuple) else [values] * self.num_envs
         for env, value in zip(self.envs, one_each("values", values, self.num_envs), strict=True):
             env.set_wrapper_attr(name, value)
+        self.read_settings()
+
+    def read_settings(self) -> None:
+        """Read anew what was set of the single environments: their rewards."""
+        self._rewards = team_rewards(self.envs)
 
     def close_extras(self, **_: Any) -> None:
         """Stop the threads and close the windows."""
@@ -231,7 +239,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         env = self.envs[index]
         with naming_robot(index):
             info = env.begin(seed, options)
-        self._over[index] = False
+        self._over[index] = self._unbegun[index] = False
         self._verdicts[index] = env.judge.verifier.verdicts
         self._actions.renew(index, env)
         if self._team is not None:
