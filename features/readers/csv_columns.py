@@ -119,12 +119,17 @@ def _numbers(cells: list[bytes]) -> FloatArray:
 
 
 def is_header(cells: list[bytes]) -> bool:
-    """Whether a first row is one of names."""
+    """Whether a first row is one of names, or counts its columns from 0, as pandas does.
+
+    A column without a name before those that are counted is pandas' index.
+    """
     try:
         _numbers(cells)
     except BadRecordError:
         return True
-    return False
+    named = cells if cells[0].strip() else cells[1:]
+    counted = [cell.strip() for cell in named]
+    return len(counted) > 1 and counted == [b"%d" % place for place in range(len(counted))]
 
 
 def _short(cell: bytes) -> str:
