@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from semnav_env.belief.belief import Belief
@@ -10,7 +9,7 @@ from semnav_env.belief.tracker import NO_WAYS, BeliefTracker
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings, Scan
 from semnav_env.features.frames import ORIGIN, Pose, compose, relative, wrap_angle
-from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.features.lidar_spec import LidarSpec, most_beams
 from semnav_env.features.readers import LogError, LogRecord
 from semnav_env.grounding.ways import Way
 
@@ -64,10 +63,9 @@ def lidar_of(scan: Scan, rate_hz: float = 15.0) -> LidarSpec:
         scan: of that lidar.
         rate_hz: sweeps per second, where the log has no times.
     """
-    beams_per_turn = math.floor(math.tau / scan.angle_increment * (1.0 + 1e-9)) + 1
     return LidarSpec(
         "log",
-        min(len(scan.ranges), beams_per_turn),
+        min(len(scan.ranges), most_beams(scan.angle_increment)),
         wrap_angle(scan.angle_min),
         scan.angle_increment,
         scan.range_min,
