@@ -66,8 +66,7 @@ class LidarSpec:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        step = self.angle_increment
-        most = most_beams(step)
+        step, most = self.angle_increment, most_beams(self.angle_increment)
         require(self.beams <= most, "angle_increment", step, "at most 2 pi / (beams - 1)")
         farther = f"more than range_min, which is {self.range_min}"
         require(self.range_min < self.range_max, "range_max", self.range_max, farther)
@@ -94,10 +93,7 @@ class LidarSpec:
 
 
 def most_beams(angle_increment: float) -> int:
-    """How many beams a full turn has, the first one repeated if one points there again.
-
-    An increment that was rounded to 32 bits, as drivers send it, still makes a full turn.
-    """
+    """Beams of a full turn and one that repeats the first; the increment may have 32 bits only."""
     return math.floor(math.tau / angle_increment * (1.0 + 1e-6)) + 1
 
 

@@ -7,9 +7,51 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.belief.log_following import lidar_of
+from semnav_env.belief.log_following import follow_log, lidar_of
+from semnav_env.commands import parse
 from semnav_env.features import Scan
+from semnav_env.features.frames import Pose, compose
 from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.features.readers import LogError, LogRecord
+
+BACKWARDS = (0.2, 0.1, math.pi)
+"""A mount of the lidar."""
+
+
+def record(line: int, pose: Pose | None, odometry: Pose | None) -> LogRecord:
+    """A scan without returns."""
+    return LogRecord(Scan(np.full(181, np.nan), -math.pi / 2, math.pi / 180), pose, odometry, line)
+
+
+def driven(k: int) -> Pose:
+    """Where the robot is at scan k, in the frame of its start."""
+    return 0.1 * k, 0.0, 0.0
+
+
+def poses(log: list[LogRecord]) -> list[Pose]:
+    """Where the robot believed to be."""
+    followed = follow_log(log, parse("turn around"), mount=BACKWARDS, corrects_drift=False)
+    return [belief.pose for _, belief in followed]
+
+
+def test_a_log_whose_odometry_begins_late_is_followed_by_its_poses() -> None:
+    """The frames of the two need not agree, so that the first record says which is taken."""
+    seen = [compose((20.0, 30.0, 1.5), compose(driven(k), BACKWARDS)) for k in range(6)]
+    late = [record(k + 1, seen[k], driven(k) if k else None) for k in range(6)]
+    np.testing.assert_allclose(poses(late), [driven(k) for k in range(6)], atol=1e-9)
+
+
+def test_odometry_goes_before_poses() -> None:
+    both = [record(k + 1, (9.0 * k, 0.0, 0.0), driven(k)) for k in range(6)]
+    np.testing.assert_allclose(poses(both), [driven(k) for k in range(6)], atol=1e-9)
+
+
+@pytest.mark.parametrize("first", [(None, None), (driven(0), None), (None, driven(0))])
+def test_a_scan_that_does_not_say_where_it_was_taken_is_an_error(first) -> None:
+    with pytest.raises(
+        LogError, match=r"has no (odometry|pose): a command needs odometry at every"
+    ):
+        poses([record(1, *first), record(2, first[1], first[0])])
 
 
 @pytest.mark.parametrize("beams", [8, 77, 360, 431, 720, 862, 1440, 3000])
