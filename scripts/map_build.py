@@ -9,7 +9,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Literal
 
-from tyro.conf import Positional
+from tyro.conf import OmitArgPrefixes, Positional
 
 from semnav_env.features import ExtractorSettings, extract
 from semnav_env.features.frames import Pose, relative
@@ -45,10 +45,7 @@ class Arguments:
         every: take only every Nth scan.
         limit: stop after this number of scans.
         picture: of the plan (.png, .pdf or .svg).
-        range_max: range from which a beam counts as no return, metres.
-        beam_spacing: degrees between beams, for FLASER lines with an unusual number of them.
-        angle_min: direction of the first beam in CSV and npz logs that leave it out, radians.
-        angle_increment: angle between the beams of such logs, radians.
+        geometry: what the log leaves unsaid of its scans.
         settings: limits of the extractor, metres and radians.
         map_settings: limits of the map, metres and radians.
         json: print the summary as JSON on stdout.
@@ -61,10 +58,7 @@ class Arguments:
     every: int = 1
     limit: int | None = None
     picture: Path | None = None
-    range_max: float = 50.0
-    beam_spacing: float | None = None
-    angle_min: float | None = None
-    angle_increment: float | None = None
+    geometry: OmitArgPrefixes[Geometry] = field(default_factory=Geometry)
     settings: ExtractorSettings = field(default_factory=ExtractorSettings)
     map_settings: MapSettings = field(default_factory=MapSettings)
     json: bool = False
@@ -72,10 +66,9 @@ class Arguments:
     def run(self) -> int:
         """Build the plan, and print what it holds."""
         self._check()
-        geometry = Geometry(self.range_max, self.beam_spacing, self.angle_min, self.angle_increment)
         line_map = LineMap(self.map_settings)
         damage: TruncatedLogError | None = None
-        with open_log(self.log, geometry, self.topic) as log:
+        with open_log(self.log, self.geometry, self.topic) as log:
             try:
                 self._fill(line_map, log)
             except TruncatedLogError as error:
