@@ -66,8 +66,8 @@ class LidarSpec:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        span, step = (self.beams - 1) * self.angle_increment, self.angle_increment
-        require(span <= math.tau + 1e-9, "angle_increment", step, "at most 2 pi / (beams - 1)")
+        step, most = self.angle_increment, most_beams(self.angle_increment)
+        require(self.beams <= most, "angle_increment", step, "at most 2 pi / (beams - 1)")
         farther = f"more than range_min, which is {self.range_min}"
         require(self.range_min < self.range_max, "range_max", self.range_max, farther)
 
@@ -90,6 +90,11 @@ class LidarSpec:
     def sensor(self) -> np.ndarray:
         """The numbers that kernels need, shape (1,), dtype `SENSOR`."""
         return np.array([tuple(getattr(self, name) for name in SENSOR.names or ())], SENSOR)
+
+
+def most_beams(angle_increment: float) -> int:
+    """Beams of a full turn and one that repeats the first; the increment may have 32 bits only."""
+    return math.floor(math.tau / angle_increment * (1.0 + 1e-6)) + 1
 
 
 TIM561 = LidarSpec(

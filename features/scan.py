@@ -16,6 +16,9 @@ _MAX_FIRST_ANGLE = 8.0 * math.pi
 _MAX_RANGE = 1000.0
 """Longest range that any lidar of a robot has, metres."""
 
+_NO_LENGTH = 1000.0 * _MAX_RANGE
+"""What is as long as this means no return, in metres and in millimetres."""
+
 _MAX_SWEEP = 4.0 * math.pi
 """More than any scanner sweeps, though some repeat a few beams of the circle; radians."""
 
@@ -141,16 +144,22 @@ def _check_ranges(ranges: ArrayLike, range_max: float) -> FloatArray:
 def check_unit(ranges: FloatArray, range_max: float) -> None:
     """Refuse ranges that must be millimetres.
 
+    Each length counts once: a number that drivers send for "no return" is one length of many
+    beams, and those of real returns differ.
+
     Raises:
-        ValueError: at least half of the returns lie beyond 20 times `range_max`.
+        ValueError: at least half of the lengths lie beyond 20 times `range_max`.
     """
     far = 20.0 * range_max
-    if not (ranges > far).any():  # spares most scans the median
+    if not (ranges > far).any():  # spares most scans the sorting
         return
-    returns = ranges[np.isfinite(ranges) & (ranges > 0)]
-    if len(returns) and np.median(returns) > far:
+    measured = ranges[(ranges > 0) & (ranges < _NO_LENGTH)]
+    lengths = np.unique(measured)
+    if len(lengths) == 0 or len(lengths) == 1 < len(measured):
+        return
+    if (typical := lengths[(len(lengths) - 1) // 2]) > far:
         raise ValueError(
-            f"ranges have a median of {np.median(returns):.0f} but range_max is {range_max} m; "
+            f"ranges have a median of {typical:.0f} but range_max is {range_max} m; "
             "they look like millimetres: divide them by 1000"
         )
 

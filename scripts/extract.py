@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 
-from tyro.conf import Positional
+from tyro.conf import OmitArgPrefixes, Positional
 
 from semnav_env.features import ExtractorSettings, Scan, Scene, extract
 from semnav_env.features.plot import check_suffix, save_page
@@ -35,10 +35,7 @@ class Arguments:
         scans: number of scans in the picture, spread evenly over the log.
         every: take only every Nth scan.
         limit: stop after this number of scans.
-        range_max: range from which a beam counts as no return, metres.
-        beam_spacing: degrees between beams, for FLASER lines with an unusual number of them.
-        angle_min: direction of the first beam in CSV and npz logs that leave it out, radians.
-        angle_increment: angle between the beams of such logs, radians.
+        geometry: what the log leaves unsaid of its scans.
         settings: limits of the extractor, metres and radians.
         json: print the summary as JSON on stdout.
     """
@@ -50,10 +47,7 @@ class Arguments:
     scans: int = 9
     every: int = 1
     limit: int | None = None
-    range_max: float = 50.0
-    beam_spacing: float | None = None
-    angle_min: float | None = None
-    angle_increment: float | None = None
+    geometry: OmitArgPrefixes[Geometry] = field(default_factory=Geometry)
     settings: ExtractorSettings = field(default_factory=ExtractorSettings)
     json: bool = False
 
@@ -62,7 +56,7 @@ class Arguments:
         self._check()
         page = EvenSample[tuple[str, Scan, Scene]](self.scans)
         damage: TruncatedLogError | None = None
-        with open_log(self.log, self._geometry, self.topic) as log:
+        with open_log(self.log, self.geometry, self.topic) as log:
             tally = ExtractionTally(log)
             try:
                 self._extract(log, tally, page)
@@ -79,10 +73,6 @@ class Arguments:
         if damage:
             raise damage
         return 0
-
-    @property
-    def _geometry(self) -> Geometry:
-        return Geometry(self.range_max, self.beam_spacing, self.angle_min, self.angle_increment)
 
     def _extract(
         self, log: ScanLog, tally: ExtractionTally, page: EvenSample[tuple[str, Scan, Scene]]

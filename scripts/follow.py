@@ -8,7 +8,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from tyro.conf import Positional
+from tyro.conf import OmitArgPrefixes, Positional
 
 from semnav_env.belief import Belief
 from semnav_env.belief.log_following import follow_log
@@ -39,7 +39,7 @@ class Arguments:
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
         first: number of the first scan, from 1.
         limit: stop after so many scans.
-        range_max: no return at and beyond it, metres.
+        geometry: what the log leaves unsaid of its scans.
         plot: picture of what is remembered at the end (.png, .pdf or .svg).
         settings: limits of the extractor, metres and radians.
         json: print one JSON object a line.
@@ -52,7 +52,7 @@ class Arguments:
     topic: str | None = None
     first: int = 1
     limit: int | None = None
-    range_max: float = 50.0
+    geometry: OmitArgPrefixes[Geometry] = field(default_factory=Geometry)
     plot: Path | None = None
     settings: ExtractorSettings = field(default_factory=ExtractorSettings)
     json: bool = False
@@ -82,7 +82,7 @@ class Arguments:
     def _follow(self, command: Command, mount: Pose) -> list[Belief]:
         """Print each change of mind; returns all beliefs."""
         beliefs: list[Belief] = []
-        with open_log(self.log, Geometry(self.range_max), self.topic) as log:
+        with open_log(self.log, self.geometry, self.topic) as log:
             stop = None if self.limit is None else self.first - 1 + self.limit
             records = islice(log, self.first - 1, stop)
             followed = follow_log(records, command, mount=mount, extractor=self.settings)

@@ -9,10 +9,10 @@ from itertools import islice
 from pathlib import Path
 from typing import Literal
 
-from tyro.conf import Positional
+from tyro.conf import OmitArgPrefixes, Positional
 
 from semnav_env.features import ExtractorSettings, extract
-from semnav_env.features.frames import Pose, relative
+from semnav_env.features.frames import Pose, compose, relative
 from semnav_env.features.mapping import LineMap, MapSettings, ScanOdometry
 from semnav_env.features.plot import check_suffix
 from semnav_env.features.readers import (
@@ -24,6 +24,7 @@ from semnav_env.features.readers import (
 )
 from semnav_env.maps import FloorPlan, save_floor_plan
 from semnav_env.maps.line_map_plan import plan_of_scene
+from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
 
@@ -42,13 +43,12 @@ class Arguments:
         poses: where the scans were taken: "log" takes the poses of the log; "match" matches each
             scan with the earlier ones, starts at (0, 0, 0), and uses wheel odometry if the log
             has it.
+        mount: pose of the lidar on the robot, x,y,heading in metres and radians, by which wheel
+            odometry becomes the motion of the lidar; only for "match".
         every: take only every Nth scan.
         limit: stop after this number of scans.
         picture: of the plan (.png, .pdf or .svg).
-        range_max: range from which a beam counts as no return, metres.
-        beam_spacing: degrees between beams, for FLASER lines with an unusual number of them.
-        angle_min: direction of the first beam in CSV and npz logs that leave it out, radians.
-        angle_increment: angle between the beams of such logs, radians.
+        geometry: what the log leaves unsaid of its scans.
         settings: limits of the extractor, metres and radians.
         map_settings: limits of the map, metres and radians.
         json: print the summary as JSON on stdout.
@@ -58,13 +58,11 @@ class Arguments:
     out: Path
     topic: str | None = None
     poses: Literal["log", "match"] = "log"
+    mount: str = "0,0,0"
     every: int = 1
     limit: int | None = None
     picture: Path | None = None
-    range_max: float = 50.0
-    beam_spacing: float | None = None
-    angle_min: float | None = None
-    angle_increment: float | None = None
+    geometry: OmitArgPrefixes[Geometry] = field(default_factory=Geometry)
     settings: ExtractorSettings = field(default_factory=ExtractorSettings)
     map_settings: MapSettings = field(default_factory=MapSettings)
     json: bool = False
@@ -72,28 +70,29 @@ class Arguments:
     def run(self) -> int:
         """Build the plan, and print what it holds."""
         self._check()
-        geometry = Geometry(self.range_max, self.beam_spacing, self.angle_min, self.angle_increment)
-        line_map = LineMap(self.map_settings)
+        mount = parse_pose(self.mount)
+        line_map, odometry = LineMap(self.map_settings), ScanOdometry()
         damage: TruncatedLogError | None = None
-        with open_log(self.log, geometry, self.topic) as log:
+        with open_log(self.log, self.geometry, self.topic) as log:
             try:
-                self._fill(line_map, log)
+                self._fill(line_map, odometry, log, mount)
             except TruncatedLogError as error:
                 damage = error
         plan = plan_of_scene(line_map.scene, self.out.stem, f"mapped from {self.log.name}")
-        self._write(plan, line_map)
+        self._write(plan, line_map, odometry.lost)
         if damage:
             raise damage
         return 0
 
-    def _fill(self, line_map: LineMap, log: ScanLog) -> None:
+    def _fill(self, line_map: LineMap, odometry: ScanOdometry, log: ScanLog, mount: Pose) -> None:
         stop = None if self.limit is None else (self.limit - 1) * self.every + 1
         records = islice(log, 0, stop, self.every)
-        placed = _matched(records) if self.poses == "match" else map(_as_logged, records)
+        matches = self.poses == "match"
+        placed = matched(records, odometry, mount) if matches else map(_as_logged, records)
         for record, pose in tracked(placed, lambda n: f"{n} scans", lambda: log.fraction):
             line_map.add(extract(record.scan, self.settings), record.scan, pose)
 
-    def _write(self, plan: FloorPlan, line_map: LineMap) -> None:
+    def _write(self, plan: FloorPlan, line_map: LineMap, lost: int) -> None:
         save_floor_plan(plan, self.out)
         if self.picture:
             from semnav_env.maps.draw import save_picture
@@ -102,6 +101,7 @@ class Arguments:
         counts = {
             "scans": line_map.scans,
             "repeated": line_map.repeated,
+            "lost": lost,
             "walls": len(line_map.walls),
             "doors": len(plan.doors),
             "out": str(self.out),
@@ -111,7 +111,8 @@ class Arguments:
         else:
             left_out = " ({repeated} more left out, taken where the one before was)"
             said = f"{{scans}} scans{left_out if line_map.repeated else ''}, {{walls}} walls"
-            print(f"{said}, {{doors}} doors\nwrote {{out}}".format(**counts))
+            no_match = "\n{lost} scans found no match and count as moved as guessed" if lost else ""
+            print(f"{said}, {{doors}} doors{no_match}\nwrote {{out}}".format(**counts))
             if self.picture:
                 print(f"wrote {self.picture}")
 
@@ -134,10 +135,19 @@ def _as_logged(record: LogRecord) -> tuple[LogRecord, Pose]:
     return record, record.pose
 
 
-def _matched(records: Iterator[LogRecord]) -> Iterator[tuple[LogRecord, Pose]]:
-    """The records with poses from their scans alone, in the frame of the first scan."""
-    odometry, wheels = ScanOdometry(), None
+def matched(
+    records: Iterator[LogRecord], odometry: ScanOdometry, mount: Pose
+) -> Iterator[tuple[LogRecord, Pose]]:
+    """The records with poses of the lidar from their scans, in the frame of the first scan.
+
+    Args:
+        records: of a log, in order.
+        odometry: by which scans are matched, before its first.
+        mount: pose of the lidar on the robot, to which wheel odometry belongs.
+    """
+    wheels: Pose | None = None
     for record in records:
-        moved = relative(wheels, record.odometry) if wheels and record.odometry else None
-        wheels = record.odometry
+        lidar = compose(record.odometry, mount) if record.odometry else None
+        moved = relative(wheels, lidar) if wheels and lidar else None
+        wheels = lidar
         yield record, odometry.update(record.scan, moved)

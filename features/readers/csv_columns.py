@@ -68,6 +68,19 @@ class Columns:
                 places[meaning] = matches[0]
         return cls(len(names), np.array(ranges), places)
 
+    def row(self, cells: list[bytes]) -> FloatArray:
+        """The numbers of a row, shape (count,); NaN in columns without a meaning.
+
+        Raises:
+            BadRecordError: too many cells or too few, or one that holds no number.
+        """
+        if len(cells) != self.count:
+            raise BadRecordError("not as many cells as the first row")
+        row = np.full(self.count, np.nan)
+        used = [*self.ranges.tolist(), *self.places.values()]
+        row[used] = _numbers([cells[place] for place in used])
+        return row
+
     def number(self, row: FloatArray, meaning: str) -> float | None:
         """What a row says of `meaning`; None if it has no such column."""
         return float(row[self.places[meaning]]) if meaning in self.places else None
@@ -93,7 +106,7 @@ def cells_of(line: bytes) -> list[bytes]:
     return line.removeprefix(_BYTE_ORDER_MARK).strip(b"\r\n ").split(separator)
 
 
-def numbers(cells: list[bytes]) -> FloatArray:
+def _numbers(cells: list[bytes]) -> FloatArray:
     """The numbers of a row, NaN for an empty cell.
 
     Raises:
@@ -106,12 +119,17 @@ def numbers(cells: list[bytes]) -> FloatArray:
 
 
 def is_header(cells: list[bytes]) -> bool:
-    """Whether a first row is one of names."""
+    """Whether a first row is one of names, or counts its columns from 0, as pandas does.
+
+    A column without a name before those that are counted is pandas' index.
+    """
     try:
-        numbers(cells)
+        _numbers(cells)
     except BadRecordError:
         return True
-    return False
+    named = cells if cells[0].strip() else cells[1:]
+    counted = [cell.strip() for cell in named]
+    return len(counted) > 1 and counted == [b"%d" % place for place in range(len(counted))]
 
 
 def _short(cell: bytes) -> str:

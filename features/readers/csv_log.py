@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.readers.csv_columns import Columns, cells_of, is_header, numbers
+from semnav_env.features.readers.csv_columns import Columns, cells_of, is_header
 from semnav_env.features.readers.geometry import Geometry, checked_scan
 from semnav_env.features.readers.log import BadRecordError, LogError, LogRecord
 from semnav_env.features.readers.text import TextFile, TextLog
@@ -94,9 +94,7 @@ class CsvLog(TextLog):
         return columns
 
     def _record(self, columns: Columns, cells: list[bytes], number: int) -> LogRecord:
-        if len(cells) != columns.count:
-            raise BadRecordError("not as many cells as the first row")
-        row = numbers(cells)
+        row = columns.row(cells)
         return LogRecord(self._scan(columns, row), columns.pose(row), None, number)
 
     def _scan(self, columns: Columns, row: FloatArray) -> Scan:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from semnav_env.belief.belief import Belief
@@ -10,7 +9,7 @@ from semnav_env.belief.tracker import NO_WAYS, BeliefTracker
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings, Scan
 from semnav_env.features.frames import ORIGIN, Pose, compose, relative, wrap_angle
-from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.features.lidar_spec import LidarSpec, most_beams
 from semnav_env.features.readers import LogError, LogRecord
 from semnav_env.grounding.ways import Way
 
@@ -25,7 +24,8 @@ def follow_log(
 ) -> Iterator[tuple[LogRecord, Belief]]:
     """The records of a log, each with the belief after it.
 
-    The odometry frame begins at the first record. A record without odometry counts with its pose.
+    The odometry frame begins at the first record. If that one has no odometry, the poses of all
+    records count instead: the two may have been counted from different places.
 
     Args:
         records: of a log, in order.
@@ -36,12 +36,14 @@ def follow_log(
         corrects_drift: whether walls that are seen again correct the odometry.
 
     Raises:
-        LogError: a record has neither odometry nor a pose, or scans of several lidars are mixed.
+        LogError: a record does not say where it was taken, or scans of several lidars are mixed.
     """
     tracker: BeliefTracker | None = None
-    start, last = ORIGIN, None
+    start, last, by_odometry = ORIGIN, None, True
     for record in records:
-        robot = _robot_pose(record, mount)
+        if tracker is None:
+            by_odometry = record.odometry is not None
+        robot = _robot_pose(record, mount, by_odometry)
         if tracker is None:
             tracker = BeliefTracker(lidar_of(record.scan), mount, extractor, corrects_drift)
             tracker.begin(command, ways)
@@ -64,10 +66,9 @@ def lidar_of(scan: Scan, rate_hz: float = 15.0) -> LidarSpec:
         scan: of that lidar.
         rate_hz: sweeps per second, where the log has no times.
     """
-    beams_per_turn = math.floor(math.tau / scan.angle_increment * (1.0 + 1e-9)) + 1
     return LidarSpec(
         "log",
-        min(len(scan.ranges), beams_per_turn),
+        min(len(scan.ranges), most_beams(scan.angle_increment)),
         wrap_angle(scan.angle_min),
         scan.angle_increment,
         scan.range_min,
@@ -76,12 +77,14 @@ def lidar_of(scan: Scan, rate_hz: float = 15.0) -> LidarSpec:
     )
 
 
-def _robot_pose(record: LogRecord, mount: Pose) -> Pose:
-    if record.odometry is not None:
-        return record.odometry
-    if record.pose is not None:
-        return compose(record.pose, relative(mount, ORIGIN))
-    raise LogError(f"scan {record.line} has neither odometry nor a pose: a command needs one")
+def _robot_pose(record: LogRecord, mount: Pose, by_odometry: bool) -> Pose:
+    given = record.odometry if by_odometry else record.pose
+    if given is None:
+        raise LogError(
+            f"scan {record.line} has no {'odometry' if by_odometry else 'pose'}: a command needs "
+            "odometry at every scan, or a pose at every scan"
+        )
+    return given if by_odometry else compose(given, relative(mount, ORIGIN))
 
 
 def _elapsed(before: float | None, now: float | None) -> float | None:

@@ -67,7 +67,7 @@ def test_a_first_scan_in_millimetres_is_refused(drive) -> None:
     assert described(tracker.update(ranges, odometry, velocity, bumps)) == believed[0]
 
 
-@pytest.mark.parametrize("value", [0.0, np.inf, np.nan, 65.535])
+@pytest.mark.parametrize("value", [0.0, np.inf, np.nan, 65.535, 9999.0])
 def test_a_first_scan_without_any_return_is_taken(value: float) -> None:
     tracker = BeliefTracker(lidar="tim561")
     tracker.begin(parse(COMMAND))

@@ -131,7 +131,7 @@ def test_a_bag_without_scans_lists_what_it_has(tmp_path, kind):
 BAD = {
     "angles that do not fit a sweep of one turn": dict(angle_increment=0.0),
     "limits of the range that are out of order": dict(range_min=20.0),
-    "ranges that are not metres": dict(ranges=np.full(90, 4000.0)),
+    "ranges that are not metres": dict(ranges=np.arange(4000.0, 4090.0)),
     "no beams": dict(ranges=[]),
     "angles that do not fit a sweep of one turn: angle_min=-135 looks like degrees; give radians": {
         "angle_min": -135.0,

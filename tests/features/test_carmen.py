@@ -112,7 +112,7 @@ BAD = {
     "FLASER: a field that is not a number": GOOD.replace("1.0", "x", 1),
     "FLASER: a pose that is not finite": flaser([1.0] * 180, (math.nan, 0, 0)),
     "FLASER: a time that is not finite": flaser([1.0] * 180, stamp=math.inf),
-    "FLASER: ranges that are not metres": flaser([3000.0] * 180),
+    "FLASER: ranges that are not metres": flaser([*range(3000, 3180)]),
     "ROBOTLASER1: angles that do not fit a sweep of one turn: angle_increment=1.5 looks like "
     "degrees; give radians": robotlaser([1.0] * 9, step=1.5),
     "ROBOTLASER1: fewer fields than its format has": "ROBOTLASER1 0 1 2 3",

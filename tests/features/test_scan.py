@@ -53,6 +53,30 @@ def test_bad_ranges_are_refused_with_the_reason(ranges: object, message: str) ->
         Scan(ranges, 0.0, 0.1)  # type: ignore[arg-type]
 
 
+WALL_AHEAD = 2.0 / np.cos(np.radians(np.arange(-35, 36)))
+"""Metres, as 71 beams see a wall 2 m ahead."""
+
+CODES = [9.99e2, 9999.0, 65535.0, 1e9, float(np.finfo(np.float32).max), np.inf]
+"""Numbers that drivers send for "no return"."""
+
+
+@pytest.mark.parametrize("code", CODES)
+@pytest.mark.parametrize("beams", [0, 10, 100, 1000])
+def test_a_number_that_means_no_return_is_not_taken_for_millimetres(code, beams) -> None:
+    scan = Scan(np.append(WALL_AHEAD, np.full(beams, code)), 0.0, 0.005)
+    assert scan.valid.sum() == len(WALL_AHEAD)
+    assert not Scan(np.full(100, code), 0.0, 0.01).valid.any()
+
+
+@pytest.mark.parametrize("code", [0.0, *CODES])
+@pytest.mark.parametrize("resolution", [1.0, 10.0])
+def test_millimetres_are_refused_whatever_means_no_return(code, resolution) -> None:
+    whole = np.round(1000.0 * WALL_AHEAD / resolution) * resolution
+    for beams in (0, 10, 100, 1000):
+        with pytest.raises(ValueError, match="look like millimetres"):
+            Scan(np.append(whole, np.full(beams, code)), 0.0, 0.005)
+
+
 @pytest.mark.parametrize(
     ("numbers", "message"),
     [

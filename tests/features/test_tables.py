@@ -118,7 +118,7 @@ def test_a_csv_that_cannot_be_read_says_why(tmp_path, text, message):
 
 
 def test_bad_rows_are_counted_and_cost_no_good_row(tmp_path):
-    text = "1,2,3\n1,2\n1,two,3\n4000,4000,4000\n1,2,3,4\n1,2,3\n"
+    text = "1,2,3\n1,2\n1,two,3\n4000,4100,4200\n1,2,3,4\n1,2,3\n"
     records, log = read(written(tmp_path, text), FORWARD)
     assert [record.line for record in records] == [1, 6]
     assert log.bad == {
@@ -194,7 +194,7 @@ def test_an_npz_may_leave_its_angles_to_be_given(tmp_path):
 
 def test_bad_rows_of_an_npz_are_counted(tmp_path):
     ranges = np.ones((4, 3))
-    ranges[1] = 5000.0
+    ranges[1] = [5000.0, 5100.0, 5200.0]
     poses = np.zeros((4, 3))
     poses[2, 1] = math.nan
     records, log = read(saved(tmp_path, ranges=ranges, poses=poses, **ANGLES))

@@ -1,0 +1,37 @@
+"""Options of all commands on logs, for what the logs leave unsaid of their beams."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.support.command_line import run
+
+RANGES = 1.0 / np.maximum(np.abs(np.sin(np.radians(np.arange(-80.0, 80.1, 2.0)))), 0.1)
+"""Metres, as 81 beams two degrees apart see a corridor."""
+
+
+@pytest.mark.parametrize("command", ["extract", "follow", "map build"])
+@pytest.mark.parametrize("kind", ["csv", "log"])
+def test_logs_without_angles_take_the_same_options_everywhere(capsys, tmp_path, command, kind):
+    path = tmp_path / f"scans.{kind}"
+    numbers = [f"{r:.2f}" for r in RANGES]
+    if kind == "csv":
+        header = ",".join(["x", "y", "theta", *(f"r{k}" for k in range(len(numbers)))])
+        rows = [header, *(f"{0.1 * k},0,0,{','.join(numbers)}" for k in range(4))]
+        said = ["--angle-min", "-1.396263", "--angle-increment", "0.034907"]
+    else:
+        rows = [f"FLASER 81 {' '.join(numbers)} {0.1 * k} 0 0 0 0 0 0 r 0" for k in range(4)]
+        said = ["--beam-spacing", "2"]
+    path.write_text("\n".join(rows) + "\n")
+    words = [*command.split(), path, *(["turn around"] if command == "follow" else [])]
+    words += ["--out", tmp_path / "plan.geojson"] if command == "map build" else []
+    assert run(capsys, *words)[0] == 2
+    code, text, _ = run(capsys, *words, *said)
+    assert (code, bool(text)) == (1 if command == "follow" else 0, True)
+
+
+def test_what_the_geometry_of_a_log_cannot_be_is_named(capsys, tmp_path):
+    code, _, err = run(capsys, "follow", tmp_path / "a.log", "turn around", "--range-max", "-1")
+    assert code == 2
+    assert "range_max is -1.0; it must be a number from 0.01" in err
