@@ -69,7 +69,8 @@ def extract(
             times slower.
 
     Returns:
-        The scene, features in beam order; those of a full circle begin at a break between walls.
+        The scene, features in beam order; those of a full circle begin at a break between walls,
+        its corridors at the corner nearest to the lidar.
         Empty where the scan shows nothing.
 
     Raises:

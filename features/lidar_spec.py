@@ -38,7 +38,8 @@ class LidarSpec:
         name: as in `lidar_spec(name)`.
         beams: how many.
         angle_min: direction of beam 0 in the lidar frame, radians in [-pi, pi].
-        angle_increment: angle between beams, radians; the beams span at most a full turn.
+        angle_increment: angle between beams, radians; the beams span at most a full turn. Less than
+            pi: the ray caster asks on which side of a segment's end a beam passes.
         range_min: metres; anything measured closer reads -inf (REP 117: too close to tell).
         range_max: metres; anything at or beyond it reads +inf (REP 117: no return).
         rate_hz: sweeps per second; sweep k is stamped k / rate_hz.
@@ -55,7 +56,7 @@ class LidarSpec:
     name: str
     beams: Annotated[int, Bounds(1, 100_000)]
     angle_min: Annotated[float, Bounds(-math.pi, math.pi, "rad")]
-    angle_increment: Annotated[float, Bounds(1e-6, math.tau, "rad")]
+    angle_increment: Annotated[float, Bounds(1e-6, 3.0, "rad")]
     range_min: Length = 0.05
     range_max: Annotated[float, Bounds(1e-3, 1e6, "m")] = 10.0
     rate_hz: Annotated[float, Bounds(0.1, 1000.0, "Hz")] = 15.0

@@ -12,14 +12,14 @@ import shapely
 from shapely import Polygon
 from tyro.conf import arg
 
-from semnav_env.approach import ApproachPlan, Surroundings, plan_approach
+from semnav_env.approach import THESIS_SETTINGS, ApproachPlan, Surroundings, plan_approach
 from semnav_env.approach.in_plan import side_towards
 from semnav_env.approach.poses import CandidatePose
 from semnav_env.features.frames import Pose, wrap_angle
 from semnav_env.features.plot import check_suffix
 from semnav_env.maps import FloorPlan, PlanDoor, load_floor_plan
 from semnav_env.maps.placement import placement_error
-from semnav_env.robots import RobotSpec, robot_spec
+from semnav_env.robots import SPOT, RobotSpec, robot_spec
 from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.outputs import check_file
 
@@ -32,6 +32,8 @@ CORNER_TOUCHES = "safe for the ellipse, but a corner of the body touches a wall"
 @dataclass(frozen=True)
 class Arguments:
     """Plan the pose before a door from which a robot can pass it, as Mes 2021 does.
+
+    For SPOT in villa_hall, without --from and --obstacle, it prints the tables of Mes 2021.
 
     Heading 0 looks along x. The exit code is 1 if no pose lets the robot stand before the door.
 
@@ -65,7 +67,9 @@ class Arguments:
         side = side_towards(floor_plan, door, start and start[:2])
         things = [_disc(text) for text in self.obstacle]
         around = Surroundings.of_plan(floor_plan).with_obstacles(*things)
-        plan = plan_approach(side, around, robot, start=start)
+        is_in_thesis = (self.map, robot, start, things) == ("villa_hall", SPOT, None, [])
+        settings = THESIS_SETTINGS if is_in_thesis else None
+        plan = plan_approach(side, around, robot, settings, start)
         behind = plan_approach(side.opposite, around, robot).best
         if self.plot is not None:
             from semnav_env.approach.draw import save_approach

@@ -180,6 +180,7 @@ def find_features(
         limit,
         counts[WALLS],
         counts[CORNERS],
+        beams_per_turn > 0,
         settings,
         scratch,
         features.corners,

@@ -31,6 +31,7 @@ def find_corridors(
     limit: float,
     walls: int,
     corner_count: int,
+    is_ring: bool,
     settings: Any,
     scratch: Any,
     corners: np.ndarray,
@@ -40,14 +41,19 @@ def find_corridors(
 
     An inner corner is probed along the extensions of its two walls; a potential corner
     straight on from its wall (180 degrees) and across from it (90 degrees). The nearest wall
-    that the probe meets counts and no other.
+    that the probe meets counts and no other. Of repeated probes the first stays. Where the walls
+    are a ring (a full circle), the nearest corner comes first, whatever the first beam.
 
     Returns:
         How many corridors were written.
     """
-    found = 0
+    found = nearest = 0
+    for c in range(corner_count if is_ring else 0):
+        a, b = corners[c], corners[nearest]
+        nearest = c if a.x**2 + a.y**2 < b.x**2 + b.y**2 else nearest
     square = math.cos(settings.corridor_angle_tolerance)
-    for c in range(corner_count):
+    for k in range(corner_count):
+        c = (nearest + k) % corner_count
         corner = corners[c]
         if corner.kind == OUTER or is_remote(corner, settings):
             continue

@@ -16,7 +16,7 @@ Few: TypeAlias = Annotated[int, Bounds(1, 1000)]
 
 @dataclass(frozen=True, slots=True)
 class ApproachSettings:
-    """The parameters of point planning; the defaults are those of Mes 2021, for SPOT.
+    """The parameters of point planning; the defaults are those of the text of Mes 2021, for SPOT.
 
     Attributes:
         free_side: side of the square that must be free before the door, metres: the diagonal of
@@ -35,8 +35,8 @@ class ApproachSettings:
         rounding: to which positions are rounded before they are measured, metres. The thesis does
             not say so, but Table 7.2 has the errors of rounded positions. A coordinate halfway
             between two steps stays: the table rounds some of these up and some down.
-        wraps_at: what is taken off an angle error that exceeds pi, radians. It should be 2 pi; the
-            errors of Table 7.2 need pi (docs/approach.md).
+        wraps_at: what is taken off an angle error that exceeds pi, radians: a whole turn. Table 7.2
+            needs half of one (`THESIS_SETTINGS`); errors then depend on how the map is turned.
     """
 
     free_side: Size = 1.25
@@ -50,7 +50,7 @@ class ApproachSettings:
     ellipse_length: Size = 1.2
     ellipse_width: Size = 0.6
     rounding: Annotated[float, Bounds(0.0, 1.0, "m")] = 0.01
-    wraps_at: Turn = math.pi
+    wraps_at: Turn = math.tau
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -74,3 +74,7 @@ class ApproachSettings:
             ellipse_length=robot.length + 0.10,
             ellipse_width=width,
         )
+
+
+THESIS_SETTINGS = ApproachSettings(wraps_at=math.pi)
+"""What gives Table 7.2 of Mes 2021, for SPOT in her hall; plan with the usual ones."""

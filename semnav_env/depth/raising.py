@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, TypeAlias
+from typing import Annotated, TypeAlias, assert_never
 
 import numpy as np
 import shapely
@@ -32,6 +32,8 @@ class RaiseSettings:
             the body passes where the plan says. Mes 2021, 6.3.5: jambs are about 0.10 m wide.
         jamb_depth: of the frame across the wall, metres, half of it on each side.
         furniture: height of what the plan calls furniture, metres: a desk.
+        person: height of people on the floor, metres. Somebody who lies on the back is as high as
+            the chest is deep, about 0.25 m, and is clothed; the plan does not say who sits.
     """
 
     ceiling: Height = 2.5
@@ -39,11 +41,12 @@ class RaiseSettings:
     jamb_width: Height = 0.10
     jamb_depth: Height = 0.12
     furniture: Height = 0.75
+    person: Height = 0.3
 
     def __post_init__(self) -> None:
         """Refuse what cannot be built."""
         check_fields(self)
-        for name in ("lintel", "furniture", "jamb_width", "jamb_depth"):
+        for name in ("lintel", "furniture", "person", "jamb_width", "jamb_depth"):
             value = getattr(self, name)
             require(value < self.ceiling, name, value, f"less than the ceiling, {self.ceiling} m")
 
@@ -57,7 +60,8 @@ def raise_plan(
     """Build the plan up to its ceiling.
 
     Args:
-        plan: walls, leaves, furniture and doors; its glass is invisible, as to the lidar.
+        plan: walls, leaves, furniture, people on the floor and doors; its glass is
+            invisible, as to the lidar.
         settings: heights and frames.
         windows: in walls of the plan.
         closets: besides the furniture of the plan.
@@ -88,20 +92,26 @@ def _surfaces(
                 for a, b in _segments(surface):
                     yield RaisedFace(upright(a, b, 0.0, settings.lintel), FaceKind.LEAF)
             case Material.FURNITURE:
-                yield from _furniture(surface, settings.furniture)
+                yield from _outlined(surface, settings.furniture, FaceKind.FURNITURE)
+            case Material.PERSON:
+                yield from _outlined(surface, settings.person, FaceKind.PERSON)
+            case Material.GLASS:
+                pass  # cameras see through it
+            case other:
+                assert_never(other)
 
 
 def _segments(surface: Surface) -> Iterator[tuple[Point, Point]]:
     return zip(surface.points, surface.points[1:], strict=False)
 
 
-def _furniture(surface: Surface, height: float) -> Iterator[RaisedFace]:
+def _outlined(surface: Surface, height: float, kind: FaceKind) -> Iterator[RaisedFace]:
     if surface.is_closed:
         for corners in prism(surface.points[:-1], height):
-            yield RaisedFace(corners, FaceKind.FURNITURE)
+            yield RaisedFace(corners, kind)
     else:
         for a, b in _segments(surface):
-            yield RaisedFace(upright(a, b, 0.0, height), FaceKind.FURNITURE)
+            yield RaisedFace(upright(a, b, 0.0, height), kind)
 
 
 def _wall(

@@ -38,7 +38,12 @@ def lies_behind(door: Door, other: Door, pose: Pose, least: float) -> bool:
     """Whether a door is on the far side of the line of another one, by more than `least` metres.
 
     `here` and `there` are signed distances from that line: of different signs on its two sides.
+
+    Raises:
+        ValueError: the other door has no width, so it has no line.
     """
+    if other.width == 0.0:
+        raise ValueError(f"the door at {other.start} has no width; its jambs must be two points")
     (ax, ay), (bx, by) = other.start, other.end
     dx, dy = (bx - ax) / other.width, (by - ay) / other.width
     here = dx * (pose[1] - ay) - dy * (pose[0] - ax)

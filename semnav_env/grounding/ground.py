@@ -58,6 +58,7 @@ def ground(
 
     Raises:
         GroundingError: the referent cannot be there; the message says what is.
+        ValueError: a door of the scene has no width, and another one may lie behind it.
     """
     here = begin if pose is None else pose
     situation = Situation(scene, begin, here, complete, after_corridor, way, rules=rules)

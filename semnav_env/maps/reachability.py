@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import combinations
 from typing import cast
 
 import shapely
@@ -24,6 +25,9 @@ misses."""
 END_DISTANCE = 1.0
 """Distance from the end of a corridor to the place that must be reachable, metres, as a robot that
 drives "to the end" stops before the wall."""
+
+BEND_CLEARANCE = 0.5
+"""Distance of the ends of a bent corridor from its walls, metres: narrower ones hold no body."""
 
 END_TOLERANCE = 0.6
 """Distance at which that place counts as reached, metres."""
@@ -98,12 +102,25 @@ def _line(door: PlanDoor) -> LineString:
 
 
 def _ends(corridor: Polygon) -> list[BaseGeometry]:
-    """Places on the axis of a corridor before its two ends; its middle if it is short."""
+    """Places on the axis of a corridor before its two ends; its middle if it is short.
+
+    The axis of a bent corridor, such as an L, leaves it: its ends are the two places that are
+    farthest apart.
+    """
     rectangle = cast(Polygon, corridor.minimum_rotated_rectangle)
     corners = list(rectangle.exterior.coords)[:4]
     if math.dist(corners[0], corners[1]) > math.dist(corners[1], corners[2]):
         corners = [*corners[1:], corners[0]]
     axis = LineString((middle_of(*corners[:2]), middle_of(*corners[2:])))
+    ends = [axis.interpolate(END_DISTANCE), axis.interpolate(-END_DISTANCE)]
     if axis.length < 2 * END_DISTANCE:
-        return [axis.centroid]
-    return [axis.interpolate(END_DISTANCE), axis.interpolate(-END_DISTANCE)]
+        ends = [axis.centroid]
+    return ends if all(map(corridor.covers, ends)) else _farthest_apart(corridor)
+
+
+def _farthest_apart(corridor: Polygon) -> list[BaseGeometry]:
+    """The two places farthest apart, away from the walls; any place if it is too narrow."""
+    places = shapely.points(shapely.get_coordinates(corridor.buffer(-BEND_CLEARANCE).convex_hull))
+    pairs = combinations(places.tolist(), 2)
+    apart = max(pairs, key=lambda pair: pair[0].distance(pair[1]), default=None)
+    return list(apart or [corridor.representative_point()])

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.approach import ApproachPlan, ApproachSettings, Surroundings, plan_approach
+from semnav_env.approach import THESIS_SETTINGS, ApproachPlan, Surroundings, plan_approach
 from semnav_env.approach.draw import draw_ellipse, draw_poses, draw_square
 from semnav_env.approach.in_plan import side_towards
 from semnav_env.approach.poses import CandidatePose
@@ -32,9 +32,10 @@ MARKS = "<!-- tables: python -m studies.figures approach -->\n", "<!-- end of ta
 
 
 def plans() -> dict[str, ApproachPlan]:
-    """The plan for each door of the hall, by its name."""
+    """The plan for each door of the hall as Mes has it, by its name."""
     around = Surroundings.of_plan(VILLA)
-    return {name: plan_approach(side_towards(VILLA, VILLA.door(name)), around) for name in DOORS}
+    sides = {name: side_towards(VILLA, VILLA.door(name)) for name in DOORS}
+    return {name: plan_approach(sides[name], around, settings=THESIS_SETTINGS) for name in DOORS}
 
 
 def tables() -> str:
@@ -85,7 +86,7 @@ def _draw(ax: Axes, step: str) -> None:
             best = plan.safe[:ELLIPSES]
             draw_poses(ax, best)
             for each in best:
-                draw_ellipse(ax, each.pose, ApproachSettings())
+                draw_ellipse(ax, each.pose, THESIS_SETTINGS)
     ax.set(xlim=VIEW[0], ylim=VIEW[1])
 
 

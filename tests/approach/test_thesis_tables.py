@@ -9,7 +9,7 @@ import math
 import pytest
 from shapely import LineString, Polygon, union_all
 
-from semnav_env.approach import ApproachPlan, Surroundings, plan_approach
+from semnav_env.approach import THESIS_SETTINGS, ApproachPlan, Surroundings, plan_approach
 from semnav_env.approach.in_plan import side_towards
 from semnav_env.maps import load_floor_plan
 from tests.support.paths import SHARED
@@ -80,7 +80,7 @@ DOORS = tuple(TABLE_7_1)
 
 def planned(name: str) -> ApproachPlan:
     side = side_towards(VILLA, VILLA.door(name))
-    return plan_approach(side, Surroundings.of_plan(VILLA))
+    return plan_approach(side, Surroundings.of_plan(VILLA), settings=THESIS_SETTINGS)
 
 
 @pytest.mark.parametrize("name", DOORS)
@@ -113,6 +113,12 @@ def test_table_7_2_has_this_order_up_to_ties(name: str) -> None:
         assert found.area_error == pytest.approx(area_error, abs=1e-4)
         if angle_error is not None:
             assert found.angle_error == pytest.approx(angle_error, abs=0.01)
+
+
+@pytest.mark.parametrize("name", DOORS)
+def test_her_wrap_changes_no_best_pose_of_her_hall(name: str) -> None:
+    side = side_towards(VILLA, VILLA.door(name))
+    assert plan_approach(side, Surroundings.of_plan(VILLA)).best == planned(name).best
 
 
 def test_of_her_best_poses_one_lets_the_body_touch_the_walls() -> None:

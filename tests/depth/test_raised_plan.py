@@ -73,6 +73,20 @@ def test_one_looks_over_furniture_that_is_lower():
     assert ahead(raised, -1.5, 1.7) == pytest.approx(1.0)
 
 
+def test_people_on_the_floor_are_seen_and_looked_over():
+    body = Surface(((1.0, 1.0), (1.5, 1.0), (1.5, 2.0), (1.0, 2.0), (1.0, 1.0)), Material.PERSON)
+    raised = raise_plan(walled_door(body))
+    assert ahead(raised, 1.5, 0.25) == pytest.approx(1.0)
+    assert ahead(raised, 1.5, 0.35) == pytest.approx(2.0)
+    assert FaceKind.PERSON in seen(raised).kinds
+
+
+@pytest.mark.parametrize("material", [m for m in Material if m is not Material.GLASS])
+def test_what_the_lidar_sees_depth_cameras_see(material):
+    thing = Surface(((1.0, 1.0), (1.0, 2.0)), material)
+    assert ahead(raise_plan(walled_door(thing)), 1.5, 0.2) == pytest.approx(1.0)
+
+
 def test_an_opening_that_is_wider_than_doors_has_no_frame():
     wide = PlanDoor("gap", (2.0, -1.0), (2.0, 1.0))
     raised = raise_plan(walled_door(door=wide))

@@ -23,6 +23,7 @@ quick = settings(max_examples=40, deadline=None)
 BEAMS = 720
 seeds = st.integers(0, 2**32 - 1)
 seams = st.integers(0, BEAMS - 1)
+angles = st.floats(-math.pi, math.pi)
 
 
 def circle(segments: FloatArray, pose: Pose, seed: int | None = None, sigma: float = 0.02) -> Scan:
@@ -55,6 +56,18 @@ def test_the_scene_does_not_depend_on_the_first_beam(
     opening: Opening, seed: int, seam: int
 ) -> None:
     scan = circle(opening.segments, opening.pose, seed)
+    expected, found = places(extract(scan)), places(extract(begun_at(scan, seam)))
+    assert len(found) == len(expected)
+    np.testing.assert_allclose(np.array(found), np.array(expected), atol=1e-5)
+
+
+@quick
+@given(st.floats(0.0, 8.0), angles, seeds, seams)
+def test_corridors_do_not_depend_on_the_first_beam(
+    x: float, heading: float, seed: int, seam: int
+) -> None:
+    """In a hall with doors, where many corners show the same corridor."""
+    scan = circle(heidelberg()[0], (x, 0.0, heading), seed)
     expected, found = places(extract(scan)), places(extract(begun_at(scan, seam)))
     assert len(found) == len(expected)
     np.testing.assert_allclose(np.array(found), np.array(expected), atol=1e-5)

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.features.frames import Pose, compose, wrap_angle
-from semnav_env.features.scene import Scene
-from semnav_env.grounding import GroundingError, ReachGoal, StopGoal
-from tests.support.grounded import DOORS, QUARTER, goal_of, middle
+from semnav_env.features.scene import Door, Scene, Wall
+from semnav_env.grounding import GroundingError, ReachGoal, StopGoal, ground
+from tests.support.grounded import DOORS, QUARTER, START, clause, goal_of, middle
 from tests.support.hand_made import (
     L_LEFT,
     L_RIGHT,
@@ -164,3 +164,10 @@ def test_mirroring_the_scene_mirrors_the_goal(side: str, nth: str, x: Pose) -> N
 
 def test_stop_is_here() -> None:
     assert isinstance(goal_of("stop", Scene(), (1.0, 2.0, 3.0)), StopGoal)
+
+
+def test_a_door_without_width_is_named_where_its_line_is_asked_for() -> None:
+    hall = (Wall((0.0, 1.0), (9.0, 1.0)), Wall((0.0, -1.0), (9.0, -1.0)))
+    doors = (Door((2.0, 1.0), (2.0, 1.0)), Door((4.0, 1.0), (5.0, 1.0)))
+    with pytest.raises(ValueError, match=r"the door at \(2.0, 1.0\) has no width"):
+        ground(clause("leave the room"), Scene(hall, doors), START)

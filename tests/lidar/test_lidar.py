@@ -57,6 +57,13 @@ def test_a_spec_with_an_impossible_number_names_it(name: str, value: float) -> N
         replace(TIM561, **{name: value})
 
 
+@pytest.mark.parametrize("step", [math.pi, 4.0, 5.0])
+def test_neighbouring_beams_are_less_than_half_a_turn_apart(step: float) -> None:
+    assert LidarSpec("wide", 2, -1.5, 3.0).angles[1] == pytest.approx(1.5)
+    with pytest.raises(ValueError, match=f"angle_increment is {step}.*; it must be .* 3"):
+        LidarSpec("wide", 2, -1.5, step)
+
+
 @given(coordinates, st.tuples(st.floats(-0.5, 0.5), st.floats(-0.3, 0.3), st.floats(-3, 3)))
 @settings(deadline=None)
 def test_a_mounted_lidar_sees_what_one_at_its_place_sees(robot: Pose, mount: Pose) -> None:
@@ -114,5 +121,6 @@ def test_the_error_of_a_scan_is_that_of_its_spec() -> None:
 
 def test_any_number_of_beams_up_to_a_full_turn_is_scanned() -> None:
     for beams in (1, 2, 3, 5000):
-        spec = LidarSpec("any", beams, -math.pi, math.tau / max(beams - 1, 1))
+        step = min(math.tau / max(beams - 1, 1), 3.0)
+        spec = LidarSpec("any", beams, -math.pi, step)
         assert np.isfinite(Lidar(empty_hall(), spec).ranges((5.0, 3.0, 0.1), KEY)).all()

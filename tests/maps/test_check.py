@@ -96,6 +96,29 @@ def test_a_corridor_that_is_blocked_is_found_with_the_place() -> None:
     assert fault.where == pytest.approx((7.0, 1.0))
 
 
+def bent_corridor(*more: Surface) -> FloorPlan:
+    """A corridor 2 m wide, 12 m to the east and from there 8 m to the north."""
+    ring = (0, 0), (12, 0), (12, 10), (10, 10), (10, 2), (0, 2), (0, 0)
+    hall = Region("hall", Polygon(ring))
+    return FloorPlan("bent", (line(*ring), *more), (), (), (hall,), (), hall.polygon)
+
+
+@pytest.mark.parametrize("angle", [0.0, 30.0, 90.0, 135.0])
+def test_both_ends_of_a_bent_corridor_are_reached(angle: float) -> None:
+    (surface,), (hall,) = bent_corridor().surfaces, bent_corridor().corridors
+    ring = shapely.affinity.rotate(hall.polygon, angle, (0, 0))
+    walls = replace(surface, points=tuple(ring.exterior.coords))
+    turned = FloorPlan("bent", (walls,), (), (), (Region("hall", ring),), (), ring)
+    assert found(turned) == []
+
+
+def test_a_bent_corridor_that_is_blocked_is_found_with_the_end() -> None:
+    for block, end in (((10.01, 7, 11.6, 7.5), (11.5, 9.5)), ((3, 0.01, 3.5, 1.6), (0.5, 0.5))):
+        (fault,) = check(bent_corridor(cabinet(*block)))
+        assert fault.problem.endswith("cannot get to this end of the corridor")
+        assert fault.where == pytest.approx(end, abs=1.1)
+
+
 def test_what_stands_in_a_doorway_is_found() -> None:
     plan = room_at_a_corridor(0.9, cabinet(3.95, 2.1, 4.05, 2.2))
     assert "door: furniture at (4.05, 2.20) stands in this doorway" in found(plan)

@@ -70,7 +70,7 @@ def test_lines_polylines_and_blocks_are_walls_in_header_units(
 ) -> None:
     plan, report = import_map(dxf(tmp_path / "a.dxf", unit, metres), drawing=LAYERS)
     assert is_as_drawn(plan)
-    assert report.left_out == ("1 TEXT",)
+    assert report.left_out == ("layer A-DOOR: 1 of 2 lines give no door", "1 TEXT")
 
 
 def test_a_hinge_and_the_facing_jamb_make_a_door(tmp_path: Path) -> None:
@@ -78,6 +78,26 @@ def test_a_hinge_and_the_facing_jamb_make_a_door(tmp_path: Path) -> None:
     (door,) = plan.doors
     assert door.open
     assert {door.start, door.end} == {(2.0, 1.0), (2.0, 2.0)}
+
+
+def test_each_layer_has_doors_from_its_arcs_or_from_its_lines(tmp_path: Path) -> None:
+    """Swinging doors on one layer, a sliding door and a line that is too long on another."""
+    path = dxf(tmp_path / "a.dxf")
+    document = ezdxf.readfile(path)
+    for start in ((8.5, -9), (7, -8)):
+        document.modelspace().add_line(start, (9.5, -9), dxfattribs={"layer": "A-SLIDE"})
+    document.saveas(path)
+    both = Drawing(walls=("A-WALL",), doors=("A-DOOR", "A-SLIDE"))
+    plan, report = import_map(path, drawing=both)
+    assert [{door.start, door.end} for door in plan.doors] == [
+        {(2.0, 1.0), (2.0, 2.0)},
+        {(1.5, 0.0), (2.5, 0.0)},
+    ]
+    assert report.left_out == (
+        "layer A-DOOR: 1 of 2 lines give no door",
+        "layer A-SLIDE: 1 of 2 lines give no door",
+        "1 TEXT",
+    )
 
 
 @given(st.floats(-math.pi, math.pi), st.floats(0.5, 2.0), st.sampled_from((1, -1)))

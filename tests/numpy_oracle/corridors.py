@@ -18,8 +18,11 @@ from tests.numpy_oracle.walls import Piece
 def find_corridors(
     sweep: Sweep, walls: list[Piece], corners: list[FoundCorner], settings: ExtractorSettings
 ) -> list[CorridorProbe]:
-    """Probe from inner and potential corners (Barbret sections 3.3, 4.8)."""
+    """Probe from inner and potential corners (Barbret 3.3, 4.8); in a ring the nearest first."""
     found: list[CorridorProbe] = []
+    if sweep.is_ring:
+        nearest = min(range(len(corners)), key=lambda c: math.hypot(*corners[c].point), default=0)
+        corners = corners[nearest:] + corners[:nearest]
     for corner in corners:
         if corner.kind == CornerKind.OUTER:
             continue

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from semnav_env.scripts.main import main
+from tests.approach.test_thesis_tables import DOORS, TABLE_7_2
 
 
 def said(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]:
@@ -30,6 +31,30 @@ def test_the_poses_are_printed_as_json(capsys: pytest.CaptureFixture[str]) -> No
     assert len(found["refused"]) == 20
     assert all(each["refusal"] for each in found["refused"])
     assert found["after"]["x"] < -6.2
+
+
+@pytest.mark.parametrize("door", DOORS)
+def test_in_her_hall_the_command_prints_the_table_of_mes(
+    capsys: pytest.CaptureFixture[str], door: str
+) -> None:
+    poses = json.loads(said(capsys, "--door", door, "--json")[1])["poses"]
+    for (_, _, _, area_error, angle_error), found in zip(TABLE_7_2[door], poses, strict=False):
+        assert found["area_error"] == pytest.approx(area_error, abs=1e-4)
+        if angle_error is not None:
+            assert found["angle_error"] == pytest.approx(angle_error, abs=0.01)
+
+
+@pytest.mark.parametrize("more", [("--obstacle", "-3,4.3,0.1"), ("--from", "1.3,2,0")], ids=str)
+def test_elsewhere_the_command_measures_angles_right(
+    capsys: pytest.CaptureFixture[str], more: tuple[str, ...]
+) -> None:
+    """At (1.35, 0.63) the kitchen's door is straight ahead at -pi/2."""
+    poses = json.loads(said(capsys, "--door", "kitchen", "--json", *more)[1])["poses"]
+    straight = [each for each in poses if (each["x"], each["y"]) == (1.35, 0.63)]
+    assert len(straight) == 5
+    for each in straight:
+        off = abs(math.remainder(each["heading"] + math.pi / 2, math.tau))
+        assert each["angle_error"] == pytest.approx(off, abs=1e-4)
 
 
 def test_the_text_tells_the_safe_ellipse_from_the_safe_body(

@@ -42,7 +42,8 @@ class Drawing:
     Attributes:
         scale: metres a unit of the drawing, if the file does not say (0.001 for millimetres).
         walls: layers with walls; all but those of doors if none are named.
-        doors: layers with doors: arcs that leaves swing along, or lines from jamb to jamb.
+        doors: layers with doors: arcs that leaves swing along, or on layers without an arc lines
+            from jamb to jamb.
 
     Raises:
         ValueError: a scale out of range, or layers that are no texts; names it.
@@ -101,36 +102,48 @@ def plan_of_strokes(
         )
     plan, report = plan_of_segments(rows, path, kind)
     drawn = [stroke for stroke in strokes if stroke.layer in drawing.doors]
-    plan, lost = with_doors(plan, door_labels(drawn, corner, plan.solids), None)
+    labels, passed = door_labels(drawn, corner, plan.solids)
+    plan, lost = with_doors(plan, labels, None)
     unused = [name for name in layers if name not in (*chosen, *drawing.doors)]
     left = tuple(f"layer {name}: {layers[name]} lines" for name in sorted(unused))
     taken = report.taken | ({"doors": len(plan.doors)} if drawing.doors else {})
     told = (f"lower left corner, now the origin, at {corner[0]:g}, {corner[1]:g} m", *notes)
-    return ImportedPlan(
-        plan, replace(report, taken=taken, left_out=report.left_out + left + lost, notes=told)
-    )
+    left_out = report.left_out + left + passed + lost
+    return ImportedPlan(plan, replace(report, taken=taken, left_out=left_out, notes=told))
 
 
 def door_labels(
     strokes: Sequence[Stroke], corner: FloatArray, walls: STRtree
-) -> tuple[DoorLabel, ...]:
-    """Doors from the arcs that leaves swing along; without any, from lines from jamb to jamb.
+) -> tuple[tuple[DoorLabel, ...], tuple[str, ...]]:
+    """Doors from the arcs that leaves swing along; from lines from jamb to jamb on other layers.
+
+    Returns:
+        The doors, and for each layer how many of its lines give none.
+    """
+    with_arcs = {stroke.layer for stroke in strokes if stroke.hinge is not None}
+    drawn = [each for each in strokes if each.hinge is not None or each.layer not in with_arcs]
+    found = [_door_label(stroke, f"door {k}", corner, walls) for k, stroke in enumerate(drawn, 1)]
+    layers = Counter(stroke.layer for stroke in strokes)
+    used = Counter(each.layer for each, label in zip(drawn, found, strict=True) if label)
+    passed = sorted((layers - used).items())
+    lines = tuple(f"layer {name}: {n} of {layers[name]} lines give no door" for name, n in passed)
+    return tuple(label for label in found if label), lines
+
+
+def _door_label(stroke: Stroke, name: str, corner: FloatArray, walls: STRtree) -> DoorLabel | None:
+    """The door that an arc or a line shows; None if it has not the width of one.
 
     A leaf may be drawn open or closed, so of the two ends of its arc that is taken for the other
     jamb from which the walls show a gap to the hinge.
     """
-    swings = [stroke for stroke in strokes if stroke.hinge is not None]
-    pairs: list[list[tuple[Point, Point]]] = []
-    for stroke in swings or strokes:
-        first, last = (_point(stroke.points[k] - corner) for k in (0, -1))
-        hinge = None if stroke.hinge is None else _point(np.array(stroke.hinge) - corner)
-        pairs.append([(first, last)] if hinge is None else [(hinge, first), (hinge, last)])
-    labels = []
-    for number, ways in enumerate(pairs, 1):
-        right = [way for way in ways if LEAF_WIDTHS[0] <= math.dist(*way) <= LEAF_WIDTHS[1]]
-        doors = [DoorLabel(f"door {number}", *way) for way in right]
-        labels += sorted(doors, key=lambda door: not _is_open(door, walls))[:1]
-    return tuple(labels)
+    first, last = (_point(stroke.points[k] - corner) for k in (0, -1))
+    ways = [(first, last)]
+    if stroke.hinge is not None:
+        hinge = _point(np.array(stroke.hinge) - corner)
+        ways = [(hinge, first), (hinge, last)]
+    right = [way for way in ways if LEAF_WIDTHS[0] <= math.dist(*way) <= LEAF_WIDTHS[1]]
+    doors = [DoorLabel(name, *way) for way in right]
+    return min(doors, key=lambda door: not _is_open(door, walls), default=None)
 
 
 def _is_open(door: DoorLabel, walls: STRtree) -> bool:
