@@ -107,11 +107,12 @@ class Searcher:
         if self._view is not None:
             self.chart.tries.ravel()[self._view.cells] += 1
             self._refuse(self._view, self._settings.refused_distance)
-        if self.done:
-            self._start = self.target = None  # it cannot get back: here it stays
+        back = self._way_back() if self.stuck else None
+        if self.done and self.stuck and back is None:
+            self._start = None  # it cannot get back: here it stays
         self._drop()
-        if self.stuck and not self.done:
-            self.target = self._way_back()
+        if back is not None:
+            self.target, self.done = back, False
 
     def _way_back(self) -> Pose | None:
         """Where it was when it was last so far from here; what it tries next lies behind that."""
@@ -216,9 +217,13 @@ class Searcher:
             return
         robot = self._looker.robot
         body = (robot, pose) if self._failed else None
-        ways = ways_from(self.chart, pose[:2], robot.width / 2 + 0.03, body)
+        half_width = robot.width / 2 + 0.03
+        ways = ways_from(self.chart, pose[:2], half_width, body)
         if suspect is None:
             self._view = self._next_view(ways, pose)
+            if self._view is None and body is not None:  # the map's walls are too thick
+                ways = ways_from(self.chart, pose[:2], half_width)
+                self._view = self._next_view(ways, pose)
             self.target = None if self._view is None else self._view.pose
             suspect = None if self.target else self._next_suspect(pose, people, near=False)
         while suspect is not None:

@@ -68,7 +68,7 @@ class SearchSettings:
     patience: Count = 50
     long_patience: Count = 450
     retreat: Length = 1.5
-    settle: Count = 6
+    settle: Count = 15
     person_range: tuple[Length, Length] = (0.9, 1.7)
 
     def __post_init__(self) -> None:

@@ -88,6 +88,7 @@ def reach(
     headings: int = HEADING_COUNT,
     start: Point | None = None,
     turn: float = math.pi,
+    border: int = BORDER_CELLS,
 ) -> Reach:
     """The cells that a rectangular body reaches from the middle of the largest corridor.
 
@@ -102,13 +103,15 @@ def reach(
         start: where the body is instead, (x, y) in metres.
         turn: half a turn, or a whole one where it matters which end is the front, radians. At the
             start the body may have any heading that is free.
+        border: cells of the grid around the plan. No place counts that is nearer to the rim of the
+            grid than the body's corners reach, so a body right inside an outer wall needs more.
     """
     west, south, east, north = plan.boundary.bounds
     spacing = max(spacing, math.sqrt((east - west) * (north - south) / MAX_CELLS))
-    origin = west - BORDER_CELLS * spacing, south - BORDER_CELLS * spacing
+    origin = west - border * spacing, south - border * spacing
     shape = (
-        math.ceil((north - south) / spacing) + 2 * BORDER_CELLS,
-        math.ceil((east - west) / spacing) + 2 * BORDER_CELLS,
+        math.ceil((north - south) / spacing) + 2 * border,
+        math.ceil((east - west) / spacing) + 2 * border,
     )
     blocked = _drawn(plan.segments, *origin, spacing, *shape)
     start = start or _start(plan)

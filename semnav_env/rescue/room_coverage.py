@@ -49,7 +49,7 @@ class RoomCoverage:
             self.floor[shapely.contains_xy(piece, *places)] = len(regions)
         self._can_be_seen = visible_floor(plan, robot, detector, self.grid)
         self._totals = self._counts(self._can_be_seen)
-        self.shares = self.shares_of(self._can_be_seen)
+        self.shares = _shares(self._totals * 0.0, self._totals)
 
     def look(self, eye: Pose, rays: FloatArray, ranges: FloatArray, range_max: float) -> float:
         """Take a look into account; returns the area that was seen for the first time, m^2.
@@ -63,13 +63,12 @@ class RoomCoverage:
         before = self.shares
         grid = self.grid.west, self.grid.south, CELL
         mark_in_view(self._seen, *grid, eye, rays, ranges, range_max)
-        self.shares = self.shares_of(self._can_be_seen)
+        self.shares = _shares(self._counts(self._seen & self._can_be_seen), self._totals)
         return float((self.shares - before) @ self._totals) * CELL**2
 
     def shares_of(self, cells: Cells) -> FloatArray:
         """Of some cells of each room the share that has been seen, 1 of none, shape (n,)."""
-        seen, there = self._counts(self._seen & cells), self._counts(cells)
-        return np.where(there > 0, seen / np.maximum(there, 1.0), 1.0)
+        return _shares(self._counts(self._seen & cells), self._counts(cells))
 
     @property
     def seen_cells(self) -> FloatArray:
@@ -87,3 +86,8 @@ class RoomCoverage:
         """How many of some cells of floor lie in each room."""
         found = np.bincount(self.floor[cells > 0], minlength=len(self.names) + 1)
         return found[: len(self.names)].astype(np.float64)
+
+
+def _shares(seen: FloatArray, there: FloatArray) -> FloatArray:
+    """Seen cells of those there are, 1 where there is none."""
+    return np.where(there > 0, seen / np.maximum(there, 1.0), 1.0)

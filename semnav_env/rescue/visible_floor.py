@@ -24,6 +24,9 @@ STANDPOINT = 0.2
 HEADINGS = 24
 """Number of headings of the body there, over a whole turn: its front sees, not its back."""
 
+BORDER = 32
+"""Cells around the plan, 1.6 m: the body may stand right inside the outer walls."""
+
 ALL_AROUND = LidarSpec("all around", 720, -math.pi, math.radians(0.5), range_min=0.0)
 """Rays of a look all around."""
 
@@ -72,7 +75,8 @@ def visible_floor(
         detector: its range and field of view.
         grid: cells of the floor.
     """
-    area = reach(plan, robot.length, robot.width, headings=HEADINGS, turn=math.tau)
+    size = robot.length, robot.width
+    area = reach(plan, *size, headings=HEADINGS, turn=math.tau, border=BORDER)
     around = Lidar(plan, replace(ALL_AROUND, range_max=detector.range_max))
     rays, seen = ALL_AROUND.directions, grid.nothing()
     bearings = ALL_AROUND.angles

@@ -31,7 +31,8 @@ def passage_with_a_slit() -> FloorPlan:
     west, east, deep = 3.9, 4.1, 3.0
     outline = shapely.box(0.0, 0.0, 8.0, 0.8).union(shapely.box(west, 0.8, east, deep))
     walls = line(*outline.exterior.coords)
-    return FloorPlan("slit", (walls,), (), (Region("slit", outline),), (), (), outline)
+    corridor = Region("passage", shapely.box(0.0, 0.0, 8.0, 0.8))
+    return FloorPlan("slit", (walls,), (), (), (corridor,), (), shapely.box(-2.0, -2.0, 10.0, 5.0))
 
 
 def flag(cells: Cells, grid: FloorGrid, x: float, y: float) -> bool:
