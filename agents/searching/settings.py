@@ -54,7 +54,7 @@ class SearchSettings:
     clearance: Length = 0.05
     candidate_spacing: Length = 0.35
     rays: Count = 60
-    fine_spacing: Length = 0.15
+    fine_spacing: Length = 0.10
     fine_rays: Count = 120
     least_gain: Annotated[float, Bounds(0.0, 1e6)] = 0.06
     least_share: Share = 0.01
