@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from semnav_env.agents.base import steps
+from semnav_env.agents.evaluation.leaderboard import wilson_interval
 from semnav_env.agents.registry import make_agent
 from semnav_env.rescue.environment import search_and_rescue
 from semnav_env.rescue.person_search import PersonSearch
@@ -112,6 +113,7 @@ def summary(searches: Sequence[Search]) -> dict[str, float]:
     """The figures of some searches, of which there must be at least one; shares from 0 to 1."""
     rooms = [share for each in searches for share in each.coverage]
     errors = [error for each in searches for error in each.report_errors]
+    covered = [share >= 0.95 for share in rooms]
     around = [share for each in searches for share in each.around]
     metres = sum(each.metres for each in searches)
     seconds = np.array([each.seconds for each in searches])
@@ -120,7 +122,9 @@ def summary(searches: Sequence[Search]) -> dict[str, float]:
         "success": _mean([each.success for each in searches]),
         "rooms": len(rooms),
         "all rooms covered": _mean([min(each.coverage) >= 0.95 for each in searches]),
-        "rooms covered": _mean([share >= 0.95 for share in rooms]),
+        "rooms covered": _mean(covered),
+        "rooms covered, 95 % from": wilson_interval(_mean(covered), len(covered))[0],
+        "rooms covered, 95 % to": wilson_interval(_mean(covered), len(covered))[1],
         "least coverage": min(rooms),
         "mean coverage": _mean(rooms),
         "rooms covered, looking all around from the middle": _mean([s >= 0.95 for s in around]),
