@@ -10,7 +10,8 @@ import numpy as np
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.reach import REACHED, Reach, reach
+from semnav_env.maps.pose_flood import REACHED
+from semnav_env.maps.reach import Reach, reach
 from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.robots import RobotSpec

@@ -10,6 +10,7 @@ import shapely
 from semnav_env.features.frames import compose
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps import FloorPlan, PlanDoor, Region, Surface, generate_office
+from semnav_env.maps.pose_flood import REACHED
 from semnav_env.maps.reach import reach
 from semnav_env.rescue import PersonDetectorSettings
 from semnav_env.rescue.field_of_view import Cells, mark_in_view
@@ -56,7 +57,7 @@ def test_what_is_seen_from_a_pose_that_is_reached_counts() -> None:
     grid = FloorGrid.over(plan)
     seen, rng = visible_floor(plan, SPOT, DETECTOR, grid), np.random.default_rng(0)
     area = reach(plan, SPOT.length, SPOT.width, headings=36, turn=math.tau)
-    poses = np.argwhere(area.states == 2)
+    poses = np.argwhere(area.states == REACHED)
     spec = view_spec(DETECTOR)
     camera, looked = Lidar(plan, spec, SPOT.lidar_mount), grid.nothing()
     for row, column, k in poses[rng.integers(len(poses), size=300)].tolist():
