@@ -17,7 +17,7 @@ from semnav_env.agents.planning.obstacles import (
 )
 from semnav_env.agents.planning.planner import PlannerSettings
 from semnav_env.agents.searching.house_plan import KNOWN_MARGIN, HousePlan
-from semnav_env.agents.searching.search_map import FREE, SearchMap
+from semnav_env.agents.searching.search_map import FREE, SearchMap, without_lost
 from semnav_env.agents.searching.searcher import Searcher
 from semnav_env.agents.searching.settings import SearchSettings
 from semnav_env.agents.searching.views import Looker
@@ -53,6 +53,9 @@ LASTING = MemorySettings(travel=60.0, turned=120.0, scans=6000, capacity=16384)
 CAREFUL = PlannerSettings(margins=(0.10, 0.06, 0.04))
 """A search need not squeeze in everywhere: what cannot be reached with a margin is left out."""
 
+SQUEEZING = PlannerSettings()
+"""For a robot that is stuck: it got in, so it may get out without the margin."""
+
 NO_DOORS: FloatArray = np.empty((0, 4))
 
 
@@ -87,7 +90,6 @@ class Explorer:
             Pilot(RobotSpec(**info["robot"])),
             LidarSpec(**info["lidar"]),
         )
-        self._pilot.driver.planner = CAREFUL
         self._detector = PersonDetectorSettings(**info["person_detector"])
         self._beams = self._lidar.directions
         self._obstacles.reset()
@@ -109,6 +111,7 @@ class Explorer:
         target = self._searcher.update(pose, people)
         if target is None:
             return self._pilot.act(self._remembered, NO_DOORS, _stop(), pose, velocity)
+        self._pilot.driver.planner = SQUEEZING if self._searcher.stuck else CAREFUL
         goal = SeenGoal(GoalKind.REACH, relative(pose, target), None)
         return self._pilot.act(self._points(observation, pose), NO_DOORS, goal, pose, velocity)
 
@@ -122,7 +125,8 @@ class Explorer:
             self._obstacles.update(eye, scan, self._beams, self._lidar.range_max)
         if self._steps % UPDATE_EVERY == 0:
             self._remembered = self._obstacles.points()
-            ranges, detector = scan.astype(np.float64), self._detector
+            detector = self._detector
+            ranges = without_lost(scan.astype(np.float64), self._lidar.range_max)
             self._chart.update(eye, self._beams, ranges, detector.field_of_view, detector.range_max)
             if self._house is not None and self._steps % (10 * UPDATE_EVERY) == 0:
                 seen = self._chart.has(FREE) | (self._chart.hits > 0)

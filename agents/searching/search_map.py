@@ -63,7 +63,7 @@ class SearchMap:
         Args:
             eye: believed pose of lidar and detector.
             directions: unit vectors of the beams, shape (n, 2).
-            ranges: metres, shape (n,); no return is anything not below the lidar's range.
+            ranges: metres, shape (n,); the lidar's range for no return, NaN for no beam.
             fov: field of view of the detector, radians.
             view: range of the detector, metres.
         """
@@ -98,6 +98,20 @@ class SearchMap:
             np.asarray(self.lower, np.float64) + self.settings.spacing * cells[:, ::-1]
         )
         return points
+
+
+def without_lost(ranges: FloatArray, range_max: float) -> FloatArray:
+    """Ranges with NaN for the beams that do not return though a neighbour does.
+
+    Most likely they got lost: what they would have passed has not been seen.
+
+    Args:
+        ranges: metres, `range_max` for no return, shape (n,).
+        range_max: of the lidar, metres.
+    """
+    none = ranges >= range_max
+    beside = np.hstack((True, none[:-1])) & np.hstack((none[1:], True))
+    return np.where(none & ~beside, np.nan, ranges)
 
 
 @kernel

@@ -12,13 +12,12 @@ from semnav_env.agents.searching.views import (
     Looker,
     View,
     ViewGrid,
-    Ways,
     best_view,
     place_before,
     shown_from,
     wanted_cells,
-    ways_from,
 )
+from semnav_env.agents.searching.ways import Ways, ways_from
 from semnav_env.features.frames import Point, Pose, wrap_angle
 
 SAME_PERSON = 1.0
@@ -60,6 +59,13 @@ class Searcher:
         self._last: Pose | None = None
         self._start: Pose | None = None
         self._nearest, self._since = math.inf, 0
+        self._failed = 0
+        self._trail: list[Pose] = []
+
+    @property
+    def stuck(self) -> bool:
+        """Whether two targets in succession could not be reached."""
+        return self._failed >= 2
 
     @property
     def _settings(self) -> SearchSettings:
@@ -80,6 +86,9 @@ class Searcher:
             self._look_at_suspect(pose, people)
         elif self._view is not None:
             self._follow_view(pose)
+        elif self.target is not None and not self.done and self._arrived(pose):
+            self._drop()  # it has gone back to where it can turn
+            self._failed = 1
         suspicious = self._steps % self._settings.recheck == 0
         if self.done:
             self._look_back(pose, people)
@@ -93,13 +102,26 @@ class Searcher:
             self._choose(pose, people, only_people=False)
 
     def give_up(self) -> None:
-        """Leave the target aside: it cannot be reached."""
+        """Leave the target aside: it cannot be reached. After two it goes back the way it came."""
+        self._failed += 1
         if self._view is not None:
             self.chart.tries.ravel()[self._view.cells] += 1
             self._refuse(self._view, self._settings.refused_distance)
-        if self.done:
-            self._start = self.target = None  # it cannot get back: here it stays
+        back = self._way_back() if self.stuck else None
+        if self.done and self.stuck and back is None:
+            self._start = None  # it cannot get back: here it stays
         self._drop()
+        if back is not None:
+            self.target, self.done = back, False
+
+    def _way_back(self) -> Pose | None:
+        """Where it was when it was last so far from here; what it tries next lies behind that."""
+        here = self._trail[-1] if self._trail else None
+        while self._trail and here is not None:
+            if math.dist(self._trail[-1][:2], here[:2]) > self._settings.retreat:
+                return self._trail[-1]
+            self._trail.pop()
+        return None
 
     def _refuse(self, view: View, radius: float) -> None:
         self._refused.append((*view.pose[:2], radius))
@@ -111,6 +133,7 @@ class Searcher:
         turned = last is not None and abs(wrap_angle(last[2] - pose[2])) > 0.2
         if moved or turned:
             self._last, self._idle = pose, 0
+            self._trail.append(pose)
             return
         self._idle += 1
         if self._idle > self._settings.patience and self.target is not None:
@@ -145,11 +168,13 @@ class Searcher:
         s = self._settings
         self._looks += self._arrived(pose)
         if self._looks > s.settle:
+            self._failed = 0
             self._note_look(self._view, pose)
             self._drop()
         elif self._steps % s.recheck == 0:
             left = self._left_share(self._view)
-            if left * self._view.gain < max(s.least_gain, 0.3 * self._view.gain):
+            gain = self._view.gain
+            if left * gain < max(0.3 * gain, min(s.least_gain, 0.5 * gain)):
                 self._drop()
 
     def _note_look(self, view: View, pose: Pose) -> None:
@@ -190,9 +215,15 @@ class Searcher:
         suspect = self._next_suspect(pose, people, near=True)
         if only_people and suspect is None:
             return
-        ways = ways_from(self.chart, pose[:2], self._looker.robot.width / 2 + 0.03)
+        robot = self._looker.robot
+        body = (robot, pose) if self._failed else None
+        half_width = robot.width / 2 + 0.03
+        ways = ways_from(self.chart, pose[:2], half_width, body)
         if suspect is None:
             self._view = self._next_view(ways, pose)
+            if self._view is None and body is not None:  # the map's walls are too thick
+                ways = ways_from(self.chart, pose[:2], half_width)
+                self._view = self._next_view(ways, pose)
             self.target = None if self._view is None else self._view.pose
             suspect = None if self.target else self._next_suspect(pose, people, near=False)
         while suspect is not None:
@@ -214,7 +245,7 @@ class Searcher:
         view = self._best(ways, pose, ViewGrid(s.candidate_spacing, s.rays))
         if view is not None and (room < 0 or room == rooms[self.chart.cell(view.pose[:2])]):
             return view
-        fine = ViewGrid(s.fine_spacing, s.fine_rays)
+        fine = ViewGrid(s.fine_spacing, s.fine_rays, thorough=True)
         here = None if room < 0 else self._best(ways, pose, replace(fine, room=room))
         return here or view or self._best(ways, pose, fine)
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
-from semnav_env.features.checked_fields import Bounds, Count, Length, Seconds, check_fields
+from semnav_env.features.checked_fields import Bounds, Count, Length, Seconds, Share, check_fields
 
 
 @dataclass(frozen=True)
@@ -25,6 +25,8 @@ class SearchSettings:
         fine_spacing: as `candidate_spacing`, once a coarse lattice finds no place, metres.
         fine_rays: as `rays` there.
         least_gain: least area that is worth a look, m^2.
+        least_share: the same as a share of the floor seen of a room, once a coarse lattice finds no
+            place: what is little in a hall is much in a small room.
         speed: with which ways are counted, m/s.
         turn_rate: with which turns are counted, rad/s.
         look_seconds: cost of a look besides the way there.
@@ -36,6 +38,8 @@ class SearchSettings:
         recheck: control periods between two questions whether a view is still worth its way.
         patience: control periods without moving after which a target is given up.
         long_patience: control periods without getting nearer after which it is given up.
+        retreat: how far a robot goes back the way it came if it stands where two targets in
+            succession could not be reached, metres.
         settle: control periods that a look takes.
         person_range: least and largest distance from which a person is looked at, metres.
         person_looks: control periods of standing before somebody who may be a person.
@@ -50,9 +54,10 @@ class SearchSettings:
     clearance: Length = 0.05
     candidate_spacing: Length = 0.35
     rays: Count = 60
-    fine_spacing: Length = 0.15
+    fine_spacing: Length = 0.10
     fine_rays: Count = 120
     least_gain: Annotated[float, Bounds(0.0, 1e6)] = 0.06
+    least_share: Share = 0.01
     speed: Annotated[float, Bounds(0.0, 20.0, "m/s")] = 0.6
     turn_rate: Annotated[float, Bounds(0.0, 20.0, "rad/s")] = 0.8
     look_seconds: Seconds = 1.5
@@ -62,7 +67,8 @@ class SearchSettings:
     recheck: Count = 12
     patience: Count = 50
     long_patience: Count = 450
-    settle: Count = 6
+    retreat: Length = 1.5
+    settle: Count = 15
     person_range: tuple[Length, Length] = (0.9, 1.7)
 
     def __post_init__(self) -> None:

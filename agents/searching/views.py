@@ -8,24 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
 
-from semnav_env.agents.searching.search_map import FREE, LOOKED, SAFE, Mask, SearchMap
+from semnav_env.agents.searching.search_map import FREE, LOOKED, Mask, SearchMap
 from semnav_env.agents.searching.view_kernels import (
     fits,
     mark_wanted,
     ray_gains,
     seconds_to_look,
 )
+from semnav_env.agents.searching.ways import Ways
 from semnav_env.features.frames import FloatArray, Point, Pose, compose, relative, wrap_angle
-from semnav_env.features.kernels.grid_search import least_costs
 from semnav_env.robots import RobotSpec
-
-COMFORT = 0.8
-"""Distance from everything solid beyond which a way costs no more than its length, metres."""
-
-CROWDING = 2.0
-"""Extra cost of a metre right beside something solid."""
 
 EDGE = 0.1
 """Share of the field of view at its edge that is not counted on: a look may be turned a little."""
@@ -81,47 +74,13 @@ class ViewGrid:
         spacing: between places of the detector, metres.
         rays: directions in which the gain of a place is estimated.
         room: number of the plan's room that alone is looked at, from inside; None for all.
+        thorough: whether a small gain counts in a small room.
     """
 
     spacing: float
     rays: int
     room: int | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Ways:
-    """Where the robot can go from where it is.
-
-    Attributes:
-        costs: of the way to each cell, metres, shape (rows, columns); infinite where none leads.
-        room: distance of each cell from everything solid, metres, same shape.
-    """
-
-    costs: FloatArray
-    room: FloatArray
-
-
-def ways_from(chart: SearchMap, place: Point, half_width: float) -> Ways:
-    """The ways on floor that is safe, or that the plan says is floor.
-
-    Args:
-        chart: the map.
-        place: where the robot is.
-        half_width: of the robot, metres.
-    """
-    spacing, solid = chart.settings.spacing, chart.solid
-    room = spacing * distance_transform_edt(~solid)
-    passable = chart.has(SAFE) | (chart.rooms >= 0)
-    row, column = chart.cell(place)
-    open_ = passable & (room > half_width)
-    open_[max(row - 6, 0) : row + 7, max(column - 6, 0) : column + 7] |= ~solid[
-        max(row - 6, 0) : row + 7, max(column - 6, 0) : column + 7
-    ]
-    near = np.clip(1.0 - room / COMFORT, 0.0, 1.0)
-    weight = np.where(open_, 1.0 + CROWDING * near, np.inf)
-    source = np.array([[row, column]])
-    costs = least_costs(source, np.zeros(1), weight, spacing, spacing * math.sqrt(2), True)
-    return Ways(costs, room)
+    thorough: bool = False
 
 
 def wanted_cells(chart: SearchMap) -> Mask:
@@ -163,6 +122,8 @@ def best_view(
     costs = seconds_to_look(
         eyes, headings, back, looker.half_size(s.clearance), seconds, ways.room, *where
     )
+    x, y, turned = _bodies(eyes, headings, back)
+    costs[~ways.lead_to(x, y, turned)] = np.inf
     some = np.isfinite(costs).any(axis=1)
     eyes, costs = eyes[some], costs[some]
     if not len(eyes):
@@ -170,13 +131,39 @@ def best_view(
     gains = ray_gains(eyes, wanted, chart.solid, *where, rays, looker.view_range)
     sums = _window_sums(gains, window)
     turns = np.abs(np.angle(np.exp(1j * (headings + back[2] - pose[2])))) / s.turn_rate
-    worth = np.where(sums > s.least_gain, sums / (costs + turns[None, :]), 0.0)
+    least = _least_gains(chart, eyes, grid.thorough)[:, None]
+    worth = np.where(sums > least, sums / (costs + turns[None, :]), 0.0)
     k, best = np.unravel_index(int(np.argmax(worth)), worth.shape)
     if worth[k, best] <= 0.0:
         return None
     place = compose((*eyes[k].tolist(), wrap_angle(float(headings[best]))), back)
     shown = np.flatnonzero(shown_from(chart, place, looker) & wanted)
     return View(place, float(sums[k, best]), shown)
+
+
+def _bodies(
+    eyes: FloatArray, headings: FloatArray, back: Pose
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Poses x, y and heading of the body for places and headings of its detector."""
+    c, s = np.cos(headings)[None, :], np.sin(headings)[None, :]
+    x, y = eyes[:, :1] + c * back[0] - s * back[1], eyes[:, 1:] + s * back[0] + c * back[1]
+    return x, y, np.broadcast_to(headings + back[2], x.shape)
+
+
+def _least_gains(chart: SearchMap, eyes: FloatArray, thorough: bool) -> FloatArray:
+    """Least area that is worth a look from some places, m^2, shape (n,).
+
+    A thorough robot asks for less in small rooms.
+    """
+    s = chart.settings
+    least = np.full(len(eyes), s.least_gain)
+    if thorough:
+        seen = chart.rooms[chart.has(LOOKED) & ~chart.solid & (chart.rooms >= 0)]
+        areas = s.spacing**2 * np.bincount(seen, minlength=int(chart.rooms.max()) + 1)
+        rooms = np.array([chart.rooms[chart.cell((x, y))] for x, y in eyes.tolist()])
+        inside = rooms >= 0
+        least[inside] = np.minimum(s.least_gain, s.least_share * areas[rooms[inside]])
+    return least
 
 
 def shown_from(chart: SearchMap, pose: Pose, looker: Looker) -> Mask:
@@ -211,7 +198,9 @@ def place_before(
     size = looker.half_size(s.clearance)
     for x, y in points[good][order][:400].tolist():
         pose = x, y, math.atan2(person[1] - y, person[0] - x)
-        if fits(pose, size, ways.room, *chart.lower, s.spacing) and _sees(chart, (x, y), person):
+        if not fits(pose, size, ways.room, *chart.lower, s.spacing):
+            continue
+        if ways.lead_to(*np.array(pose)[:, None]).all() and _sees(chart, (x, y), person):
             return pose
     return None
 

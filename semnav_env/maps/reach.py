@@ -19,6 +19,7 @@ from shapely.geometry.base import BaseGeometry
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.pose_flood import REACHED, flood
 
 REACH_SPACING = 0.05
 """Distance between the points of the grid, metres."""
@@ -39,11 +40,17 @@ class Reach:
 
     Attributes:
         cells: whether the centre can be there in some heading, shape (rows, columns).
+        states: `REACHED` for the poses in which it can be there, shape (rows, columns, headings).
+        angles: the headings, radians, evenly spread over `turn` from 0, shape (headings,).
+        turn: half a turn, or a whole one, radians.
         origin: middle of the first cell, (x, y) in metres.
         spacing: distance between the middles of cells, metres.
     """
 
     cells: NDArray[np.bool_]
+    states: NDArray[np.uint8]
+    angles: FloatArray
+    turn: float
     origin: Point
     spacing: float
 
@@ -59,6 +66,14 @@ class Reach:
         y = self.origin[1] + self.spacing * (first_row + rows)
         return bool(shapely.contains_xy(area, x, y).any())
 
+    def has(self, x: FloatArray, y: FloatArray, heading: FloatArray) -> NDArray[np.bool_]:
+        """Whether the poses nearest to some are reached, arrays of one shape."""
+        rows, columns, count = self.states.shape
+        column = np.rint((x - self.origin[0]) / self.spacing).astype(int).clip(0, columns - 1)
+        row = np.rint((y - self.origin[1]) / self.spacing).astype(int).clip(0, rows - 1)
+        k = np.rint(heading % self.turn / self.turn * count).astype(int) % count
+        return np.asarray(self.states[row, column, k] == REACHED)
+
     def _cell(self, x: float, y: float) -> tuple[int, int]:
         column = round((x - self.origin[0]) / self.spacing)
         row = round((y - self.origin[1]) / self.spacing)
@@ -72,6 +87,8 @@ def reach(
     spacing: float = REACH_SPACING,
     headings: int = HEADING_COUNT,
     start: Point | None = None,
+    turn: float = math.pi,
+    border: int = BORDER_CELLS,
 ) -> Reach:
     """The cells that a rectangular body reaches from the middle of the largest corridor.
 
@@ -82,23 +99,54 @@ def reach(
         length: length of the body, metres.
         width: width of the body, metres.
         spacing: spacing of the grid, metres; a very large plan gets a coarser one.
-        headings: number of headings of the body, evenly spread over half a turn.
+        headings: number of headings of the body, evenly spread over `turn`.
         start: where the body is instead, (x, y) in metres.
+        turn: half a turn, or a whole one where it matters which end is the front, radians. At the
+            start the body may have any heading that is free.
+        border: cells of the grid around the plan. No place counts that is nearer to the rim of the
+            grid than the body's corners reach, so a body right inside an outer wall needs more.
     """
     west, south, east, north = plan.boundary.bounds
     spacing = max(spacing, math.sqrt((east - west) * (north - south) / MAX_CELLS))
-    origin = west - BORDER_CELLS * spacing, south - BORDER_CELLS * spacing
+    origin = west - border * spacing, south - border * spacing
     shape = (
-        math.ceil((north - south) / spacing) + 2 * BORDER_CELLS,
-        math.ceil((east - west) / spacing) + 2 * BORDER_CELLS,
+        math.ceil((north - south) / spacing) + 2 * border,
+        math.ceil((east - west) / spacing) + 2 * border,
     )
     blocked = _drawn(plan.segments, *origin, spacing, *shape)
     start = start or _start(plan)
     column, row = (round((start[i] - origin[i]) / spacing) for i in (0, 1))
-    starts, rows, firsts, lengths = _footprints(length, width, spacing, headings)
-    far = math.ceil(math.hypot(length, width) / 2 / spacing) + 1
-    cells = _flood(blocked, starts, rows, firsts, lengths, far, row, column)
-    return Reach(cells, origin, spacing)
+    return reach_in_grid(blocked, origin, spacing, (length, width), headings, (row, column), turn)
+
+
+def reach_in_grid(
+    blocked: NDArray[np.bool_],
+    origin: Point,
+    spacing: float,
+    size: tuple[float, float],
+    headings: int,
+    cell: tuple[int, int],
+    turn: float = math.pi,
+    heading: float | None = None,
+) -> Reach:
+    """The cells that a rectangular body reaches in a grid of solid cells.
+
+    Args:
+        blocked: the solid cells, shape (rows, columns).
+        origin: middle of the first cell, (x, y) in metres.
+        spacing: of the cells, metres.
+        size: length and width of the body, metres.
+        headings: as in `reach`.
+        cell: row and column of the start.
+        turn: as in `reach`.
+        heading: of the body at the start, radians; None for any.
+    """
+    angles = turn * np.arange(headings) / headings
+    starts, rows, firsts, lengths = _footprints(*size, spacing, angles)
+    far = math.ceil(math.hypot(*size) / 2 / spacing) + 1
+    k = -1 if heading is None else round(heading % turn / turn * headings) % headings
+    cells, states = flood(blocked, starts, rows, firsts, lengths, far, *cell, k)
+    return Reach(cells, states, angles, turn, origin, spacing)
 
 
 def _start(plan: FloorPlan) -> Point:
@@ -109,7 +157,7 @@ def _start(plan: FloorPlan) -> Point:
 
 
 def _footprints(
-    length: float, width: float, spacing: float, headings: int
+    length: float, width: float, spacing: float, angles: FloatArray
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """The cells that a body touches in each heading, as runs of cells along the rows.
 
@@ -120,8 +168,7 @@ def _footprints(
     starts, runs = [0], []
     half = math.ceil(math.hypot(length, width) / 2 / spacing) + 1
     offsets = np.arange(-half, half + 1)
-    for k in range(headings):
-        angle = math.pi * k / headings
+    for angle in angles.tolist():
         c, s = abs(math.cos(angle)), abs(math.sin(angle))
         x, y = np.meshgrid(offsets * spacing, offsets * spacing)
         ahead = x * math.cos(angle) + y * math.sin(angle)
@@ -158,100 +205,3 @@ def _drawn(
             if 0 <= row < rows and 0 <= column < columns:
                 blocked[row, column] = True
     return blocked
-
-
-@kernel(counts_references=True)
-def _flood(
-    blocked: NDArray[np.bool_],
-    starts: NDArray[np.int64],
-    run_rows: NDArray[np.int64],
-    run_firsts: NDArray[np.int64],
-    run_lengths: NDArray[np.int64],
-    far: int,
-    row: int,
-    column: int,
-) -> NDArray[np.bool_]:
-    """The cells that the centre reaches, by a flood fill over cells and headings.
-
-    Where nothing solid is within `far` cells, all headings are free and only the cell is noted;
-    elsewhere each heading is a state of its own.
-
-    Args:
-        blocked: the solid cells.
-        starts: index of the first run of each heading, as `_footprints` gives it.
-        run_rows: rows of the runs, as `_footprints` gives them.
-        run_firsts: first columns of the runs.
-        run_lengths: lengths of the runs, cells.
-        far: distance of the next solid cell beyond which every heading is free, cells.
-        row: row of the start.
-        column: column of the start.
-    """
-    rows, columns = blocked.shape
-    headings = len(starts) - 1
-    ahead = _free_ahead(blocked)
-    wide = _wide(blocked, far)
-    known = np.zeros((rows, columns, headings), dtype=np.bool_)
-    reached = np.zeros((rows, columns), dtype=np.bool_)
-    stack = [(row, column, k) for k in range(headings)]
-    while len(stack) > 0:
-        r, c, k = stack.pop()
-        if known[r, c, k]:
-            continue
-        if wide[r, c]:
-            known[r, c] = True
-        else:
-            known[r, c, k] = True
-            free = r >= far and c >= far and r < rows - far and c < columns - far
-            for i in range(starts[k], starts[k + 1]):
-                free = free and (ahead[r + run_rows[i], c + run_firsts[i]] >= run_lengths[i])
-                if not free:
-                    break
-            if not free:
-                continue
-            stack.append((r, c, (k + 1) % headings))
-            stack.append((r, c, (k - 1) % headings))
-        reached[r, c] = True
-        for dr, dc in ((0, 1), (1, 0), (0, -1), (-1, 0)):
-            if not wide[r, c] or wide[r + dr, c + dc]:
-                if not known[r + dr, c + dc, k]:
-                    stack.append((r + dr, c + dc, k))
-            else:
-                for other in range(headings):
-                    stack.append((r + dr, c + dc, other))
-    return reached
-
-
-@kernel(counts_references=True)
-def _free_ahead(blocked: NDArray[np.bool_]) -> NDArray[np.int16]:
-    """How many successive cells are free from each cell to the right, itself included."""
-    rows, columns = blocked.shape
-    ahead = np.zeros((rows, columns), dtype=np.int16)
-    for r in range(rows):
-        run = 0
-        for c in range(columns - 1, -1, -1):
-            run = 0 if blocked[r, c] else min(run + 1, 30_000)
-            ahead[r, c] = run
-    return ahead
-
-
-@kernel(counts_references=True)
-def _wide(blocked: NDArray[np.bool_], far: int) -> NDArray[np.bool_]:
-    """Whether nothing solid is in the square of `far` cells to all sides of each cell.
-
-    `total` is the summed-area table of the solid cells: the count in any rectangle is a sum of
-    four of its entries.
-    """
-    rows, columns = blocked.shape
-    total = np.zeros((rows + 1, columns + 1), dtype=np.int32)
-    for r in range(rows):
-        run = 0
-        for c in range(columns):
-            run += blocked[r, c]
-            total[r + 1, c + 1] = total[r, c + 1] + run
-    wide = np.zeros((rows, columns), dtype=np.bool_)
-    for r in range(far, rows - far):
-        for c in range(far, columns - far):
-            a, b, left, right = r - far, r + far + 1, c - far, c + far + 1
-            solid = total[b, right] - total[a, right] - total[b, left] + total[a, left]
-            wide[r, c] = solid == 0
-    return wide

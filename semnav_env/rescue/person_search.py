@@ -61,8 +61,7 @@ class PersonSearch:
         noise, mount = np.random.default_rng(rng.integers(2**62)), setup.robot.lidar_mount
         self.detector = PersonDetector(plan, self.settings, mount, noise)
         self.people = PersonMap(self.settings, self.map_settings, setup.lidar, mount)
-        reach = self.settings.range_max
-        self.coverage = RoomCoverage(plan, setup.robot, reach)
+        self.coverage = RoomCoverage(plan, setup.robot, self.settings)
         self.reports: list[Report] = []
         self._frame = ORIGIN if setup.exact else start
         self._victims = [(v.centroid.x, v.centroid.y) for v in self.detector.victims]

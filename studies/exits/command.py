@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from semnav_env.agents.evaluation.leaderboard import wilson_interval
 from semnav_env.approach import Surroundings, plan_approach
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import ROBOTS, RobotSpec, robot_spec
@@ -82,12 +83,18 @@ def judged_pose(case: ExitCase, robot: RobotSpec) -> dict[str, Any]:
 
 
 def table(rows: list[dict[str, Any]]) -> str:
-    """A line for each rule and body: share of successes, contacts, and seconds of a success."""
-    lines = [f"{'rule':<15}{'body':<12}{'cases':>6}{'passed':>9}{'contact':>9}{'mean s':>8}"]
+    """A line for each rule and body: shares with Wilson's intervals of 95 %, mean seconds."""
+    columns = f"{'passed':>9}{'95 %':>16}{'contact':>9}{'95 %':>16}{'mean s':>8}"
+    lines = [f"{'rule':<15}{'body':<12}{'cases':>6}{columns}"]
     for rule, robot in dict.fromkeys((row["rule"], row["robot"]) for row in rows):
         mine = [row for row in rows if (row["rule"], row["robot"]) == (rule, robot)]
-        passed, contact = (np.mean([row[name] for row in mine]) for name in ("passed", "contact"))
+        shares = [float(np.mean([row[name] for row in mine])) for name in ("passed", "contact")]
         seconds = np.mean([row["seconds"] for row in mine if row["passed"]] or [np.nan])
-        numbers = f"{len(mine):>6}{passed:>9.4f}{contact:>9.4f}{seconds:>8.1f}"
-        lines.append(f"{rule:<15}{robot:<12}{numbers}")
+        numbers = "".join(_with_interval(share, len(mine)) for share in shares)
+        lines.append(f"{rule:<15}{robot:<12}{len(mine):>6}{numbers}{seconds:>8.1f}")
     return "\n".join(lines)
+
+
+def _with_interval(share: float, count: int) -> str:
+    low, high = wilson_interval(share, count)
+    return f"{share:>9.4f}{f'{low:.3f} to {high:.3f}':>16}"

@@ -10,8 +10,11 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from semnav_env.agents.base import steps
+from semnav_env.agents.evaluation.leaderboard import wilson_interval
 from semnav_env.agents.registry import make_agent
 from semnav_env.rescue.environment import search_and_rescue
+from semnav_env.rescue.person_search import PersonSearch
+from studies.search.all_around import seen_all_around
 
 FIRST_SEED = 10_000
 """Seeds from here on are for measuring; the agents were tuned on seeds below 1000."""
@@ -33,7 +36,9 @@ class Search:
         house: name of its plan.
         verdict: of the judge.
         success: whether the judge accepts it.
-        coverage: of each room, of the floor that can be seen.
+        coverage: of each room, of the floor that the detector on its mount can see.
+        around: the same of the floor that a detector in the middle of the body could see in all
+            directions, which was the measure before.
         floor_coverage: of each room, of all its floor.
         victims: how many there are.
         found: how many were reported.
@@ -52,6 +57,7 @@ class Search:
     verdict: str
     success: bool
     coverage: tuple[float, ...]
+    around: tuple[float, ...]
     floor_coverage: tuple[float, ...]
     victims: int
     found: int
@@ -73,7 +79,10 @@ def search(agent: str, seed: int, robot: str) -> Search:
     came_in = env.simulator.motion.pose
     for step in steps(env, driver, observation, start):
         info = step.info
-    outcome = info["search"]
+    outcome, payload = info["search"], env.payload
+    assert isinstance(payload, PersonSearch)
+    seen = payload.coverage
+    around = seen_all_around(env.floor_plan, env.robot, payload.settings, seen.grid)
     return Search(
         seed,
         agent,
@@ -81,6 +90,7 @@ def search(agent: str, seed: int, robot: str) -> Search:
         str(info["verdicts"][0]),
         info["is_success"],
         tuple(round(share, 4) for share in outcome["coverage"].values()),
+        tuple(round(share, 4) for share in seen.shares_of(around).tolist()),
         tuple(round(share, 4) for share in outcome["floor_coverage"].values()),
         outcome["victims"],
         outcome["found"],
@@ -103,6 +113,8 @@ def summary(searches: Sequence[Search]) -> dict[str, float]:
     """The figures of some searches, of which there must be at least one; shares from 0 to 1."""
     rooms = [share for each in searches for share in each.coverage]
     errors = [error for each in searches for error in each.report_errors]
+    covered = [share >= 0.95 for share in rooms]
+    around = [share for each in searches for share in each.around]
     metres = sum(each.metres for each in searches)
     seconds = np.array([each.seconds for each in searches])
     return {
@@ -110,9 +122,13 @@ def summary(searches: Sequence[Search]) -> dict[str, float]:
         "success": _mean([each.success for each in searches]),
         "rooms": len(rooms),
         "all rooms covered": _mean([min(each.coverage) >= 0.95 for each in searches]),
-        "rooms covered": _mean([share >= 0.95 for share in rooms]),
+        "rooms covered": _mean(covered),
+        "rooms covered, 95 % from": wilson_interval(_mean(covered), len(covered))[0],
+        "rooms covered, 95 % to": wilson_interval(_mean(covered), len(covered))[1],
         "least coverage": min(rooms),
         "mean coverage": _mean(rooms),
+        "rooms covered, looking all around from the middle": _mean([s >= 0.95 for s in around]),
+        "least coverage, looking all around from the middle": min(around),
         "mean coverage of all floor": _mean([s for each in searches for s in each.floor_coverage]),
         "all victims found": _mean([each.found == each.victims for each in searches]),
         "victims found": sum(each.found for each in searches)

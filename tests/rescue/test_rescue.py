@@ -149,7 +149,7 @@ def test_probabilities_stay_probabilities(places: list[tuple[float, float]]) -> 
 
 def test_coverage_grows_from_nothing_to_nearly_all() -> None:
     plan = generate_office(1, "house")
-    coverage = RoomCoverage(plan, SPOT, 6.0)
+    coverage = RoomCoverage(plan, SPOT, PersonDetectorSettings())
     assert coverage.shares.max() == 0.0
     eyes = detector(plan)
     rng, before = np.random.default_rng(0), 0.0

@@ -7,11 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.agents.searching.search_map import FREE, HIT, LOOKED, SAFE, SearchMap
+from semnav_env.agents.searching.search_map import FREE, HIT, LOOKED, SAFE, SearchMap, without_lost
 from semnav_env.agents.searching.searcher import Searcher
 from semnav_env.agents.searching.settings import SearchSettings
 from semnav_env.agents.searching.view_kernels import fits
-from semnav_env.agents.searching.views import Looker, ViewGrid, best_view, shown_from, ways_from
+from semnav_env.agents.searching.views import Looker, ViewGrid, best_view, shown_from
+from semnav_env.agents.searching.ways import ways_from
 from semnav_env.features.frames import compose
 from semnav_env.robots import SPOT
 
@@ -94,3 +95,61 @@ def test_a_searcher_that_moves_about_and_gets_no_nearer_gives_up() -> None:
     targets = [searcher.update(pose, []) for pose in poses]
     assert targets[patience // 2] == first
     assert targets[-1] != first
+
+
+def test_a_beam_that_got_lost_shows_nothing_behind_the_wall_that_it_ought_to_have_met() -> None:
+    chart, count = floor(), 81
+    angles = np.linspace(-0.4, 0.4, count)
+    beams = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+    ranges = 1.0 / np.cos(angles)  # a wall 1 m ahead
+    lost = ranges.copy()
+    lost[40] = 10.0
+    chart.found[:] = 0
+    scan = without_lost(lost, 10.0)
+    chart.update((0.0, 0.0, 0.0), beams, scan, math.radians(120.0), 6.0)
+    behind = chart.cell((1.5, 0.0))[1]
+    assert np.isnan(scan[40])
+    assert np.array_equal(np.delete(scan, 40), np.delete(ranges, 40))
+    assert chart.has(LOOKED).any()
+    assert not chart.has(LOOKED)[:, behind:].any()
+
+
+def test_where_no_beam_returns_nothing_is() -> None:
+    ranges = np.array([2.0, 10.0, 10.0, 10.0, 10.0, 3.0])
+    seen = [2.0, math.nan, 10.0, 10.0, math.nan, 3.0]
+    assert np.array_equal(without_lost(ranges, 10.0), seen, equal_nan=True)
+
+
+def pocket() -> SearchMap:
+    """The hall with a pocket at its end, behind a bend that a long body cannot take."""
+    chart = floor()
+    for x0, x1, y0, y1 in ((0.5, 3.0, -0.4, -0.4), (0.5, 2.2, 0.4, 0.4), (2.2, 2.2, 0.4, 2.0)):
+        lower, upper = chart.cell((x0, y0)), chart.cell((x1, y1))
+        chart.hits[lower[0] : upper[0] + 1, lower[1] : upper[1] + 1] = 10 * HIT
+    return chart
+
+
+def test_the_whole_body_does_not_get_to_where_its_middle_would() -> None:
+    chart, pose = pocket(), (-1.0, 0.0, 0.0)
+    place = np.array([2.6]), np.array([1.3]), np.array([math.pi / 2])
+    before_it = np.array([1.2]), np.array([0.0]), np.array([0.0])
+    without, asked = (ways_from(chart, pose[:2], 0.28, body) for body in (None, (SPOT, pose)))
+    assert np.isfinite(asked.costs[chart.cell((2.6, 1.3))])
+    assert without.lead_to(*place).all()
+    assert not asked.lead_to(*place).any()
+    assert asked.lead_to(*before_it).all()
+
+
+def test_a_searcher_that_fails_twice_goes_back_the_way_it_came() -> None:
+    chart = floor()
+    searcher = Searcher(chart, LOOKER)
+    way = [(x, 0.0, 0.0) for x in np.arange(-2.0, 1.01, 0.2).tolist()]
+    for pose in way:
+        searcher.update(pose, [])
+    stuck, patience = way[-1], chart.settings.patience
+    targets = [searcher.update(stuck, []) for _ in range(3 * patience)]
+    back = chart.settings.retreat
+    assert any(
+        target is not None and target in way and math.dist(target[:2], stuck[:2]) > back
+        for target in targets
+    )

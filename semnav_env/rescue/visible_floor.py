@@ -1,0 +1,110 @@
+"""The floor that the camera of a robot can see at all, from the poses that its body can reach."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.lidar.lidar import Lidar
+from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.pose_flood import REACHED
+from semnav_env.maps.reach import Reach, reach
+from semnav_env.rescue.field_of_view import Cells, mark_in_view
+from semnav_env.rescue.settings import PersonDetectorSettings
+from semnav_env.robots import RobotSpec
+
+CELL = 0.1
+"""Distance between the cells of the floor, metres."""
+
+STANDPOINT = 0.2
+"""Distance between the places from which it is asked what can be seen, metres."""
+
+HEADINGS = 24
+"""Number of headings of the body there, over a whole turn: its front sees, not its back."""
+
+BORDER = 32
+"""Cells around the plan, 1.6 m: the body may stand right inside the outer walls."""
+
+ALL_AROUND = LidarSpec("all around", 720, -math.pi, math.radians(0.5), range_min=0.0)
+"""Rays of a look all around."""
+
+
+@dataclass(frozen=True)
+class FloorGrid:
+    """A grid over a plan.
+
+    Attributes:
+        west: x of the middle of the first column, metres.
+        south: y of the middle of the first row, metres.
+        rows: how many.
+        columns: how many.
+    """
+
+    west: float
+    south: float
+    rows: int
+    columns: int
+
+    @classmethod
+    def over(cls, plan: FloorPlan) -> FloorGrid:
+        """The grid over the whole of a plan."""
+        west, south, east, north = plan.boundary.bounds
+        rows, columns = (math.ceil(size / CELL) + 1 for size in (north - south, east - west))
+        return cls(west, south, rows, columns)
+
+    def nothing(self) -> Cells:
+        """Flags of the cells, none set, shape (rows, columns)."""
+        return np.zeros((self.rows, self.columns), np.uint8)
+
+
+def visible_floor(
+    plan: FloorPlan, robot: RobotSpec, detector: PersonDetectorSettings, grid: FloorGrid
+) -> Cells:
+    """The cells that the detector on its mount can see, shape (rows, columns).
+
+    The body turns and drives from the middle of the largest corridor to wherever it fits, and at
+    each pose the detector sees what is in its field of view. Places of the detector are tried
+    0.2 m apart, headings 15 degrees; a pose stands for the one reached nearest to it, which is
+    within half a cell of `reach`, 2.5 cm.
+
+    Args:
+        plan: with everything that stands and lies in it.
+        robot: the body; the detector is on the mount of its lidar.
+        detector: its range and field of view.
+        grid: cells of the floor.
+    """
+    size = robot.length, robot.width
+    area = reach(plan, *size, headings=HEADINGS, turn=math.tau, border=BORDER)
+    around = Lidar(plan, replace(ALL_AROUND, range_max=detector.range_max))
+    rays, seen = ALL_AROUND.directions, grid.nothing()
+    bearings = ALL_AROUND.angles
+    looks = detector_headings(area, robot)
+    off = bearings[None, :] - (area.angles + robot.lidar_mount[2])[:, None]
+    in_view = np.abs(np.angle(np.exp(1j * off))) <= detector.field_of_view / 2 + 1e-9
+    step = round(STANDPOINT / area.spacing)
+    for row, column in (step * np.argwhere(looks[::step, ::step].any(axis=2))).tolist():
+        eye = area.origin[0] + area.spacing * column, area.origin[1] + area.spacing * row, 0.0
+        ranges, shown = around.exact_ranges(eye), in_view[looks[row, column]].any(axis=0)
+        where = grid.west, grid.south, CELL
+        mark_in_view(seen, *where, eye, rays[shown], ranges[shown], detector.range_max)
+    return seen
+
+
+def detector_headings(area: Reach, robot: RobotSpec) -> np.ndarray:
+    """In which headings of the body its detector can be in a cell, shape (rows, columns, headings).
+
+    Args:
+        area: that the middle of the body reaches, with headings over a whole turn.
+        robot: the body.
+    """
+    x, y, _ = robot.lidar_mount
+    c, s = np.cos(area.angles), np.sin(area.angles)
+    columns = np.rint((c * x - s * y) / area.spacing).astype(int)
+    rows = np.rint((s * x + c * y) / area.spacing).astype(int)
+    looks = np.zeros(area.states.shape, np.bool_)
+    for k, (row, column) in enumerate(zip(rows.tolist(), columns.tolist(), strict=True)):
+        looks[:, :, k] = np.roll(area.states[:, :, k] == REACHED, (row, column), axis=(0, 1))
+    return looks
