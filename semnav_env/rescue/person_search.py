@@ -83,7 +83,7 @@ class PersonSearch:
         self._seconds += motion.seconds
 
     def _look(self, pose: Pose, tracker: BeliefTracker) -> None:
-        detector, found = self.detector, self.outcome.found
+        detector = self.detector
         detections = detector.look(pose)
         eye = compose(pose, detector.mount)
         self.gained = self.coverage.look(
@@ -91,9 +91,11 @@ class PersonSearch:
         )
         new = self.people.update(detections, tracker.belief.pose, tracker.ranges)
         if new:
+            before = self.outcome
             self.reports += [Report(to_parent(self._frame, t.place), self._seconds) for t in new]
-            right = self.outcome.found - found
-            self.reported = 2 * right - len(new)
+            after = self.outcome
+            wrong = after.false_reports - before.false_reports
+            self.reported = after.found - before.found - wrong
 
     def fulfils(self, clause: Clause) -> bool:
         """Whether a clause whose goal was reached has been carried out in full."""

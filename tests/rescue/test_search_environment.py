@@ -12,6 +12,8 @@ from semnav_env.agents.base import steps
 from semnav_env.agents.registry import make_agent
 from semnav_env.commands import Command, GoBack, SearchHouse
 from semnav_env.env import SemNavEnv
+from semnav_env.features.frames import to_local
+from semnav_env.rescue import PersonSearch, PersonTrack
 from semnav_env.rescue.environment import search_and_rescue
 from semnav_env.rescue.people_entry import read_people
 
@@ -113,3 +115,22 @@ def test_a_search_can_be_followed_by_another_clause() -> None:
     command = Command((SearchHouse(), GoBack()))
     _, info = env.reset(seed=1, options={"command": command})
     assert info["command"] == "search the house and go back to the start"
+
+
+def test_only_first_reports_of_victims_and_reports_of_nobody_are_worth_something(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    env = search_and_rescue("raw", robot="spot")
+    env.reset(seed=1)
+    search = env.payload
+    assert isinstance(search, PersonSearch)
+    victim = search._victims[0]
+    places = [victim, (victim[0] + 0.3, victim[1]), (victim[0] + 50.0, victim[1])]
+    worth = []
+    for place in places:
+        track = PersonTrack(to_local(search._frame, place), 5.0, 1.0, True)
+        monkeypatch.setattr(search.people, "update", lambda *_, track=track: [track])
+        search._step = 0
+        search.update(env.simulator.motion, env.tracker)
+        worth.append(search.reported)
+    assert worth == [1, 0, -1]
