@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import re
 from collections.abc import Sequence
 from contextlib import redirect_stderr
@@ -64,5 +65,7 @@ def parse_pose(text: str) -> Pose:
     try:
         x, y, heading = (float(part) for part in text.split(","))
     except ValueError:
-        raise ValueError(f"pose {text!r} is not x,y,heading, such as -2.5,-0.3,0.24") from None
+        x = y = heading = math.nan
+    if not math.isfinite(x + y + heading):
+        raise ValueError(f"pose {text!r} is not x,y,heading, such as -2.5,-0.3,0.24")
     return x, y, heading

@@ -24,7 +24,8 @@ def follow_log(
 ) -> Iterator[tuple[LogRecord, Belief]]:
     """The records of a log, each with the belief after it.
 
-    The odometry frame begins at the first record. If that one has no odometry, the poses of all
+    The odometry frame begins at the first record that says where it was taken; those before it
+    are passed over, as a bag may begin with scans. If that one has no odometry, the poses of all
     records count instead: the two may have been counted from different places.
 
     Args:
@@ -40,8 +41,12 @@ def follow_log(
     """
     tracker: BeliefTracker | None = None
     start, last, by_odometry = ORIGIN, None, True
+    lost: LogRecord | None = None
     for record in records:
         if tracker is None:
+            if record.odometry is None and record.pose is None:
+                lost = record
+                continue
             by_odometry = record.odometry is not None
         robot = _robot_pose(record, mount, by_odometry)
         if tracker is None:
@@ -57,6 +62,8 @@ def follow_log(
         seconds = _elapsed(last, record.stamp)
         yield record, tracker.update(ranges, relative(start, robot), seconds=seconds)
         last = record.stamp
+    if tracker is None and lost is not None:
+        _robot_pose(lost, mount, by_odometry)
 
 
 def lidar_of(scan: Scan, rate_hz: float = 15.0) -> LidarSpec:

@@ -46,6 +46,11 @@ def test_odometry_goes_before_poses() -> None:
     np.testing.assert_allclose(poses(both), [driven(k) for k in range(6)], atol=1e-9)
 
 
+def test_scans_before_the_first_odometry_are_passed_over() -> None:
+    log = [record(k + 1, None, driven(k) if k > 1 else None) for k in range(6)]
+    np.testing.assert_allclose(poses(log), [driven(k) for k in range(4)], atol=1e-9)
+
+
 @pytest.mark.parametrize("first", [(None, None), (driven(0), None), (None, driven(0))])
 def test_a_scan_that_does_not_say_where_it_was_taken_is_an_error(first) -> None:
     with pytest.raises(
