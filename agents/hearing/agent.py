@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from copy import copy
 from pathlib import Path
 from typing import Any, Self
@@ -30,6 +31,9 @@ BUNDLED_FOLDER = Path(__file__).parents[1] / "pretrained"
 
 STAYING = SeenGoal(GoalKind.STOP, (0.0, 0.0, 0.0), None)
 """The goal of a command that is over."""
+
+REST_SECONDS, REST_DISTANCE, REST_ANGLE = 1.0, 0.3, 0.3
+"""A robot that stands for so long so near to where it was to be has carried the clause out."""
 
 Decision = tuple[ClauseState, Description]
 """What the agent took to be under way, and what it saw, when the network was asked."""
@@ -112,9 +116,12 @@ class HearingAgent:
             description = describe(observation, state, self._lidar, self._mount)
             self.decisions.append((copy(state), description))
             found = self.network.ground(description)
+            goal = _goal_of(found, description)
             step = int(np.argmax(found.advances))
+            if not step and _rests_at(goal, state):
+                step = state.step_when_done
             if not step:
-                return _goal_of(found, description)
+                return goal
             begin = _next_begin(found, description, state)
             state.start_clause(state.clause + step, begin, pose)
         return STAYING
@@ -130,6 +137,13 @@ def _goal_of(found: NetworkOutput, description: Description) -> SeenGoal:
     elif kind is GoalKind.PASS:  # without a door there is nothing to pass
         kind = GoalKind.SEEK
     return SeenGoal(kind, relative(robot, found.pose), jambs)
+
+
+def _rests_at(goal: SeenGoal, state: ClauseState) -> bool:
+    """Whether the robot stands where the clause leads to."""
+    x, y, turned = goal.pose
+    near = math.hypot(x, y) < REST_DISTANCE and abs(turned) < REST_ANGLE
+    return goal.kind is GoalKind.REACH and near and state.still > REST_SECONDS
 
 
 def _next_begin(found: NetworkOutput, description: Description, state: ClauseState) -> Pose:
