@@ -44,9 +44,14 @@ def hearing_names() -> tuple[str, ...]:
     return tuple(sorted(path.parent.name for path in BUNDLED_FOLDER.glob(f"*/{CARD_FILE}")))
 
 
+def hearing_folder(source: str | Path) -> Path:
+    """The folder of an agent that hears: one of `hearing_names`, or the folder itself."""
+    return BUNDLED_FOLDER / source if source in hearing_names() else Path(source)
+
+
 def hears(source: str | Path) -> bool:
     """Whether that is the name or the folder of an agent that hears the command."""
-    return source in hearing_names() or (Path(source) / CARD_FILE).is_file()
+    return (hearing_folder(source) / CARD_FILE).is_file()
 
 
 class HearingAgent:
@@ -83,8 +88,7 @@ class HearingAgent:
             OSError: a file cannot be read.
             ImportError: safetensors is not installed.
         """
-        folder = BUNDLED_FOLDER / path if path in hearing_names() else Path(path)
-        return cls(load_network(folder), driver)
+        return cls(load_network(hearing_folder(path)), driver)
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode with the body and the lidar of `info`."""
