@@ -1,0 +1,89 @@
+"""Draw docs/images/curves.png: how the agents of the package learn, a line for each seed."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from studies.figures import IMAGES
+
+CURVES = IMAGES.parent / "results" / "curves"
+"""Folder of the kept curves, PRESET-SEED.json: `cloning.json` of a trained `drive`, `hearing.json`
+of a trained `listener`."""
+
+MEASURES = {
+    "place": ("C0", "place within 0.5 m"),
+    "advance": ("C1", "clause over, and seen so"),
+    "stay": ("C2", "clause not over, and seen so"),
+}
+
+
+def kept(preset: str) -> dict[int, Any]:
+    """The kept curves of a preset, by seed."""
+    files = {_seed(path): path for path in CURVES.glob(f"{preset}-*.json")}
+    return {seed: json.loads(files[seed].read_text(encoding="utf-8")) for seed in sorted(files)}
+
+
+def _seed(path: Path) -> int:
+    found = re.search(r"-(\d+)$", path.stem)
+    if found is None:
+        raise ValueError(f"{path}: a curve is named PRESET-SEED.json")
+    return int(found[1])
+
+
+def draw_cloning(ax: Axes) -> None:
+    """The loss of `drive` on what it imitates, over passes."""
+    for seed, losses in kept("drive").items():
+        ax.plot(range(1, len(losses) + 1), losses, label=f"seed {seed}")
+    ax.set(xlabel="pass over the demonstrations", ylabel="loss", title="drive, what it imitates")
+    ax.set_yscale("log")
+    ax.legend(fontsize=8)
+
+
+def draw_listening(ax: Axes) -> None:
+    """Shares of the samples held out of which `listener` says what is right, over epochs."""
+    for seed, card in kept("listener").items():
+        epochs = [row for row in card["curve"] if "epoch" in row]
+        for name, (colour, label) in MEASURES.items():
+            points = range(1, len(epochs) + 1), [row[name] for row in epochs]
+            ax.plot(*points, color=colour, linewidth=1, label=None if seed else label)
+        begin = sum(row["round"] == 0 for row in epochs)
+    ax.axvline(begin + 0.5, color="black", linewidth=0.8, linestyle="--")
+    ax.text(begin + 0.6, 0.03, "DAgger", transform=ax.get_xaxis_transform())
+    ax.set(xlabel="epoch", ylabel="share that is right", title="listener, samples held out")
+    ax.set_ylim(0.0, 1.02)
+    ax.legend(fontsize=8, loc="center right")
+
+
+def draw_driving(ax: Axes) -> None:
+    """Success of `listener` while it collects, over chunks of episodes."""
+    for seed, card in kept("listener").items():
+        for number, style in ((0, "o--"), (1, "o-")):
+            rows = [row for row in card["curve"] if "chunk" in row and row["round"] == number]
+            points = [(row["chunk"] + 1, row["success"]) for row in rows]
+            who = "scripted agent" if number == 0 else "learner of round 0"
+            label = f"{who}, seed {seed}"
+            ax.plot(*zip(*points, strict=True), style, color=f"C{seed}", markersize=3, label=label)
+    ax.set(xlabel="chunk of 50 episodes of train", ylabel="success", title="listener, who collects")
+    ax.set_ylim(0.0, 1.02)
+    ax.legend(fontsize=7, loc="lower right")
+
+
+def main() -> None:
+    """Draw what the kept curves tell."""
+    figure = Figure(figsize=(11.0, 3.4), layout="constrained")
+    axes = figure.subplots(1, 3)
+    for ax, draw in zip(axes, (draw_cloning, draw_listening, draw_driving), strict=True):
+        draw(ax)
+        ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+        ax.grid(alpha=0.3)
+    path = IMAGES / "curves.png"
+    FigureCanvasAgg(figure).print_png(path)
+    print(f"wrote {path}")
