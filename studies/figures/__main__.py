@@ -9,6 +9,7 @@ FIGURES = [
     "architecture",
     "arcs",
     "buildings",
+    "cards",
     "clouds",
     "curves",
     "drift",
