@@ -4,8 +4,8 @@ import pytest
 
 pytest.importorskip("safetensors", reason='needs the extra "rl"')
 
-from semnav_env.agents.hearing.card import ModelCard  # noqa: E402
-from studies.figures.cards import LISTENER, drive_card, results_of  # noqa: E402
+from semnav_env.agents.hearing.card import ModelCard
+from studies.figures.cards import LISTENER, drive_card, results_of
 
 TOLD = {"what", "data", "hours", "made", "chosen_on", "results", "limits"}
 
