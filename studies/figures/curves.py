@@ -12,6 +12,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from semnav_env.agents.hearing.agent import BUNDLED_FOLDER
+from semnav_env.agents.hearing.card import ModelCard
 from studies.figures import IMAGES
 
 CURVES = IMAGES.parent / "results" / "curves"
@@ -23,6 +25,11 @@ MEASURES = {
     "advance": ("C1", "clause over, and seen so"),
     "stay": ("C2", "clause not over, and seen so"),
 }
+
+STYLES = ("o-", "s--", "^:", "v-.", "d-")
+"""Markers and lines of the trainings of `listener`."""
+
+WHO_COLLECTS = (("C0", "scripted agent, round 0"), ("C1", "learner, round 1"))
 
 
 def kept(preset: str) -> dict[int, Any]:
@@ -47,38 +54,52 @@ def draw_cloning(ax: Axes) -> None:
     ax.legend(fontsize=8)
 
 
+def listeners() -> dict[str, list[dict[str, Any]]]:
+    """The curves of `listener`, by their name in the legend: of the bundled one, and by seed."""
+    found = {"bundled": ModelCard.read(BUNDLED_FOLDER / "listener").curve}
+    return found | {f"seed {seed}": card["curve"] for seed, card in kept("listener").items()}
+
+
 def draw_listening(ax: Axes) -> None:
     """Shares of the samples held out of which `listener` says what is right, over epochs."""
-    for seed, card in kept("listener").items():
-        epochs = [row for row in card["curve"] if "epoch" in row]
-        for name, (colour, label) in MEASURES.items():
-            points = range(1, len(epochs) + 1), [row[name] for row in epochs]
-            ax.plot(*points, color=colour, linewidth=1, label=None if seed else label)
+    for style, (name, curve) in zip(STYLES, listeners().items(), strict=False):
+        epochs = [row for row in curve if "epoch" in row]
+        for measure, (colour, label) in MEASURES.items():
+            points = range(1, len(epochs) + 1), [row[measure] for row in epochs]
+            ax.plot(
+                *points, style, color=colour, linewidth=1, markersize=3, label=f"{label}, {name}"
+            )
         begin = sum(row["round"] == 0 for row in epochs)
-    ax.axvline(begin + 0.5, color="black", linewidth=0.8, linestyle="--")
-    ax.text(begin + 0.6, 0.03, "DAgger", transform=ax.get_xaxis_transform())
+    ax.axvline(begin + 0.5, color="black", linewidth=0.8, linestyle=":")
+    ax.text(begin + 0.6, 0.94, "DAgger", transform=ax.get_xaxis_transform())
     ax.set(xlabel="epoch", ylabel="share that is right", title="listener, samples held out")
-    ax.set_ylim(0.0, 1.02)
-    ax.legend(fontsize=8, loc="center right")
+    ax.set_ylim(0.0, 1.08)
+    ax.legend(fontsize=7, loc="lower right")
 
 
 def draw_driving(ax: Axes) -> None:
     """Success of `listener` while it collects, over chunks of episodes."""
-    for seed, card in kept("listener").items():
-        for number, style in ((0, "o--"), (1, "o-")):
-            rows = [row for row in card["curve"] if "chunk" in row and row["round"] == number]
-            points = [(row["chunk"] + 1, row["success"]) for row in rows]
-            who = "scripted agent" if number == 0 else "learner of round 0"
-            label = f"{who}, seed {seed}"
-            ax.plot(*zip(*points, strict=True), style, color=f"C{seed}", markersize=3, label=label)
+    for style, (name, curve) in zip(STYLES, listeners().items(), strict=False):
+        chunks = list(enumerate((row for row in curve if "chunk" in row), 1))
+        for number, (colour, who) in enumerate(WHO_COLLECTS):
+            points = [(k, row["success"]) for k, row in chunks if row["round"] == number]
+            label = f"{who}, {name}"
+            ax.plot(
+                *zip(*points, strict=True),
+                style,
+                color=colour,
+                linewidth=1,
+                markersize=3,
+                label=label,
+            )
     ax.set(xlabel="chunk of 50 episodes of train", ylabel="success", title="listener, who collects")
     ax.set_ylim(0.0, 1.02)
-    ax.legend(fontsize=7, loc="lower right")
+    ax.legend(fontsize=7, loc="lower left")
 
 
 def main() -> None:
     """Draw what the kept curves tell."""
-    figure = Figure(figsize=(11.0, 3.4), layout="constrained")
+    figure = Figure(figsize=(12.0, 3.8), layout="constrained")
     axes = figure.subplots(1, 3)
     for ax, draw in zip(axes, (draw_cloning, draw_listening, draw_driving), strict=True):
         draw(ax)
