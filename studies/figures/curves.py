@@ -50,7 +50,7 @@ def draw_cloning(ax: Axes) -> None:
     for seed, losses in kept("drive").items():
         ax.plot(range(1, len(losses) + 1), losses, label=f"seed {seed}")
     ax.set(xlabel="pass over the demonstrations", ylabel="loss", title="drive, what it imitates")
-    ax.set_yscale("log")
+    ax.set_ylim(bottom=0.0)
     ax.legend(fontsize=8)
 
 
