@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.base import Observation
+from semnav_env.agents.hearing.agent import hearing_folder, hears
+from semnav_env.agents.hearing.card import ModelCard
 from semnav_env.agents.learning.actions import for_body
 from semnav_env.agents.learning.compact import (
     COMPACT_ENTRIES,
@@ -44,6 +46,9 @@ def agent_label(name: str) -> dict[str, object]:
     Returns:
         "agent" and "training_seed", which is -1 for an agent that is not trained.
     """
+    if hears(name):
+        card = ModelCard.read(hearing_folder(name))
+        return {"agent": str(card.preset["name"]), "training_seed": card.seed}
     folder = _folder(name)
     if not (folder / AGENT_FILE).is_file():
         return {"agent": name, "training_seed": -1}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from copy import copy
 from pathlib import Path
 from typing import Any, Self
@@ -31,6 +32,9 @@ BUNDLED_FOLDER = Path(__file__).parents[1] / "pretrained"
 STAYING = SeenGoal(GoalKind.STOP, (0.0, 0.0, 0.0), None)
 """The goal of a command that is over."""
 
+REST_SECONDS, REST_DISTANCE, REST_ANGLE = 1.0, 0.3, 0.3
+"""A robot that stands for so long so near to where it was to be has carried the clause out."""
+
 Decision = tuple[ClauseState, Description]
 """What the agent took to be under way, and what it saw, when the network was asked."""
 
@@ -40,9 +44,14 @@ def hearing_names() -> tuple[str, ...]:
     return tuple(sorted(path.parent.name for path in BUNDLED_FOLDER.glob(f"*/{CARD_FILE}")))
 
 
+def hearing_folder(source: str | Path) -> Path:
+    """The folder of an agent that hears: one of `hearing_names`, or the folder itself."""
+    return BUNDLED_FOLDER / source if source in hearing_names() else Path(source)
+
+
 def hears(source: str | Path) -> bool:
     """Whether that is the name or the folder of an agent that hears the command."""
-    return source in hearing_names() or (Path(source) / CARD_FILE).is_file()
+    return (hearing_folder(source) / CARD_FILE).is_file()
 
 
 class HearingAgent:
@@ -79,8 +88,7 @@ class HearingAgent:
             OSError: a file cannot be read.
             ImportError: safetensors is not installed.
         """
-        folder = BUNDLED_FOLDER / path if path in hearing_names() else Path(path)
-        return cls(load_network(folder), driver)
+        return cls(load_network(hearing_folder(path)), driver)
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode with the body and the lidar of `info`."""
@@ -112,9 +120,12 @@ class HearingAgent:
             description = describe(observation, state, self._lidar, self._mount)
             self.decisions.append((copy(state), description))
             found = self.network.ground(description)
+            goal = _goal_of(found, description)
             step = int(np.argmax(found.advances))
+            if not step and _rests_at(goal, state):
+                step = state.step_when_done
             if not step:
-                return _goal_of(found, description)
+                return goal
             begin = _next_begin(found, description, state)
             state.start_clause(state.clause + step, begin, pose)
         return STAYING
@@ -130,6 +141,13 @@ def _goal_of(found: NetworkOutput, description: Description) -> SeenGoal:
     elif kind is GoalKind.PASS:  # without a door there is nothing to pass
         kind = GoalKind.SEEK
     return SeenGoal(kind, relative(robot, found.pose), jambs)
+
+
+def _rests_at(goal: SeenGoal, state: ClauseState) -> bool:
+    """Whether the robot stands where the clause leads to."""
+    x, y, turned = goal.pose
+    near = math.hypot(x, y) < REST_DISTANCE and abs(turned) < REST_ANGLE
+    return goal.kind is GoalKind.REACH and near and state.still > REST_SECONDS
 
 
 def _next_begin(found: NetworkOutput, description: Description, state: ClauseState) -> Pose:

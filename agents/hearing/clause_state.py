@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.commands.tokens import CLAUSE_FEATURES, TokenVerb
+from semnav_env.commands.tokens import CLAUSE_FEATURES, CONDITION_CASES, TokenVerb
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local
 from semnav_env.grounding.ways import WAY_SPACING, Trail
 
@@ -40,6 +40,15 @@ class ClauseState:
     def done(self) -> bool:
         """Whether every clause has been carried out."""
         return self.clause >= len(self.tokens) or not self.tokens[self.clause].any()
+
+    @property
+    def step_when_done(self) -> int:
+        """By how many clauses to go on once the one under way is carried out.
+
+        A clause that was chosen by a condition is followed by what was to be done otherwise.
+        """
+        verb, case = self.tokens[self.clause - 1, :2] if self.clause else (TokenVerb.FOLLOW, 0)
+        return 2 if verb == TokenVerb.IF_THERE and CONDITION_CASES[case][1] else 1
 
     @property
     def heading_at_start(self) -> float:

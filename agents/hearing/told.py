@@ -16,9 +16,6 @@ from semnav_env.observations import table
 AHEAD = (0, 1, 2, 3)
 """Places of the way that are elements, counted from the one nearest to the robot; and the last."""
 
-BEFORE_DOOR = 3
-"""The direction through a told door is seen from the place so many before the last."""
-
 
 @dataclass(frozen=True, eq=False)
 class ToldRows:
@@ -85,14 +82,32 @@ def _rows(places: FloatArray, jambs: FloatArray, robot: FloatArray, final: float
     where = np.concatenate((bases[:, :2], bases[:, :2]), axis=1)
     outward = np.zeros(2)
     if len(jambs):
-        middle = (jambs[0, :2] + jambs[0, 2:]) / 2
-        outward = middle - places[max(0, len(places) - 1 - BEFORE_DOOR)]
+        outward = outward_of(places, jambs[0])
     door: RowArrays = none
     if len(jambs):
         extra = np.zeros((1, 7))
         extra[0, :2] = left[0] / 10.0, float(left[0] <= 2)
         door = jambs, through_one(jambs, outward), extra
     return ToldRows((where, bases, extras), door, outward)
+
+
+def outward_of(places: FloatArray, jambs: FloatArray) -> FloatArray:
+    """The direction through the door at the end of a way, not normalised, shape (2,).
+
+    A way ends in the middle of the door. The place before that lies in front of the door; but
+    behind it, and near its middle, where the way there has led through the door.
+
+    Args:
+        places: of the way, shape (n, 2), two or more.
+        jambs: of the door, shape (4,).
+    """
+    middle, half = (jambs[:2] + jambs[2:]) / 2, (jambs[2:] - jambs[:2]) / 2
+    last, earlier = places[-2], places[max(0, len(places) - 3)]
+    (x, y), (u, v) = last - middle, earlier - middle
+    sides = (half[0] * y - half[1] * x) * (half[0] * v - half[1] * u)
+    within = abs(half @ (x, y)) < half @ half
+    outward: FloatArray = middle - (earlier if sides < 0.0 and within else last)
+    return outward
 
 
 def _stretch(places: FloatArray, index: int) -> tuple[float, float, float]:

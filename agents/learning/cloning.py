@@ -23,7 +23,7 @@ VALUE_WEIGHT = 0.01
 """Weight of the squared error of the value beside the error of the actions."""
 
 
-def clone(model: PPO, demonstrations: Tensors, seed: int) -> None:
+def clone(model: PPO, demonstrations: Tensors, seed: int) -> list[float]:
     """Teach the mean of the policy the actions, and the value function the returns.
 
     Every other batch, by chance, is mirrored: left and right are exchanged.
@@ -32,6 +32,9 @@ def clone(model: PPO, demonstrations: Tensors, seed: int) -> None:
         model: whose weights are changed.
         demonstrations: "observations", "actions" and "returns", a row for each decision.
         seed: of the order of the decisions.
+
+    Returns:
+        The mean loss of each pass, on what was learned from.
     """
     kept = ~pauses(demonstrations)
     parts = [demonstrations[name][kept] for name in ("observations", "actions", "returns")]
@@ -44,7 +47,9 @@ def clone(model: PPO, demonstrations: Tensors, seed: int) -> None:
     schedule = torch.optim.lr_scheduler.OneCycleLR(
         optimizer, LEARNING_RATE, total_steps=EPOCHS * batches, pct_start=0.15
     )
+    curve = []
     for _ in range(EPOCHS):
+        losses = []
         for rows in torch.randperm(count, generator=order).chunk(batches):
             side = int(torch.randint(2, (), generator=order))
             loss = _loss(model, *(part[rows] for part in both[side]))
@@ -52,6 +57,9 @@ def clone(model: PPO, demonstrations: Tensors, seed: int) -> None:
             torch.autograd.backward(loss)
             optimizer.step()
             schedule.step()
+            losses.append(loss.item())
+        curve.append(sum(losses) / len(losses))
+    return curve
 
 
 def _loss(model: PPO, observations: Tensor, actions: Tensor, returns: Tensor) -> Tensor:

@@ -35,7 +35,7 @@ MAX_FILE_SIZE = 64 * 2**20
 """Largest file that is read, bytes; a small agent needs far less."""
 
 AGENT_FILE, POLICY_FILE, TRAINING_FILE = "agent.json", "policy.safetensors", "training.safetensors"
-PREVIOUS_FILE = "training.previous.safetensors"
+PREVIOUS_FILE, CURVE_FILE = "training.previous.safetensors", "cloning.json"
 
 
 @dataclass(frozen=True)
@@ -132,6 +132,12 @@ _FIELD_TYPES: dict[str, type] = {
     "seed": int,
     "steps": int,
 }
+
+
+def save_curve(folder: Path, losses: list[float]) -> None:
+    """Write the mean loss of each pass of cloning, in one move."""
+    text = json.dumps([round(loss, 5) for loss in losses]) + "\n"
+    write_file(folder / CURVE_FILE, text.encode())
 
 
 def save_checkpoint(folder: Path, tensors: Mapping[str, Array]) -> None:

@@ -21,6 +21,7 @@ from semnav_env.agents.learning.files import (
     load_checkpoint,
     save_agent,
     save_checkpoint,
+    save_curve,
 )
 from semnav_env.agents.learning.imitation import demonstrations, load_demonstrations
 from semnav_env.agents.learning.policy import Policy
@@ -107,7 +108,8 @@ class Trainer:
         for driven in demonstrations(self.preset, self.seed, folder):
             yield driven / count
         self._imitated = True
-        clone(self.model, load_demonstrations(folder), self.seed)
+        curve = clone(self.model, load_demonstrations(folder), self.seed)
+        save_curve(self.folder, curve)
 
     def advance(self) -> TrainingReport:
         """Drive one rollout and learn from it."""

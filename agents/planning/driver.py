@@ -155,7 +155,7 @@ class Driver:
     ) -> bool:
         if self._track is None or self._target is None or self.path is None:
             return True
-        if _apart(self._target, target):
+        if _apart(self._target, target) or _asks_for_more(self._target, target):
             return True
         if not self.path.complete and self._remaining() < min(1.0, REPLAN_SHARE * self.path.length):
             return True
@@ -259,3 +259,12 @@ def _apart(a: DriveTarget, b: DriveTarget) -> bool:
     turned = abs(wrap_angle(a.pose[2] - b.pose[2]))
     heading_matters = b.heading_tolerance is not None and turned > 0.5 * b.heading_tolerance
     return math.dist(a.pose[:2], b.pose[:2]) > 0.5 * b.position_tolerance or heading_matters
+
+
+def _asks_for_more(a: DriveTarget, b: DriveTarget) -> bool:
+    """Whether a path to the first target may end where the second is not reached yet.
+
+    So it is where a place to look from turns out to be the place to stop at.
+    """
+    heading = a.heading_tolerance is None and b.heading_tolerance is not None
+    return heading or b.position_tolerance < a.position_tolerance

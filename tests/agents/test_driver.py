@@ -196,6 +196,18 @@ def test_a_moving_target_is_followed_but_not_a_trembling_one():
     assert driver.plans == 2
 
 
+def test_a_path_to_a_place_to_look_from_is_planned_anew_once_that_is_the_place_to_stop_at():
+    place, here = (0.3, 0.0, math.pi / 2), (0.0, 0.0, 0.0)
+    for asked in (DriveTarget(place, 0.4, 0.15), DriveTarget(place, 0.2, None)):
+        driver = Driver(WHEELCHAIR)
+        driver.drive(NOTHING, asked, here)
+        driver.drive(NOTHING, DriveTarget(place, 0.2, 0.15), here)
+        assert driver.plans == 2
+        assert driver.path.end[2] == pytest.approx(math.pi / 2, abs=0.15)
+        driver.drive(NOTHING, DriveTarget(place, 0.4, None), here)
+        assert driver.plans == 2
+
+
 def test_where_no_way_leads_on_the_robot_stands_and_is_not_done():
     driver, wall = Driver(WHEELCHAIR), points_of_segments(np.array([[0.7, -30.0, 0.7, 30.0]]))
     for _ in range(30):

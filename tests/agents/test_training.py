@@ -1,6 +1,7 @@
 """Training, what it keeps, and going on with it."""
 
 import errno
+import json
 import os
 import pickle
 import subprocess
@@ -15,9 +16,11 @@ pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 torch = pytest.importorskip("torch", reason='needs the extra "rl"')
 
 from semnav_env.agents.learned import LearnedAgent  # noqa: E402
+from semnav_env.agents.learning.cloning import EPOCHS  # noqa: E402
 from semnav_env.agents.learning.compact import CompactObserver  # noqa: E402
 from semnav_env.agents.learning.files import (  # noqa: E402
     AGENT_FILE,
+    CURVE_FILE,
     POLICY_FILE,
     TRAINING_FILE,
     load_tensors,
@@ -189,6 +192,9 @@ def test_what_a_preset_demonstrates_is_imitated_first(tmp_path):
     trainer = Trainer(preset, tmp_path / "a", seed=0)
     before = weights(trainer)
     assert list(trainer.prepare()) == [1.0]
+    losses = json.loads((tmp_path / "a" / CURVE_FILE).read_text())
+    assert len(losses) == EPOCHS
+    assert losses[-1] < losses[0]
     shown = load_demonstrations(tmp_path / "a" / "demonstrations")
     assert len(shown["observations"]) == len(shown["actions"]) == len(shown["returns"]) > 50
     again = Trainer(preset, tmp_path / "a", seed=0)  # from the file that is there

@@ -1,6 +1,7 @@
 """The bundled agent that hears the command."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -9,6 +10,7 @@ pytest.importorskip("safetensors", reason='needs the extra "rl"')
 from semnav_env.agents.base import steps
 from semnav_env.agents.hearing.agent import BUNDLED_FOLDER, HearingAgent, hearing_names
 from semnav_env.agents.hearing.card import ModelCard
+from semnav_env.agents.learned import agent_label
 from semnav_env.agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import load_episodes
@@ -55,3 +57,9 @@ def test_every_bundled_card_has_its_curve_and_limits():
         card = ModelCard.read(BUNDLED_FOLDER / name)
         assert card.curve
         assert {"data", "results", "limits"} <= card.notes.keys()
+
+
+def test_its_results_are_named_by_preset_and_seed(tmp_path):
+    assert agent_label("listener") == {"agent": "listener", "training_seed": 0}
+    replace(ModelCard.read(BUNDLED_FOLDER / "listener"), seed=3).write(tmp_path)
+    assert agent_label(str(tmp_path)) == {"agent": "listener", "training_seed": 3}

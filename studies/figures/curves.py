@@ -1,0 +1,110 @@
+"""Draw docs/images/curves.png: how the agents of the package learn, a line for each seed."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from semnav_env.agents.hearing.agent import BUNDLED_FOLDER
+from semnav_env.agents.hearing.card import ModelCard
+from studies.figures import IMAGES
+
+CURVES = IMAGES.parent / "results" / "curves"
+"""Folder of the kept curves, PRESET-SEED.json: `cloning.json` of a trained `drive`, `hearing.json`
+of a trained `listener`."""
+
+MEASURES = {
+    "place": ("C0", "place within 0.5 m"),
+    "advance": ("C1", "clause over, and seen so"),
+    "stay": ("C2", "clause not over, and seen so"),
+}
+
+STYLES = ("o-", "s--", "^:", "v-.", "d-")
+"""Markers and lines of the trainings of `listener`."""
+
+WHO_COLLECTS = (("C0", "scripted agent, round 0"), ("C1", "learner, round 1"))
+
+
+def kept(preset: str) -> dict[int, Any]:
+    """The kept curves of a preset, by seed."""
+    files = {_seed(path): path for path in CURVES.glob(f"{preset}-*.json")}
+    return {seed: json.loads(files[seed].read_text(encoding="utf-8")) for seed in sorted(files)}
+
+
+def _seed(path: Path) -> int:
+    found = re.search(r"-(\d+)$", path.stem)
+    if found is None:
+        raise ValueError(f"{path}: a curve is named PRESET-SEED.json")
+    return int(found[1])
+
+
+def draw_cloning(ax: Axes) -> None:
+    """The loss of `drive` on what it imitates, over passes."""
+    for seed, losses in kept("drive").items():
+        ax.plot(range(1, len(losses) + 1), losses, label=f"seed {seed}")
+    ax.set(xlabel="pass over the demonstrations", ylabel="loss", title="drive, what it imitates")
+    ax.set_ylim(bottom=0.0)
+    ax.legend(fontsize=8)
+
+
+def listeners() -> dict[str, list[dict[str, Any]]]:
+    """The curves of `listener`, by their name in the legend: of the bundled one, and by seed."""
+    found = {"bundled": ModelCard.read(BUNDLED_FOLDER / "listener").curve}
+    return found | {f"seed {seed}": card["curve"] for seed, card in kept("listener").items()}
+
+
+def draw_listening(ax: Axes) -> None:
+    """Shares of the samples held out of which `listener` says what is right, over epochs."""
+    for style, (name, curve) in zip(STYLES, listeners().items(), strict=False):
+        epochs = [row for row in curve if "epoch" in row]
+        for measure, (colour, label) in MEASURES.items():
+            points = range(1, len(epochs) + 1), [row[measure] for row in epochs]
+            ax.plot(
+                *points, style, color=colour, linewidth=1, markersize=3, label=f"{label}, {name}"
+            )
+        begin = sum(row["round"] == 0 for row in epochs)
+    ax.axvline(begin + 0.5, color="black", linewidth=0.8, linestyle=":")
+    ax.text(begin + 0.6, 0.94, "DAgger", transform=ax.get_xaxis_transform())
+    ax.set(xlabel="epoch", ylabel="share that is right", title="listener, samples held out")
+    ax.set_ylim(0.0, 1.08)
+    ax.legend(fontsize=7, loc="lower right")
+
+
+def draw_driving(ax: Axes) -> None:
+    """Success of `listener` while it collects, over chunks of episodes."""
+    for style, (name, curve) in zip(STYLES, listeners().items(), strict=False):
+        chunks = list(enumerate((row for row in curve if "chunk" in row), 1))
+        for number, (colour, who) in enumerate(WHO_COLLECTS):
+            points = [(k, row["success"]) for k, row in chunks if row["round"] == number]
+            label = f"{who}, {name}"
+            ax.plot(
+                *zip(*points, strict=True),
+                style,
+                color=colour,
+                linewidth=1,
+                markersize=3,
+                label=label,
+            )
+    ax.set(xlabel="chunk of 50 episodes of train", ylabel="success", title="listener, who collects")
+    ax.set_ylim(0.0, 1.02)
+    ax.legend(fontsize=7, loc="lower left")
+
+
+def main() -> None:
+    """Draw what the kept curves tell."""
+    figure = Figure(figsize=(12.0, 3.8), layout="constrained")
+    axes = figure.subplots(1, 3)
+    for ax, draw in zip(axes, (draw_cloning, draw_listening, draw_driving), strict=True):
+        draw(ax)
+        ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+        ax.grid(alpha=0.3)
+    path = IMAGES / "curves.png"
+    FigureCanvasAgg(figure).print_png(path)
+    print(f"wrote {path}")
