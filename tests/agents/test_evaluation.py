@@ -236,3 +236,9 @@ def test_the_same_command_on_two_plans_is_counted_apart() -> None:
     assert [each.floor_plan for each in results] == ["heidelberg_hallway", "office_cross"]
     assert [each.group for each in results] == [trial.group for trial in trials]
     assert len({trial.group for trial in suite("all")}) == len(suite("all"))
+
+
+def test_a_trial_whose_pose_is_never_free_is_refused_by_name() -> None:
+    trial = Trial("office_cross", "turn around", (100.0, 100.0, 0.0))
+    with pytest.raises(ValueError, match="office_cross: turn around: no free pose .* is outside"):
+        next(iter(runner.run_suite([trial], "oracle", "wheelchair", (0,))))
