@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
+from math import isnan
 from pathlib import Path
 from statistics import fmean, median
 from typing import Annotated
@@ -210,7 +211,7 @@ def _measures_table(everything: Summary) -> Table:
 
 
 def _written(value: float) -> str:
-    return f"{value:.1f}" if abs(value) >= 10.0 else f"{value:.3f}"
+    return "" if isnan(value) else f"{value:.1f}" if abs(value) >= 10.0 else f"{value:.3f}"
 
 
 def _summary(group: str, results: list[Result]) -> Summary:
