@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import isnan
 from pathlib import Path
 from statistics import fmean, median
@@ -111,6 +111,9 @@ class Arguments:
         """All results; each is written at once, so that an interruption loses none."""
         results: list[Result] = []
         who = agent_label(self.agent) | {"split": Path(self.suite).name, "robot": self.robot}
+        usual, chosen = asdict(NO_DYNAMICS), asdict(self.dynamics)
+        if moved := {name: value for name, value in chosen.items() if value != usual[name]}:
+            who |= {"dynamics": moved}
         with JsonLines(self.out) if self.out else nullcontext() as out:
             for result in tracked(
                 episodes, lambda n: f"{n} episodes", lambda: len(results) / total

@@ -80,6 +80,9 @@ def _attempt(line: str, place: str) -> Attempt:
         raise ValueError(f"{place}: is no JSON: {clipped(str(error))}") from None
     if not isinstance(row, dict):
         raise ValueError(f"{place}: is a {type(row).__name__}; a result is an object")
+    if row.get("dynamics"):
+        with_what = f"was driven with {shown(row['dynamics'])}"
+        raise ValueError(f"{place}: {with_what}; the table is of drives where nothing else moves")
     row = _completed(row)
     values: dict[str, Any] = {}
     for each in fields(Attempt):
