@@ -19,6 +19,7 @@ from semnav_env.tasks import (
     CommandTask,
     Curriculum,
     EpisodeRequest,
+    FrozenEpisodes,
     RandomisedRobot,
     Task,
     as_task,
@@ -58,6 +59,20 @@ def test_a_command_is_the_task_of_every_episode(command: str | Command) -> None:
 
 def test_a_list_of_commands_is_drawn_from() -> None:
     assert set(commands_of([AROUND, LEFT])) == {AROUND, str(LEFT)}
+
+
+def test_a_task_recognises_the_language_as_reset_does() -> None:
+    said = "geh durch die zweite Tür rechts"
+    told = SemNavEnv(floor_plan="office_cross").reset(seed=0, options={"command": said})[1]
+    again = SemNavEnv(floor_plan="office_cross", task=said).reset(seed=0)[1]
+    assert again == told
+
+
+def test_a_curriculum_takes_frozen_episodes_as_they_are() -> None:
+    task = Curriculum([RandomisedRobot(FrozenEpisodes("test_real"), robots=(SLOW,)), None])
+    info = SemNavEnv(task=task).reset(seed=0)[1]
+    assert info["episode_id"].startswith("test_real-")
+    assert info["robot"]["name"] == "slow"
 
 
 def test_a_list_of_floor_plans_is_drawn_from() -> None:
