@@ -5,6 +5,7 @@ from __future__ import annotations
 import pickle
 from dataclasses import replace
 
+import gymnasium as gym
 import numpy as np
 import pytest
 
@@ -23,6 +24,7 @@ from semnav_env.tasks import (
     RandomisedRobot,
     Task,
     as_task,
+    wrapping,
 )
 
 AROUND = "turn around"
@@ -152,6 +154,29 @@ def test_episodes_asked_for_by_options_do_not_count_for_a_curriculum() -> None:
     while "is_success" not in env.step(np.zeros(2))[4]:
         pass
     assert curriculum.stage == 0
+
+
+def test_an_episode_that_is_driven_on_counts_once_for_a_curriculum() -> None:
+    curriculum = Curriculum(["wait for 1 second", AROUND], promotion=1.0, window=2)
+    env = SemNavEnv(task=curriculum)
+    env.reset(seed=0)
+    ends = sum("is_success" in env.step(np.zeros(2))[4] for _ in range(30))
+    assert ends > 2
+    assert curriculum.stage == 0
+
+
+def test_a_curriculum_that_hears_of_no_end_says_what_to_do(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A `TimeLimit` outside of the environment cuts episodes off unseen."""
+    monkeypatch.setattr(wrapping, "MOST_UNHEARD", 2)
+    curriculum = Curriculum([AROUND, "stop"], window=2)
+    env = gym.make("semnav_env:SemNav-v0", task=curriculum, max_episode_steps=1)
+    for seed in range(2):
+        env.reset(seed=seed)
+        assert env.step(np.zeros(2, np.float32))[3]
+    with pytest.warns(RuntimeWarning, match="max_seconds= in place of max_episode_steps="):
+        env.reset(seed=2)
 
 
 @pytest.mark.parametrize("bad", [{"tasks": []}, {"promotion": 1.5}, {"window": 0}])
