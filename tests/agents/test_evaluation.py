@@ -132,6 +132,14 @@ def test_a_suite_has_seeds_and_no_episodes(capsys: pytest.CaptureFixture[str]) -
     assert "give a suite --seeds" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("words", [("--seeds", "5"), ("--first-seed", "3")])
+def test_a_split_has_episodes_and_no_seeds(
+    capsys: pytest.CaptureFixture[str], words: tuple[str, ...]
+) -> None:
+    assert main(["evaluate", "test_real", *words]) == 2
+    assert f"{words[0]} is for suites; give a split --episodes" in capsys.readouterr().err
+
+
 def test_a_split_is_evaluated_by_number_of_clauses(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
