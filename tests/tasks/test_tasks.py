@@ -232,5 +232,5 @@ def test_an_environment_with_a_task_goes_on_after_pickling() -> None:
 def test_a_reward_term_that_is_no_number_is_named() -> None:
     env = SemNavEnv(rewards=AddedTerms({"silent": lambda tick: None}))  # type: ignore[arg-type,return-value]
     env.reset(seed=0)
-    with pytest.raises(ValueError, match="reward term 'silent' is None; it must be a number"):
+    with pytest.raises(ValueError, match="'silent' is None; it must be a finite number"):
         env.step(np.zeros(2))
