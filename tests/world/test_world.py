@@ -149,6 +149,19 @@ def test_no_wall_lets_a_robot_through_at_a_low_control_rate(robot: RobotSpec, ra
         assert world.pose[0] < 40.0
 
 
+@robots
+def test_grip_bounds_accelerations_whatever_the_limits_say(robot: RobotSpec) -> None:
+    eager = replace(robot, max_speed=10.0, max_turn_rate=20.0)
+    eager = replace(eager, max_acceleration=100.0, max_turn_acceleration=200.0)
+    body = eager.length**2 + eager.width**2 + 12.0 * eager.axle**2
+    most = (GRIP * GRAVITY, 6.0 * GRIP * GRAVITY * eager.width / body)
+    for command, part, limit in (((9.0, 0.0, 0.0), 0, most[0]), ((0.0, 0.0, 19.0), 2, most[1])):
+        world = wide_world(eager)
+        for _ in range(4):
+            world.step(command)
+        assert world.velocity[part] * HZ / 4 == pytest.approx(limit, rel=0.01)
+
+
 def test_usual_robots_at_usual_rates_keep_their_substeps() -> None:
     for robot in ROBOTS.values():
         for rate in (10.0, 15.0, 40.0):
