@@ -56,7 +56,7 @@ class Arguments:
         dynamics: what else moves.
         save: film to write (.gif or .mp4).
         picture: picture of the end to write (.png).
-        show: show the drive in a window.
+        show: show the drive in a window, without --save and --picture.
         json: print the outcome as JSON.
     """
 
@@ -130,6 +130,8 @@ class Arguments:
         """Refuse bad paths before the drive, which takes a while."""
         from semnav_env.rendering.video import check_suffix
 
+        if self.show and (self.save or self.picture):
+            raise ValueError("--show opens a window; give it without --save and --picture")
         check_file(self.save, "--save")
         check_file(self.picture, "--picture")
         if self.save is not None:

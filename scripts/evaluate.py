@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from math import isnan
 from pathlib import Path
 from statistics import fmean, median
 from typing import Annotated
@@ -44,6 +45,9 @@ SHOWN_MEASURES = {
 }
 """The measures that are shown for each command, and their headings in both tables."""
 
+USUAL_SEEDS = 20
+"""Seeds of a suite where their number is not given."""
+
 
 @dataclass(frozen=True)
 class Arguments:
@@ -55,8 +59,9 @@ class Arguments:
         agent: scripted, oracle, blind, random, drive, listener (trained), the folder of a
             trained agent, or package.module:Class.
         robot: wheelchair or spot.
-        seeds: number of start poses, each with its own noise, for every command of a suite.
-        first_seed: number of the first seed.
+        seeds: number of start poses, each with its own noise, for every command of a suite; 20 if
+            not given.
+        first_seed: number of the first seed; 0 if not given.
         episodes: number of episodes of a split, evenly spaced; all if not given.
         workers: number of processes.
         recheck: judge every path a second time with Shapely, and count disagreements.
@@ -70,8 +75,8 @@ class Arguments:
     suite: Positional[str] = "heidelberg"
     agent: str = "scripted"
     robot: str = "wheelchair"
-    seeds: int = 20
-    first_seed: int = 0
+    seeds: int | None = None
+    first_seed: int | None = None
     episodes: int | None = None
     workers: int = 1
     recheck: bool = False
@@ -82,10 +87,12 @@ class Arguments:
 
     def run(self) -> int:
         """Run, and print success and contacts per command."""
-        if self.seeds < 1 or self.workers < 1:
+        count = USUAL_SEEDS if self.seeds is None else self.seeds
+        first = self.first_seed or 0
+        if count < 1 or self.workers < 1:
             raise ValueError("seeds and workers must be at least 1")
-        if self.first_seed < 0:
-            raise ValueError(f"first_seed is {self.first_seed}; it must be 0 or more")
+        if first < 0:
+            raise ValueError(f"first_seed is {first}; it must be 0 or more")
         if self.episodes is not None and self.episodes < 1:
             raise ValueError(f"--episodes is {self.episodes}; it must be at least 1")
         check_file(self.out, "--out")
@@ -93,7 +100,7 @@ class Arguments:
         trials = self._trials()
         if any(isinstance(t, Episode) and t.expected is Expected.AMBIGUOUS for t in trials):
             return self._ask([trial for trial in trials if isinstance(trial, Episode)])
-        seeds = range(self.first_seed, self.first_seed + self.seeds)
+        seeds = range(first, first + count)
         total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
         extras = Extras(self.recheck, self.pictures)
         how = self.workers, extras, self.dynamics
@@ -110,6 +117,9 @@ class Arguments:
         """All results; each is written at once, so that an interruption loses none."""
         results: list[Result] = []
         who = agent_label(self.agent) | {"split": Path(self.suite).name, "robot": self.robot}
+        usual, chosen = asdict(NO_DYNAMICS), asdict(self.dynamics)
+        if moved := {name: value for name, value in chosen.items() if value != usual[name]}:
+            who |= {"dynamics": moved}
         with JsonLines(self.out) if self.out else nullcontext() as out:
             for result in tracked(
                 episodes, lambda n: f"{n} episodes", lambda: len(results) / total
@@ -124,6 +134,9 @@ class Arguments:
             if self.episodes is not None:
                 raise ValueError("--episodes is for splits and files; give a suite --seeds")
             return suite(self.suite)
+        for option, value in (("--seeds", self.seeds), ("--first-seed", self.first_seed)):
+            if value is not None:
+                raise ValueError(f"{option} is for suites; give a split --episodes")
         found = load_episodes(self.suite)
         if self.episodes is not None and self.episodes > len(found):
             raise ValueError(f"--episodes is {self.episodes}; {self.suite} has {len(found)}")
@@ -210,7 +223,7 @@ def _measures_table(everything: Summary) -> Table:
 
 
 def _written(value: float) -> str:
-    return f"{value:.1f}" if abs(value) >= 10.0 else f"{value:.3f}"
+    return "" if isnan(value) else f"{value:.1f}" if abs(value) >= 10.0 else f"{value:.3f}"
 
 
 def _summary(group: str, results: list[Result]) -> Summary:

@@ -87,7 +87,9 @@ def _cells(row: Standing, quote: str = "") -> tuple[str, ...]:
     )
 
 
-def _written(estimate: Estimate) -> str:
+def _written(estimate: Estimate | None) -> str:
+    if estimate is None:
+        return ""
     return f"{estimate.mean:.3f} ({estimate.low:.2f} to {estimate.high:.2f})"
 
 

@@ -181,7 +181,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
         if type(rewards) is tasks.RewardWeights:  # the usual ones need no belief
             return rewards.weigh(*judgement, in_contact)
         sensed = self.simulator.motion, self.belief, np.asarray(action)
-        return rewards.terms(tasks.Tick(*judgement, *sensed, self.payload))
+        return tasks.terms_of(rewards, tasks.Tick(*judgement, *sensed, self.payload))
 
     def observe(self) -> Any:
         """A fresh observation from where the robot is now."""

@@ -6,6 +6,7 @@ import gzip
 import json
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
+from math import isnan, nan
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +31,7 @@ class Attempt:
         clauses: number of clauses of the command.
         success: whether the command was carried out.
         contact_free: whether nothing was touched.
-        spl: success weighted by path length.
+        spl: success weighted by path length; NaN, in files null, if the command is impossible.
     """
 
     agent: str
@@ -64,7 +65,10 @@ def read_attempts(path: str | Path) -> list[Attempt]:
 
 def write_attempts(attempts: Iterable[Attempt], path: Path) -> None:
     """Write attempts as compressed JSON Lines; the same ones give the same text."""
-    rows = (asdict(attempt) | {"spl": round(attempt.spl, 4)} for attempt in attempts)
+    rows = (
+        asdict(attempt) | {"spl": None if isnan(attempt.spl) else round(attempt.spl, 4)}
+        for attempt in attempts
+    )
     text = "".join(json.dumps(row, separators=(",", ":")) + "\n" for row in rows)
     write_file(path, gzip.compress(text.encode(), mtime=0))
 
@@ -76,6 +80,9 @@ def _attempt(line: str, place: str) -> Attempt:
         raise ValueError(f"{place}: is no JSON: {clipped(str(error))}") from None
     if not isinstance(row, dict):
         raise ValueError(f"{place}: is a {type(row).__name__}; a result is an object")
+    if row.get("dynamics"):
+        with_what = f"was driven with {shown(row['dynamics'])}"
+        raise ValueError(f"{place}: {with_what}; the table is of drives where nothing else moves")
     row = _completed(row)
     values: dict[str, Any] = {}
     for each in fields(Attempt):
@@ -91,6 +98,8 @@ def _attempt(line: str, place: str) -> Attempt:
 def _completed(row: dict[str, Any]) -> dict[str, Any]:
     """A row with what follows from the rest: the number of clauses, and the id of a trial."""
     verdicts = row.get("verdicts")
+    if "spl" in row and row["spl"] is None:
+        row = row | {"spl": nan}
     if "clauses" in row and isinstance(verdicts, list):  # there it is the share that was done
         row = row | {"clauses": len(verdicts)}
     if "episode" not in row and "command" in row:

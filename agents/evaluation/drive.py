@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -51,12 +52,16 @@ class Drive:
         """The same drive, judged as that of a command that is impossible.
 
         It is a success if the robot stood still, said that the command is impossible, and had made
-        no mistake before.
+        no mistake before. There is no true route to weigh it by, so it has no SPL and SDTW.
         """
         right = bool(self.impossible) and self.verifier.verdict is Verdict.STOPPED_SHORT
         said = self.impossible or "did not say that it is impossible"
         cause = "" if right else f"{self.verifier.verdict}; robot: {said}"
-        return replace(self, metrics=replace(self.metrics, success=right), cause=cause)
+        near = right or self.metrics.oracle_success
+        told = replace(
+            self.metrics, success=right, oracle_success=near, spl=math.nan, sdtw=math.nan
+        )
+        return replace(self, metrics=told, cause=cause)
 
     def rechecked(self) -> str:
         """The verdict of the second opinion if it differs from the verifier's; otherwise empty."""

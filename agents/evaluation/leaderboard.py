@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from math import sqrt
+from math import isnan, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -47,7 +47,7 @@ class Standing:
         seeds: number of trainings, which differ in their seed; 1 for an agent that is not trained.
         success: share of episodes in which the command was carried out.
         contact_free: share of episodes without any contact.
-        spl: success weighted by path length.
+        spl: success weighted by path length; None where an episode has none.
         worst: mean success over the worst twentieth of the episodes (CVaR).
         interquartile: mean success of the trainings without the best and the worst quarter of
             them; None for one training.
@@ -60,7 +60,7 @@ class Standing:
     seeds: int
     success: Estimate
     contact_free: Estimate
-    spl: Estimate
+    spl: Estimate | None
     worst: float
     interquartile: float | None
 
@@ -99,7 +99,7 @@ def _standing(attempts: Sequence[Attempt]) -> Standing:
         seeds=len(trainings),
         success=_estimate(groups, "success"),
         contact_free=_estimate(groups, "contact_free"),
-        spl=_estimate(groups, "spl"),
+        spl=None if any(isnan(each.spl) for each in attempts) else _estimate(groups, "spl"),
         worst=cvar([each.success for each in attempts], WORST_SHARE),
         interquartile=float(np.mean(means[cut : len(means) - cut])) if len(means) > 1 else None,
     )

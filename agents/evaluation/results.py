@@ -52,7 +52,7 @@ class Result:
         first = {"floor_plan": self.floor_plan, "command": self.command, "seed": self.seed}
         told = {"verdicts": self.verdicts} | ({"episode": self.episode} if self.episode else {})
         last = {"cause": self.cause, "rechecked": self.rechecked}
-        return {**first, **told, **asdict(self.metrics), **for_json(self.social), **last}
+        return {**first, **told, **for_json(asdict(self.metrics) | self.social), **last}
 
 
 @dataclass(frozen=True)
@@ -81,9 +81,10 @@ class Summary:
         return {
             "name": self.name,
             "episodes": self.episodes,
-            **self.means,
+            **for_json(self.means),
             "cvar": {
-                f"{share:.0%}": row for share, row in zip(WORST_SHARES, self.worst, strict=True)
+                f"{share:.0%}": for_json(row)
+                for share, row in zip(WORST_SHARES, self.worst, strict=True)
             },
             "failures": [failure_line(result) for result in self.failures],
             "disagreements": self.disagreements,

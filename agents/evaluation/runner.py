@@ -22,7 +22,7 @@ from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode, Expected
 from semnav_env.features.frames import Pose
 from semnav_env.maps import FloorPlan
-from semnav_env.maps.placement import placement_error
+from semnav_env.maps.placement import MAX_DRAWS, has_room, placement_error
 from semnav_env.robots import RobotSpec
 
 
@@ -201,13 +201,20 @@ def picture_name(driven: Drive, command: str, seed: int) -> str:
 def scattered(
     trial: Trial, floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator
 ) -> Pose:
-    """A random free pose around that of the trial, each part within its scatter."""
-    while True:
+    """A random free pose around that of the trial, each part within its scatter.
+
+    Raises:
+        ValueError: none of `MAX_DRAWS` poses was free; says why the last was not.
+    """
+    x, y, heading = trial.pose
+    for _ in range(MAX_DRAWS):
         x, y, heading = (
             p + rng.uniform(-s, s) for p, s in zip(trial.pose, trial.scatter, strict=True)
         )
-        if placement_error(floor_plan, robot, (x, y, heading)) is None:
+        if has_room(floor_plan, robot, (x, y, heading)):
             return x, y, heading
+    why = placement_error(floor_plan, robot, (x, y, heading))
+    raise ValueError(f"{trial.group}: no free pose within {trial.scatter} of the start: {why}")
 
 
 class _Worker:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
@@ -192,7 +191,7 @@ class BeliefTracker:
 
         Raises:
             RuntimeError: before the first `begin`.
-            ValueError: other ranges (shape, or a first scan in mm), or odometry that is not finite.
+            ValueError: other ranges (shape, or a first scan in mm), what is not finite, no time.
         """
         self.take(ranges, odometry, velocity, bumps, seconds)
         events = understand(self.senses)
@@ -216,14 +215,14 @@ class BeliefTracker:
             raise ValueError(
                 f"ranges have shape {array.shape}; {self.lidar.name} gives {own.shape}"
             )
-        from semnav_env.features.scan import check_unit, plain_codes  # a simulated robot needs none
+        from semnav_env.belief.sensed_check import check_sensed  # a simulated robot needs none
+        from semnav_env.features.scan import check_unit, plain_codes
 
         if self._is_first:
             check_unit(array, self.lidar.range_max)
-        x, y, heading = odometry
-        if not math.isfinite(x + y + heading):
-            raise ValueError(f"odometry is {odometry}; it must be a finite (x, y, heading)")
         seconds = self._period if seconds is None else seconds
+        check_sensed(odometry, velocity, bumps, seconds)
+        x, y, heading = odometry
         if velocity is None:
             velocity = mean_velocity(self._estimate[0], odometry, seconds)
         self.let_go()

@@ -84,7 +84,7 @@ class SocialRecord:
 
 
 def for_json(outcome: dict[str, Any]) -> dict[str, Any]:
-    """An outcome that JSON can hold: None in place of infinite values."""
+    """An outcome that JSON can hold: None in place of infinite values and NaN."""
     return {name: value if math.isfinite(value) else None for name, value in outcome.items()}
 
 

@@ -35,6 +35,7 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
     goals = verifier.mission.goals
     goal = place(goals[-1]) if goals else verifier.mission.start[:2]
     distances = geodesic_distances(verifier.mission.geodesic.to(goal), path)
+    ends, lengths = (float(distances[-1]), float(distances[0])), (driven_length, route_length)
     driven, wanted = resampled(path), resampled(route)
     alike = ndtw(driven, wanted)
     clear = clearances(recording.poses, robot, verifier.mission.floor_plan)
@@ -43,11 +44,12 @@ def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metri
         success=success,
         within_1m=bool(distances[-1] < GOAL_RADIUS),
         within_3m=bool(distances[-1] < PUBLISHED_GOAL_RADIUS),
-        oracle_success=success or (bool(goals) and ever_met(goals[-1], recording)),
+        oracle_success=success
+        or (bool(goals) and ever_met(goals[-1], recording, verifier.mission.rules.success)),
         oracle_within_1m=bool(distances.min() < GOAL_RADIUS),
         oracle_within_3m=bool(distances.min() < PUBLISHED_GOAL_RADIUS),
-        spl=spl(success, driven_length, route_length),
-        soft_spl=soft_spl(float(distances[-1]), float(distances[0]), driven_length, route_length),
+        spl=spl(success, *lengths),
+        soft_spl=soft_spl(success, *ends, *lengths),
         ndtw=alike,
         sdtw=success * alike,
         cls=cls(driven, wanted),
@@ -79,24 +81,30 @@ def geodesic_distances(ways: WaysTo, points: FloatArray) -> FloatArray:
     )
 
 
-def ever_met(goal: Goal, recording: Recording) -> bool:
+def ever_met(goal: Goal, recording: Recording, rules: SuccessRules) -> bool:
     """Whether a goal was met at any time, whatever happened before."""
     poses = [(x, y, heading) for x, y, heading in recording.poses.tolist()]
     match goal:
         case PassGoal():
             return any(goal.crossed_between(before, after) for before, after in pairwise(poses))
         case StopGoal():
-            return stood_there(goal, recording)
+            return stood_there(goal, recording, rules.standstill_speed)
         case ReachGoal():
             return any(map(goal.reached_by, poses[1:]))
         case SeekGoal():
             return False
 
 
-def stood_there(goal: StopGoal, recording: Recording) -> bool:
-    """Whether the robot stood still within `GOAL_RADIUS` of a goal for as long as the goal says."""
+def stood_there(goal: StopGoal, recording: Recording, standstill_speed: float) -> bool:
+    """Whether the robot stood still within `GOAL_RADIUS` of a goal for as long as the goal says.
+
+    Args:
+        goal: where, and for how long.
+        recording: of the episode.
+        standstill_speed: below it a robot stands still, m/s.
+    """
     away = np.hypot(*(recording.path[1:] - goal.pose[:2]).T)
-    stands = (recording.speeds[1:] < SuccessRules().standstill_speed) & (away < GOAL_RADIUS)
+    stands = (recording.speeds[1:] < standstill_speed) & (away < GOAL_RADIUS)
     since = steps = 0
     for stood in stands.tolist():
         since = since + 1 if stood else 0

@@ -37,25 +37,29 @@ def spl(success: bool, path_length: float, route_length: float) -> float:
     """Success weighted by path length (Anderson et al. 2018), of one episode.
 
     S * l / max(p, l): l is the length of the shortest way (geodesic), p of the path (Euclidean).
-    Where neither has a length it is S.
+    The source leaves l = 0 open; there, as for a turn on the spot, it is S.
     """
-    longest = max(path_length, route_length)
-    return float(success) * (route_length / longest if longest > 0.0 else 1.0)
+    if route_length == 0.0:
+        return float(success)
+    return float(success) * route_length / max(path_length, route_length)
 
 
-def soft_spl(remaining: float, initial: float, path_length: float, route_length: float) -> float:
+def soft_spl(
+    success: bool, remaining: float, initial: float, path_length: float, route_length: float
+) -> float:
     """SPL with progress in the place of success (Datta et al. 2020).
 
     (1 - d_T / d_0) * l / max(p, l), no less than 0: d_T and d_0 are the distances to the goal at
-    the end and at the start. Where d_0 is 0 the progress is 1 if d_T is 0, too, else 0.
+    the end and at the start. Where d_0 is 0, as for a way there and back, progress is success.
 
     Args:
+        success: whether the command was carried out.
         remaining: distance to the goal at the end, geodesic, metres.
         initial: the same at the start.
         path_length: Euclidean, metres.
         route_length: geodesic, metres.
     """
-    progress = 1.0 - remaining / initial if initial > 0.0 else float(remaining == 0.0)
+    progress = 1.0 - remaining / initial if initial > 0.0 else float(success)
     return max(0.0, progress) * spl(True, path_length, route_length)
 
 

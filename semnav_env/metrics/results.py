@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 from semnav_env.metrics.motion import collisions_per_100m
 from semnav_env.metrics.risk import cvar
@@ -25,6 +26,8 @@ COST_METRICS = frozenset(
 @dataclass(frozen=True)
 class Metrics:
     """The measures of one episode; docs/metrics.md gives their formulas.
+
+    NaN stands for what an episode does not have: a command that is impossible has no SPL and SDTW.
 
     Attributes:
         success: the whole command was carried out; doors count by their identity.
@@ -91,7 +94,7 @@ def means(episodes: Sequence[Metrics]) -> dict[str, float]:
 
 
 def worst(episodes: Sequence[Metrics], share: float) -> dict[str, float]:
-    """The mean of each measure over its own worst episodes, see `cvar`.
+    """The mean of each measure over its own worst episodes that have it, see `cvar`; or NaN.
 
     Args:
         episodes: measures of at least one episode.
@@ -100,8 +103,9 @@ def worst(episodes: Sequence[Metrics], share: float) -> dict[str, float]:
     Raises:
         ValueError: no episodes, or a share outside (0, 1].
     """
-    rows = [asdict(episode) for episode in episodes]
-    return {
-        name: cvar([row[name] for row in rows], share, name in COST_METRICS)
-        for name in METRIC_NAMES
-    }
+    found = {}
+    for name in METRIC_NAMES:
+        values = [float(getattr(episode, name)) for episode in episodes]
+        known = [value for value in values if not math.isnan(value)]
+        found[name] = cvar(known or values, share, name in COST_METRICS)
+    return found

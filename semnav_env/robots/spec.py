@@ -25,8 +25,8 @@ class RobotSpec:
         max_speed: forward and backward, m/s.
         max_sideways_speed: m/s; 0 for a differential drive.
         max_turn_rate: rad/s.
-        max_acceleration: m/s^2, forward and sideways.
-        max_turn_acceleration: rad/s^2.
+        max_acceleration: m/s^2, forward and sideways; the floor's grip allows no more than 6.87.
+        max_turn_acceleration: rad/s^2; the floor's grip allows about 13 with the wheelchair's body.
         axle: x of the point that a turn on the spot turns about, metres in the robot frame.
         lidar_mount: pose of the lidar in the robot frame.
         source: where the numbers come from.

@@ -7,17 +7,11 @@ from semnav_env.tasks.episode_source import EpisodeSource
 from semnav_env.tasks.judge import EpisodeJudge, Judgement
 from semnav_env.tasks.mission_maker import MissionMaker
 from semnav_env.tasks.request import EpisodeRequest
-from semnav_env.tasks.rewards import (
-    AddedTerms,
-    Rewards,
-    RewardTerm,
-    RewardWeights,
-    Tick,
-    as_rewards,
-)
+from semnav_env.tasks.rewards import Rewards, RewardTerm, RewardWeights, Tick, as_rewards
 from semnav_env.tasks.task import AdaptiveTask, CommandTask, SampledTask, Task, as_task
 
 if TYPE_CHECKING:
+    from semnav_env.tasks.added_terms import AddedTerms, terms_of
     from semnav_env.tasks.frozen import Episodes, FrozenEpisodes
     from semnav_env.tasks.wrapping import Curriculum, RandomisedRobot
 
@@ -42,11 +36,13 @@ __all__ = [
     "Tick",
     "as_rewards",
     "as_task",
+    "terms_of",
 ]
 
 __getattr__ = lazy_names(
     __name__,
     {
+        "added_terms": ("AddedTerms", "terms_of"),
         "frozen": ("Episodes", "FrozenEpisodes"),
         "wrapping": ("Curriculum", "RandomisedRobot"),
     },

@@ -55,6 +55,7 @@ class EpisodeSource:
     def note(self, success: bool) -> None:
         """Tell a task that learns how an episode ended that it asked for."""
         if self._asked_task and isinstance(self.task, AdaptiveTask):
+            self._asked_task = False  # who drives on past the end ends no other episode
             self.task.note(success)
 
 

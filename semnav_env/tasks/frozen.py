@@ -33,7 +33,8 @@ class FrozenEpisodes:
 
     def request(self, rng: np.random.Generator) -> EpisodeRequest:
         """One of the episodes, each equally likely."""
-        return EpisodeRequest(episode=self._ids[int(rng.integers(len(self._ids)))])
+        drawn = self._ids[int(rng.integers(len(self._ids)))]
+        return EpisodeRequest(episode=self._episodes[drawn])
 
     def find(self, wanted: object) -> Episode:
         """The episode of that id.

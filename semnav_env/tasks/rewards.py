@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, NamedTuple, Protocol, TypeAlias, runtime_checkable
@@ -121,39 +121,3 @@ def as_rewards(value: object) -> Rewards:
         f"rewards is {value!r:.80}; it must be a semnav_env.tasks.RewardWeights or have "
         "terms(tick); AddedTerms adds terms of your own by name"
     )
-
-
-@dataclass(frozen=True)
-class AddedTerms:
-    """Rewards with terms of one's own beside them.
-
-        AddedTerms({"smooth": lambda tick: -0.1 * abs(tick.motion.yaw_rate)})
-
-    Attributes:
-        added: the terms by name; functions of a module, where the environment is to be pickled.
-        base: the rewards that they are added to.
-
-    Raises:
-        ValueError: a name is taken by the base.
-    """
-
-    added: Mapping[str, RewardTerm]
-    base: Rewards = RewardWeights()
-
-    def __post_init__(self) -> None:
-        taken = {each.name for each in fields(RewardWeights)} & set(self.added)
-        if isinstance(self.base, RewardWeights) and taken:
-            raise ValueError(f"reward terms {sorted(taken)} are there already; name yours anew")
-
-    def terms(self, tick: Tick) -> dict[str, float]:
-        """The terms of the base and the added ones."""
-        return self.base.terms(tick) | {name: self._value(name, tick) for name in self.added}
-
-    def _value(self, name: str, tick: Tick) -> float:
-        value = self.added[name](tick)
-        try:
-            return float(value)
-        except (TypeError, ValueError):
-            raise ValueError(
-                f"reward term {name!r} is {value!r:.80}; it must be a number"
-            ) from None

@@ -44,12 +44,12 @@ class CommandTask:
     Attributes:
         commands: texts or `Command`s to draw from; any that can be carried out if empty.
         floor_plans: names, paths or plans to draw from; the environment's if empty.
-        language: of the texts.
+        language: of the texts; None to recognise it.
     """
 
     commands: Sequence[str | Command] = ()
     floor_plans: Sequence[str | Path | FloorPlan] = ()
-    language: str = "en"
+    language: str | None = None
 
     def request(self, rng: np.random.Generator) -> EpisodeRequest:
         """A command and a floor plan, each drawn where there is a choice."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,6 +17,10 @@ from semnav_env.tasks.request import EpisodeRequest
 from semnav_env.tasks.task import AdaptiveTask, Task, as_task
 
 _T = TypeVar("_T")
+
+MOST_UNHEARD = 1000
+"""A curriculum that was asked for more episodes, and heard of no end, warns: more than there are
+environments that share it."""
 
 
 class Curriculum:
@@ -40,15 +45,24 @@ class Curriculum:
                 f"(here {promotion}) and a window of at least 1 (here {window})"
             )
         self._tasks = tuple(map(as_task, tasks))
-        self._promotion, self.stage = promotion, 0
+        self._promotion, self.stage, self._unheard = promotion, 0, 0
         self._ended: deque[bool] = deque(maxlen=window)
 
     def request(self, rng: np.random.Generator) -> EpisodeRequest:
         """What the task under way asks for."""
+        self._unheard += 1
+        if self._unheard == MOST_UNHEARD + 1:
+            warnings.warn(
+                f"a curriculum was asked for {MOST_UNHEARD} episodes and heard of no end; where a "
+                "TimeLimit cuts them off, give max_seconds= in place of max_episode_steps=",
+                RuntimeWarning,
+                stacklevel=2,
+            )
         return self._tasks[self.stage].request(rng)
 
     def note(self, success: bool) -> None:
         """Count an episode, and go on to the next task if it is time."""
+        self._unheard = 0
         _pass_on(self._tasks[self.stage], success)
         self._ended.append(success)
         full = len(self._ended) == self._ended.maxlen

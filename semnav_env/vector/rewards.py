@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
-from semnav_env.tasks import RewardWeights, Tick
+from semnav_env.tasks import RewardWeights, Tick, terms_of
 from semnav_env.vector.judgements import Judgements
 
 Terms = dict[str, FloatArray]
@@ -61,7 +61,7 @@ class EachTerms:
         for k in np.flatnonzero(judged.driven).tolist():
             env, action = self._envs[k], np.asarray(actions[k])
             tick = Tick(*judged.judgement(k), env.simulator.motion, env.belief, action, env.payload)
-            for name, value in env.rewards.terms(tick).items():
+            for name, value in terms_of(env.rewards, tick).items():
                 terms.setdefault(name, np.ma.masked_all(len(self._envs)))[k] = value
         return terms
 

@@ -34,6 +34,10 @@ FINE = 20
 """Substeps where something else moves: a robot's corner then gets less than a centimetre into
 somebody before the contact is felt."""
 
+LONGEST_JUMP = 0.25
+"""Longest way in a substep, share of the body's shorter side: a body that jumps on to the other
+side of a wall is not stopped by it."""
+
 
 class World:
     """One robot in a floor plan.
@@ -50,7 +54,8 @@ class World:
         floor_plan: all of its segments are solid, glass too.
         robot: body and limits.
         control_hz: commands per second.
-        substeps: of the physics for each command; `FINE` at least where something else moves.
+        substeps: of the physics for each command, at least; more where the robot is fast or the
+            rate low (`LONGEST_JUMP`), and `FINE` where something else moves.
         dynamics: what else moves.
 
     Attributes:
@@ -76,7 +81,9 @@ class World:
         self._period = 1.0 / control_hz
         self.moving = self._moving(dynamics) if dynamics.moves else None
         self.still = floor_plan if self.moving is None else self.moving.still
-        substeps = substeps if self.moving is None else max(substeps, FINE)
+        period_way = math.hypot(robot.max_speed, robot.max_sideways_speed) * self._period
+        least = math.ceil(period_way / (LONGEST_JUMP * min(robot.length, robot.width)))
+        substeps = max(substeps, least, 0 if self.moving is None else FINE)
         self.control_hz, self.substeps = control_hz, substeps
         self._at_rest()
         self._start: Pose | None = None

@@ -132,6 +132,14 @@ def test_a_suite_has_seeds_and_no_episodes(capsys: pytest.CaptureFixture[str]) -
     assert "give a suite --seeds" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("words", [("--seeds", "5"), ("--first-seed", "3")])
+def test_a_split_has_episodes_and_no_seeds(
+    capsys: pytest.CaptureFixture[str], words: tuple[str, ...]
+) -> None:
+    assert main(["evaluate", "test_real", *words]) == 2
+    assert f"{words[0]} is for suites; give a split --episodes" in capsys.readouterr().err
+
+
 def test_a_split_is_evaluated_by_number_of_clauses(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -186,6 +194,28 @@ def test_standing_still_is_no_answer_unless_the_robot_says_why(
     assert "did not say that it is impossible" in result.cause
 
 
+def test_an_infeasible_command_has_no_path_to_weigh_success_by(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """SPL and SDTW are left blank, and the oracle's success is no less than success."""
+    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    file, out = tmp_path / "short.jsonl", tmp_path / "out.jsonl"
+    write_episodes([e for e in load_episodes("test_infeasible") if e.clauses == 1][:1], file)
+    assert main(["evaluate", str(file), "--json", "--out", str(out)]) == 0
+    *_, mean = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    [row] = [json.loads(line, parse_constant=pytest.fail) for line in out.read_text().splitlines()]
+    for told in (mean, mean["cvar"]["5%"], row):
+        assert told["spl"] is None
+        assert told["sdtw"] is None
+        assert told["oracle_success"] == told["success"] == 1.0
+    assert main(["evaluate", str(file)]) == 0
+    assert "nan" not in capsys.readouterr().out
+    assert main(["leaderboard", str(out), "--json", "--keep", str(tmp_path)]) == 0
+    assert json.loads(capsys.readouterr().out, parse_constant=pytest.fail)[0]["spl"] is None
+    assert main(["leaderboard", *map(str, tmp_path.glob("*.gz"))]) == 0
+    assert "nan" not in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("changed", "why", "workers"),
     [
@@ -236,3 +266,9 @@ def test_the_same_command_on_two_plans_is_counted_apart() -> None:
     assert [each.floor_plan for each in results] == ["heidelberg_hallway", "office_cross"]
     assert [each.group for each in results] == [trial.group for trial in trials]
     assert len({trial.group for trial in suite("all")}) == len(suite("all"))
+
+
+def test_a_trial_whose_pose_is_never_free_is_refused_by_name() -> None:
+    trial = Trial("office_cross", "turn around", (100.0, 100.0, 0.0))
+    with pytest.raises(ValueError, match=r"office_cross: turn around: no free pose .* is outside"):
+        next(iter(runner.run_suite([trial], "oracle", "wheelchair", (0,))))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -12,6 +13,8 @@ import pytest
 from semnav_env.agents.evaluation.attempts import Attempt, read_attempts, write_attempts
 from semnav_env.agents.evaluation.leaderboard import Standing, standings
 from semnav_env.scripts.main import main
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 def attempts(successes: list[int], clauses: int = 1, **changes: object) -> list[Attempt]:
@@ -151,3 +154,27 @@ def test_what_evaluate_wrote_becomes_a_table(
         assert main(["leaderboard", str(file), *words]) == 0
         assert capsys.readouterr().out == shown
         assert "test_real" in shown
+
+
+def test_a_run_among_people_is_not_compared_with_runs_without(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    out, moved = tmp_path / "people.jsonl", ["--pedestrians", "2", "--walking.radius", "0.3"]
+    words = ["evaluate", "test_real", "--agent", "random", "--episodes", "1", "--out", str(out)]
+    assert main([*words, *moved]) == 0
+    row = json.loads(out.read_text())
+    assert row["dynamics"]["pedestrians"] == 2
+    assert set(row["dynamics"]) == {"pedestrians", "walking"}
+    capsys.readouterr()
+    assert main(["leaderboard", str(out)]) == 2
+    assert "people.jsonl:1: was driven with {'pedestrians': 2" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("page", ["command_line.md", "leaderboard.md"])
+def test_the_documented_agent_is_not_on_the_leaderboard_yet(page: str) -> None:
+    """The table takes no episode of an agent twice."""
+    text = (DOCS / page).read_text()
+    [file] = re.findall(r"semnav leaderboard (\S+) docs/results", text)
+    [agent] = re.findall(rf"--agent (\S+) .*--out {file}", text)
+    kept = {path.name.split(".")[0].split("-")[0] for path in (DOCS / "results").iterdir()}
+    assert agent not in kept

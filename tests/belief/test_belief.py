@@ -112,12 +112,28 @@ def test_an_update_and_a_belief_before_a_command_are_errors() -> None:
     ("ranges", "odometry", "words"),
     [
         (np.zeros(7), (0.0, 0.0, 0.0), r"shape \(7,\); tim561 gives \(811,\)"),
-        (nothing(), (0.0, np.nan, 0.0), "must be a finite"),
+        (nothing(), (0.0, np.nan, 0.0), "must be three finite"),
     ],
 )
 def test_what_no_robot_senses_is_refused(ranges, odometry, words) -> None:
     with pytest.raises(ValueError, match=words):
         tracker().update(ranges, odometry)
+
+
+@pytest.mark.parametrize(
+    ("sensed", "words"),
+    [
+        *(({"seconds": bad}, "seconds is .*above 0") for bad in (0.0, -1.0, np.nan, np.inf)),
+        ({"velocity": (np.nan, 0.0, 0.0)}, "velocity is .*three finite numbers"),
+        ({"bumps": [(0.5, np.nan, 0.0)]}, "a bump is .*three finite numbers"),
+    ],
+)
+def test_motion_that_no_robot_has_is_refused_and_changes_nothing(sensed, words) -> None:
+    robot = tracker()
+    believed = robot.update(nothing(), (0.0, 0.0, 0.0)).pose
+    with pytest.raises(ValueError, match=words):
+        robot.update(nothing(), (0.1, 0.0, 0.0), **sensed)
+    assert robot.belief.pose == believed
 
 
 def test_without_a_velocity_that_of_odometry_counts() -> None:

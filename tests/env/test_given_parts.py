@@ -16,6 +16,7 @@ from semnav_env.lidar import TIM561, LidarSpec
 from semnav_env.observations import MODES, EntryObservation, Moment
 from semnav_env.robots import RobotSpec
 from semnav_env.tasks import AddedTerms, RewardWeights, Tick
+from semnav_env.vector import SemNavVectorEnv
 from tests.support.episodes import START, actions
 
 FAST = replace(TIM561, name="fast", rate_hz=40.0)
@@ -73,6 +74,37 @@ def test_terms_can_be_added_to_rewards_of_ones_own() -> None:
 def test_a_term_with_a_name_that_is_taken_is_refused() -> None:
     with pytest.raises(ValueError, match=r"'progress'.*name yours anew"):
         AddedTerms({"progress": yaw_cost})
+
+
+@pytest.mark.parametrize("base", [AddedTerms({"yaw": yaw_cost}), AddedTerms({}, RewardWeights())])
+def test_a_name_that_a_nested_base_has_taken_is_refused(base: AddedTerms) -> None:
+    with pytest.raises(ValueError, match="name yours anew"):
+        AddedTerms({"yaw": yaw_cost, "time": yaw_cost}, base)
+
+
+def test_a_name_that_rewards_of_ones_own_have_taken_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"'speed'.*name yours anew"):
+        driven(1, rewards=AddedTerms({"speed": yaw_cost}, OnlySpeed()))
+
+
+class OneTerm:
+    def __init__(self, value: object) -> None:
+        self.value = value
+
+    def terms(self, tick: Tick) -> dict[str, float]:
+        return {"fine": 1.0, "odd": self.value}  # type: ignore[dict-item]
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, None, np.array([1.0]), np.zeros(2)])
+@pytest.mark.parametrize("added", [False, True])
+def test_a_term_that_is_no_finite_number_is_named(value: object, added: bool) -> None:
+    rewards: Any = AddedTerms({"odd": lambda _: value}) if added else OneTerm(value)  # type: ignore[dict-item,return-value]
+    with pytest.raises(ValueError, match=r"reward term 'odd' is .* must be a finite number"):
+        driven(1, rewards=rewards)
+    robots = SemNavVectorEnv(1, rewards=rewards)
+    robots.reset(seed=5, options=START)
+    with pytest.raises(ValueError, match=r"reward term 'odd' is .* must be a finite number"):
+        robots.step(np.zeros((1, 2), np.float32))
 
 
 def test_rewards_of_ones_own_replace_all_terms() -> None:

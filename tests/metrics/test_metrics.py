@@ -29,7 +29,8 @@ from semnav_env.metrics import (
     worst,
 )
 from semnav_env.robots import SPOT
-from semnav_env.verifier import Verifier, plan_mission
+from semnav_env.rules import Rules, SuccessRules
+from semnav_env.verifier import Motion, Verifier, plan_mission
 from tests.support.erring import ghost
 from tests.support.small_plans import empty_hall, plan_of
 
@@ -149,6 +150,38 @@ def test_waiting_at_the_start_is_waiting_nowhere_else() -> None:
         poses = np.tile(np.array(place), (rows, 1))
         recording = Recording(poses, still, np.zeros(rows, int), np.zeros(rows), 1 / 15)
         assert measure(recording, judge, SPOT).oracle_success is met
+
+
+def test_standing_is_what_the_missions_rules_call_standing() -> None:
+    command = "go through the second door on the left and wait for 2 seconds"
+    for rules, met in ((Rules(), False), (Rules(success=SuccessRules(standstill_speed=0.3)), True)):
+        mission = plan_mission(PLAN, GEODESIC, parse(command), START, rules=rules)
+        poses = np.tile(np.array(mission.goals[-1].pose), (31, 1))
+        creeping = np.tile(np.array((0.2, 0.0, 0.0)), (31, 1))
+        recording = Recording(poses, creeping, np.zeros(31, int), np.zeros(31), 1 / 15)
+        assert measure(recording, Verifier(mission), SPOT).oracle_success is met
+
+
+def test_a_command_without_a_route_is_measured_by_its_success() -> None:
+    """A body that turns on the spot moves its centre, and no way is shorter than none."""
+    for command, success in (("turn around", True), ("turn left by 90 degrees", False)):
+        judge = Verifier(plan_mission(PLAN, GEODESIC, parse(command), START))
+        turned = [START, (1.4, 9.1, math.pi), (1.35, 9.1, math.pi)]
+        for pose in turned[1:]:
+            judge.update(Motion(pose, 0.0, 0.0, False, 1 / 15))
+        still, none = np.zeros((3, 3)), np.zeros(3)
+        recording = Recording(np.array(turned), still, np.zeros(3, int), none, 1 / 15)
+        found = measure(recording, judge, SPOT)
+        assert judge.mission.route_length == 0.0
+        assert found.success is success
+        assert found.spl == found.soft_spl == float(success)
+
+
+def test_a_measure_that_an_episode_does_not_have_is_left_out_of_the_mean() -> None:
+    _, found = glided("go through the first door on the right", (3.4, 8.6), (3.4, 7.0))
+    without = replace(found, spl=math.nan)
+    assert means([found, without])["spl"] == pytest.approx(found.spl)
+    assert math.isnan(means([without])["spl"])
 
 
 def test_the_shortest_way_scores_near_one_everywhere() -> None:

@@ -125,7 +125,14 @@ def test_cls_lies_between_zero_and_one_and_is_one_on_the_route(
 
 @pytest.mark.parametrize(
     ("success", "path", "route", "expected"),
-    [(True, 10.0, 5.0, 0.5), (True, 4.0, 5.0, 1.0), (False, 5.0, 5.0, 0.0), (True, 0.0, 0.0, 1.0)],
+    [
+        (True, 10.0, 5.0, 0.5),
+        (True, 4.0, 5.0, 1.0),
+        (False, 5.0, 5.0, 0.0),
+        (True, 0.0, 0.0, 1.0),
+        (True, 0.8, 0.0, 1.0),
+        (False, 0.8, 0.0, 0.0),
+    ],
 )
 def test_spl_is_success_weighted_by_path_length(
     success: bool, path: float, route: float, expected: float
@@ -134,20 +141,22 @@ def test_spl_is_success_weighted_by_path_length(
 
 
 @pytest.mark.parametrize(
-    ("remaining", "initial", "path", "route", "expected"),
+    ("success", "remaining", "initial", "path", "route", "expected"),
     [
-        (0.0, 10.0, 10.0, 10.0, 1.0),
-        (5.0, 10.0, 10.0, 10.0, 0.5),
-        (5.0, 10.0, 20.0, 10.0, 0.25),
-        (12.0, 10.0, 10.0, 10.0, 0.0),
-        (0.0, 0.0, 0.0, 0.0, 1.0),
-        (1.0, 0.0, 1.0, 0.0, 0.0),
+        (True, 0.0, 10.0, 10.0, 10.0, 1.0),
+        (False, 5.0, 10.0, 10.0, 10.0, 0.5),
+        (False, 5.0, 10.0, 20.0, 10.0, 0.25),
+        (False, 12.0, 10.0, 10.0, 10.0, 0.0),
+        (True, 0.1, 0.0, 0.1, 0.0, 1.0),
+        (False, 1.0, 0.0, 1.0, 0.0, 0.0),
+        (True, 0.1, 0.0, 20.0, 10.0, 0.5),
     ],
 )
 def test_soft_spl_is_progress_weighted_by_path_length(
-    remaining: float, initial: float, path: float, route: float, expected: float
+    success: bool, remaining: float, initial: float, path: float, route: float, expected: float
 ) -> None:
-    assert soft_spl(remaining, initial, path, route) == expected
+    """The last one leads there and back."""
+    assert soft_spl(success, remaining, initial, path, route) == expected
 
 
 @given(paths, st.floats(0.1, 2.0))

@@ -35,6 +35,13 @@ def test_a_demo_refuses_a_file_it_cannot_write_before_it_drives(
     assert message in err
 
 
+@pytest.mark.parametrize("words", [("--save", "x.gif"), ("--picture", "x.png")])
+def test_a_demo_in_a_window_refuses_a_file_before_it_drives(capsys, words):
+    code, out, err = run(capsys, "demo", "turn around", "--show", *words)
+    assert (code, out) == (2, "")
+    assert "--show opens a window; give it without" in err
+
+
 def test_a_demo_says_why_the_robot_gave_up(capsys, monkeypatch):
     why = "no second door on the right: the hallway ended after 1"
     end = {"is_success": False, "verdicts": (), "crossed_doors": (), "collisions": 0}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pickle
 from dataclasses import replace
 
+import gymnasium as gym
 import numpy as np
 import pytest
 
@@ -19,9 +20,11 @@ from semnav_env.tasks import (
     CommandTask,
     Curriculum,
     EpisodeRequest,
+    FrozenEpisodes,
     RandomisedRobot,
     Task,
     as_task,
+    wrapping,
 )
 
 AROUND = "turn around"
@@ -58,6 +61,20 @@ def test_a_command_is_the_task_of_every_episode(command: str | Command) -> None:
 
 def test_a_list_of_commands_is_drawn_from() -> None:
     assert set(commands_of([AROUND, LEFT])) == {AROUND, str(LEFT)}
+
+
+def test_a_task_recognises_the_language_as_reset_does() -> None:
+    said = "geh durch die zweite Tür rechts"
+    told = SemNavEnv(floor_plan="office_cross").reset(seed=0, options={"command": said})[1]
+    again = SemNavEnv(floor_plan="office_cross", task=said).reset(seed=0)[1]
+    assert again == told
+
+
+def test_a_curriculum_takes_frozen_episodes_as_they_are() -> None:
+    task = Curriculum([RandomisedRobot(FrozenEpisodes("test_real"), robots=(SLOW,)), None])
+    info = SemNavEnv(task=task).reset(seed=0)[1]
+    assert info["episode_id"].startswith("test_real-")
+    assert info["robot"]["name"] == "slow"
 
 
 def test_a_list_of_floor_plans_is_drawn_from() -> None:
@@ -139,6 +156,29 @@ def test_episodes_asked_for_by_options_do_not_count_for_a_curriculum() -> None:
     assert curriculum.stage == 0
 
 
+def test_an_episode_that_is_driven_on_counts_once_for_a_curriculum() -> None:
+    curriculum = Curriculum(["wait for 1 second", AROUND], promotion=1.0, window=2)
+    env = SemNavEnv(task=curriculum)
+    env.reset(seed=0)
+    ends = sum("is_success" in env.step(np.zeros(2))[4] for _ in range(30))
+    assert ends > 2
+    assert curriculum.stage == 0
+
+
+def test_a_curriculum_that_hears_of_no_end_says_what_to_do(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A `TimeLimit` outside of the environment cuts episodes off unseen."""
+    monkeypatch.setattr(wrapping, "MOST_UNHEARD", 2)
+    curriculum = Curriculum([AROUND, "stop"], window=2)
+    env = gym.make("semnav_env:SemNav-v0", task=curriculum, max_episode_steps=1)
+    for seed in range(2):
+        env.reset(seed=seed)
+        assert env.step(np.zeros(2, np.float32))[3]
+    with pytest.warns(RuntimeWarning, match="max_seconds= in place of max_episode_steps="):
+        env.reset(seed=2)
+
+
 @pytest.mark.parametrize("bad", [{"tasks": []}, {"promotion": 1.5}, {"window": 0}])
 def test_a_curriculum_of_nothing_is_refused(bad: dict) -> None:
     with pytest.raises(ValueError, match="a curriculum has"):
@@ -192,5 +232,5 @@ def test_an_environment_with_a_task_goes_on_after_pickling() -> None:
 def test_a_reward_term_that_is_no_number_is_named() -> None:
     env = SemNavEnv(rewards=AddedTerms({"silent": lambda tick: None}))  # type: ignore[arg-type,return-value]
     env.reset(seed=0)
-    with pytest.raises(ValueError, match="reward term 'silent' is None; it must be a number"):
+    with pytest.raises(ValueError, match="'silent' is None; it must be a finite number"):
         env.step(np.zeros(2))

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -15,6 +16,14 @@ from tests.support.small_plans import empty_hall, furnished_hall, plan_of
 
 HZ = 15
 MIDDLE: Pose = (20.0, 15.0, 0.4)
+FAST = replace(
+    WHEELCHAIR,
+    **{"name": "fast", "length": 0.5, "width": 0.3, "mass": 3.5, "axle": -0.15},
+    **{"max_speed": 7.0, "max_acceleration": 9.0, "lidar_mount": (0.1, 0.0, 0.0)},
+)
+TINY = replace(
+    FAST, name="tiny", length=0.2, width=0.2, axle=0.0, max_speed=1.5, lidar_mount=(0.0, 0.0, 0.0)
+)
 robots = pytest.mark.parametrize("robot", ROBOTS.values(), ids=lambda robot: robot.name)
 
 
@@ -124,6 +133,39 @@ def test_no_robot_gets_into_or_through_anything_solid(robot: RobotSpec) -> None:
         core = _shrunken_footprint(world, 0.04)
         assert not any(core.intersects(LineString(row)) for row in _segments(world))
     assert touched > 100
+
+
+@pytest.mark.parametrize(
+    ("robot", "rate"),
+    [*((WHEELCHAIR, rate) for rate in (5.0, 1.0, 0.5, 0.1)), (FAST, 5.0), (FAST, 1.0), (TINY, 2.0)],
+)
+def test_no_wall_lets_a_robot_through_at_a_low_control_rate(robot: RobotSpec, rate: float) -> None:
+    world = World(empty_hall(40.0, 30.0), robot, control_hz=rate)
+    for n in range(10):
+        world.reset((36.0 + 0.1 * n, 15.0, 0.3))
+        for _ in range(max(2, int(4 * rate))):
+            world.step((robot.max_speed, 0.0, 0.0))
+            assert world.in_contact or world.fits(world.pose)
+        assert world.pose[0] < 40.0
+
+
+@robots
+def test_grip_bounds_accelerations_whatever_the_limits_say(robot: RobotSpec) -> None:
+    eager = replace(robot, max_speed=10.0, max_turn_rate=20.0)
+    eager = replace(eager, max_acceleration=100.0, max_turn_acceleration=200.0)
+    body = eager.length**2 + eager.width**2 + 12.0 * eager.axle**2
+    most = (GRIP * GRAVITY, 6.0 * GRIP * GRAVITY * eager.width / body)
+    for command, part, limit in (((9.0, 0.0, 0.0), 0, most[0]), ((0.0, 0.0, 19.0), 2, most[1])):
+        world = wide_world(eager)
+        for _ in range(4):
+            world.step(command)
+        assert world.velocity[part] * HZ / 4 == pytest.approx(limit, rel=0.01)
+
+
+def test_usual_robots_at_usual_rates_keep_their_substeps() -> None:
+    for robot in ROBOTS.values():
+        for rate in (10.0, 15.0, 40.0):
+            assert World(plan_of(), robot, control_hz=rate).substeps == 4
 
 
 def _segments(world: World) -> list[list[Point]]:
