@@ -13,7 +13,7 @@ from semnav_env.commands.clauses import (
     IfThere,
 )
 from semnav_env.commands.command import Command
-from semnav_env.commands.references import LAST, DoorReference, Place, PlaceReference
+from semnav_env.commands.references import LAST, DoorReference, Place, PlaceReference, RoomReference
 
 _END = Follow(PlaceReference(Place.END))
 
@@ -48,6 +48,12 @@ def _merged(before: Clause, clause: Clause) -> list[Clause] | None:
         ) if before.door != door:
             return [replace(before, approach=Approach.IN)]
         case GoToDoor(door, Approach.TO), GoToDoor(same, Approach.TO) if door == same:
+            return [clause]
+        case Follow(RoomReference(), _), Follow() if before == clause:
+            return [clause]
+        case GoToRoom(name), GoToRoom(same) if name == same:
+            return [clause]
+        case GoToRoom(name, Approach.THROUGH), Follow(RoomReference(same), True) if name == same:
             return [clause]
         case GoToRoom(), GoToDoor(DoorReference(1, None), Approach.TO):
             return [replace(before, approach=Approach.TO)]

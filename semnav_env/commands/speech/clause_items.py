@@ -119,7 +119,7 @@ def _is_afterthought(before: Sequence[Item], items: Sequence[Item]) -> bool:
         return False
     doors = [item for item in before if item.kind is ItemKind.REF and is_door(item.value)]
     turns = any(item.kind is ItemKind.VERB and item.value == "turn" for item in before)
-    sideless = len(doors) == 1 and doors[0].value.side is None and bool(items[0].roles)
+    sideless = len(doors) == 1 and doors[0].value.side is None and "on" in items[0].roles
     return sideless or (turns and not doors)
 
 

@@ -89,6 +89,9 @@ def _search(frame: ClauseFrame) -> Readings | None:
 
 
 def _face(frame: ClauseFrame) -> Readings | None:
+    faced = [item for item in frame.refs if "faced" in item.roles]
+    if faced:
+        return _faced(frame, faced[0])
     if "wall" in frame.verbs:
         if len(frame.sides) != 1 or frame.refs:
             raise NoMeaningError("the wall on which side")
@@ -113,6 +116,19 @@ def _face(frame: ClauseFrame) -> Readings | None:
     if isinstance(what, DoorReference) and frame.sides:
         what = with_side(what, Side(frame.sides[0].value))
     return ((Face(what),),)
+
+
+def _faced(frame: ClauseFrame, item: Item) -> Readings:
+    """Of "So that the wall is on your left" and "so that the kitchen is ahead of you"."""
+    noun: Noun = item.value
+    if len(frame.refs) > 1 or frame.sides or frame.verbs - {"turn", "face", "stop", "go"}:
+        raise NoMeaningError("so that, and something else")
+    if noun.kind == "wall" and noun.side in (Side.LEFT, Side.RIGHT):
+        return ((Face(noun.side),),)
+    if noun.side in (Side.LEFT, Side.RIGHT):
+        raise ValueError("one turns to what is ahead, or to have the wall on a side")
+    what = landmark(replace(noun, side=None))
+    return ((Face(what),),) if noun.side is Side.AHEAD else ((Face(what), Turn(Turning.AROUND)),)
 
 
 def _turned_away(frame: ClauseFrame) -> Readings:

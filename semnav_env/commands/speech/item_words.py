@@ -51,6 +51,15 @@ class ItemWords(ABC):
             at += 1
         return at
 
+    def _choice_among(self, at: int) -> int | None:
+        """The word behind "of the doors on the left,", of which one is chosen then."""
+        doors = self.lexicon.find(self.words, at, "among doors")
+        side = self.nouns._side_at(Noun("door"), doors[1]) if doors else None
+        if side is None:
+            return None
+        self.nouns.memory.among = side[0]
+        return side[1] + 1 if self.words[side[1] : side[1] + 1] == [","] else side[1]
+
     def _is_small(self, at: int) -> bool:
         return any(
             kind in ("prep", "det", "a") for kind, _, _ in self.lexicon.matches(self.words, at)

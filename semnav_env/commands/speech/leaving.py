@@ -68,7 +68,7 @@ def read_back(frame: ClauseFrame) -> Readings | None:
     if frame.has(ItemKind.TO_END):
         return ((Turn(Turning.AROUND), Follow(END)),)
     if amounts := distances_of(frame):
-        return ((Turn(Turning.AROUND), *amounts),)
+        return ((TurnBack(), *amounts),)
     if "return" in frame.verbs or _is_way_back(frame):
         return ((GoBack(),),)
     return (GoBack(),), (Turn(Turning.AROUND), Follow())

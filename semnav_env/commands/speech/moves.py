@@ -76,6 +76,8 @@ def moves(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     Raises:
         NoMeaningError: these do not go together.
     """
+    if roles and not roles - {"of", "from", "with"}:
+        raise NoMeaningError("of something else")  # "the door of the kitchen"
     if noun.kind == "it":
         return _it(roles, verbs)
     if noun.kind == "start" and (not roles or roles & {"to", "until", "toward", "at", "into"}):

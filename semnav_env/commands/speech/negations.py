@@ -119,6 +119,7 @@ def _without(items: list[Item], at: int) -> list[Item]:
     if place is not None and not is_door(place.value) and verbs:
         return _behind_place(before, place, rest, goes_on=verbs[-1].value in _GOING_ON)
     refs = [item for item in negated if item.kind is ItemKind.REF]
+    before = _without_name(before, refs)
     if refs and refs[-1].value.counted and not verbs:
         return [*before, replace(refs[-1], roles=("past",)), *items[stop:]]
     if refs and rest[0].kind is ItemKind.REF and rest[0].value.kind == "it":
@@ -132,6 +133,19 @@ def _without(items: list[Item], at: int) -> list[Item]:
     if before and before[-1].kind is ItemKind.VERB and rest[0].kind is ItemKind.VERB:
         before = before[:-1]
     return [*before, *rest]
+
+
+def _without_name(before: list[Item], refs: Sequence[Item]) -> list[Item]:
+    """Of "The kitchen. Not the kitchen, the library": without the room that is not meant."""
+    names = [item.value.name for item in refs if item.value.kind == "named"]
+    last = next((i for i in reversed(range(len(before))) if before[i].kind not in SOFT), None)
+    said = None if last is None else before[last]
+    if said is None or said.kind is not ItemKind.REF or said.value.name not in names:
+        return before
+    start = last or 0
+    while start and before[start - 1].kind is ItemKind.VERB:
+        start -= 1
+    return before[:start]
 
 
 _GOING_ON = ("continue", "go")

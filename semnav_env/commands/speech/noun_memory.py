@@ -21,12 +21,14 @@ class NounMemory:
         went_on: some noun could be counted on.
         passed: counted doors on both sides before one on a side, which may count those there alone:
             "pass two doors, then the third on the left"; with that side.
+        among: side of the doors of which one is chosen: "of the doors on the left, the third".
     """
 
     last: Noun | None = None
     counts_on: bool = False
     went_on: bool = False
     passed: dict[Noun, Side] = field(default_factory=dict)
+    among: Side | None = None
 
     def remember(self, noun: object) -> None:
         """Note what a later noun can stand for."""
@@ -41,7 +43,7 @@ class NounMemory:
 
     def resolved(self, noun: Noun) -> Noun:
         """The noun with the kind and the ordinal that it stands for."""
-        noun = self._counted_on(noun)
+        noun = self._counted_on(self._chosen_among(noun))
         if self._goes_on(noun):
             self.went_on = True
             noun = replace(noun, ordinal=1) if self.counts_on else noun
@@ -55,6 +57,13 @@ class NounMemory:
             elif noun.side is None and kind in ("door", "room", "turning") and noun.ordinal:
                 noun = replace(noun, side=self.last.side)
         return noun
+
+    def _chosen_among(self, noun: Noun) -> Noun:
+        """Of "Of the doors on the left, the third": on the left."""
+        if self.among is None or noun.kind not in ("door", "room", "one") or noun.side is not None:
+            return noun
+        kind = "door" if noun.kind == "one" else noun.kind
+        return replace(noun, kind=kind, side=self.among, elliptic=False)
 
     def _counted_on(self, noun: Noun) -> Noun:
         """Of "The fourth door" after "past three doors" is the next one."""

@@ -69,7 +69,11 @@ def understand(
             texts.append(_passed_on_side(first, reader.nouns.memory.passed))
         if leave_out:
             texts = [without_unread(items or [], words, lexicon) for items in texts]
-        found += [_understand(words, items, lexicon) for items in texts if items is not None]
+        found += [
+            _understand(words, items, lexicon, loose=leave_out)
+            for items in texts
+            if items is not None
+        ]
     if not found:
         return Understanding((), 0.0, ())
     right = [each for each in found if each.commands]
@@ -107,7 +111,7 @@ def _passed_on_side(items: Sequence[Item], passed: Mapping[Noun, Side]) -> list[
 
 
 def _understand(
-    words: Sequence[str], found: Sequence[Item], lexicon: SpeechLexicon
+    words: Sequence[str], found: Sequence[Item], lexicon: SpeechLexicon, loose: bool = False
 ) -> Understanding:
     asks = bool(found) and found[-1].value == "?"
     if asks and not any(item.kind is ItemKind.COULD_YOU for item in found):
@@ -123,7 +127,7 @@ def _understand(
         return Understanding((), 0.0, tuple(items), 0, told)
     while items and items[-1].kind in (ItemKind.NO, ItemKind.SIGN):
         items.pop()
-    segmentation = ClauseSegmentation(items)
+    segmentation = ClauseSegmentation(items, loose)
     partings = segmentation.best()
     commands: dict[Command, None] = {}
     problem = segmentation.problem or _too_long(segmentation)
