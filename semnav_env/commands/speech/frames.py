@@ -48,6 +48,9 @@ from semnav_env.commands.speech.stopping import read_stop, read_wait
 from semnav_env.commands.speech.turning import read_degrees, read_turn
 
 
+_MOVING = (ItemKind.STRAIGHT, ItemKind.TO_END, ItemKind.IN, ItemKind.OUT)
+
+
 def readings_of(frame: ClauseFrame) -> Readings:
     """The readings of a clause.
 
@@ -75,8 +78,33 @@ def readings_of(frame: ClauseFrame) -> Readings:
     ):
         found = read(frame)
         if found is not None:
+            _check_all_is_read(frame, read.__name__)
             return found
     raise NoMeaningError("nothing")
+
+
+LEFT_UNREAD = {
+    "read_degrees": (*_MOVING, ItemKind.BACK, ItemKind.SECONDS),
+    "read_wait": (ItemKind.STRAIGHT, ItemKind.OUT, ItemKind.BACK, ItemKind.AROUND),
+    "read_stop": (ItemKind.STRAIGHT, ItemKind.BACK, ItemKind.AROUND, ItemKind.DEGREES),
+    "_face": (*_MOVING, ItemKind.DISTANCE, ItemKind.SECONDS, ItemKind.BACK),
+    "_around": (ItemKind.OUT, ItemKind.IN, ItemKind.TO_END, ItemKind.DEGREES),
+    "read_back": (ItemKind.IN, ItemKind.STRAIGHT),
+    "read_leave": (ItemKind.DISTANCE, ItemKind.TO_END, ItemKind.BACK, ItemKind.AROUND),
+    "read_in": (ItemKind.BACK, ItemKind.AROUND, ItemKind.SECONDS),
+}
+"""Kinds of items that a reader takes no notice of, although they say something."""
+
+
+def _check_all_is_read(frame: ClauseFrame, reader: str) -> None:
+    """Refuse a clause of which a part would be dropped without a word.
+
+    Raises:
+        NoMeaningError: some part would be.
+    """
+    unread = [item.kind for item in frame.items if item.kind in LEFT_UNREAD.get(reader, ())]
+    if unread and "away" not in frame.verbs:
+        raise NoMeaningError(f"{unread[0]} is not read")
 
 
 def _search(frame: ClauseFrame) -> Readings | None:

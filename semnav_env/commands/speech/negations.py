@@ -113,6 +113,8 @@ def _without(items: list[Item], at: int) -> list[Item]:
         if before and len(negated) == 1 and not verbs and _is_contrast(before, negated[0]):
             return [*items[: cut_before(items, at)], *rest]
         return items
+    if len(negated) == 1 and before and _takes_back(before[-1], negated[0], items, stop):
+        return [*before, *items[stop:]]  # "left, not right, and then ..."
     if any(item.kind in (ItemKind.IF, ItemKind.OTHERWISE) for item in rest[:1]):
         return items
     place = next((i for i in negated if i.kind is ItemKind.REF and "at" in i.roles), None)
@@ -133,6 +135,13 @@ def _without(items: list[Item], at: int) -> list[Item]:
     if before and before[-1].kind is ItemKind.VERB and rest[0].kind is ItemKind.VERB:
         before = before[:-1]
     return [*before, *rest]
+
+
+def _takes_back(said: Item, negated: Item, items: Sequence[Item], stop: int) -> bool:
+    """Whether a side that is not meant stands behind the one that is, before another clause."""
+    sides = said.kind is negated.kind is ItemKind.SIDE and said.value != negated.value
+    goes_on = stop < len(items) and items[stop].kind in (ItemKind.AND, ItemKind.THEN)
+    return sides and goes_on
 
 
 def _without_name(before: list[Item], refs: Sequence[Item]) -> list[Item]:
