@@ -33,6 +33,8 @@ SHARE = 0.25
 """Share of the phrases that are swapped."""
 
 _SET = re.compile(r"<[^>]+>")
+_SIDED = re.compile(r"left|right|link|recht")
+"""Phrases with a side are not drawn, as texts are mirrored."""
 
 
 @cache
@@ -87,4 +89,5 @@ def _other(
     key: str, table: dict[str, list[str]], language: Language, rng: np.random.Generator
 ) -> str:
     row = table[key]
-    return language.folded(_drawn(row[int(rng.integers(len(row)))], table, rng))
+    drawn = language.folded(_drawn(row[int(rng.integers(len(row)))], table, rng))
+    return _other(key, table, language, rng) if _SIDED.search(drawn) else drawn
