@@ -132,6 +132,8 @@ def _is_at_door(reading: Reading) -> bool:
 def _stop_before(reading: Reading, index: int) -> None:
     """Go to the last clause's door or room and not in."""
     before = reading[-1].clause if reading else None
+    if isinstance(before, Stop) and len(reading) > 1 and _stops_in_front(reading[-2].clause):
+        return
     if isinstance(before, Stop) and len(reading) > 1 and _leads_to_door(reading[-2].clause):
         reading.pop()
         before = reading[-1].clause
@@ -144,6 +146,10 @@ def _stop_before(reading: Reading, index: int) -> None:
     if not isinstance(before, GoToDoor | GoToRoom):
         raise OutOfPlaceError("in front of what? name the door", index)
     reading[-1] = reading[-1]._replace(clause=replace(before, approach=Approach.TO))
+
+
+def _stops_in_front(clause: Clause) -> bool:
+    return isinstance(clause, GoToDoor | GoToRoom) and clause.approach is Approach.TO
 
 
 def _leads_to_door(clause: Clause) -> bool:

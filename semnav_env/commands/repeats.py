@@ -24,9 +24,10 @@ def told_once(command: Command) -> Command:
     What depends on a condition is left as it is.
     """
     found: list[Clause] = []
-    for clause in command.clauses:
+    for number, clause in enumerate(command.clauses, 1):
         after_condition = any(isinstance(each, IfThere) for each in found)
-        merged = None if after_condition or not found else _merged(found[-1], clause)
+        ends = number == len(command.clauses)
+        merged = None if after_condition or not found else _merged(found[-1], clause, ends)
         if merged is None:
             found.append(clause)
         else:
@@ -34,13 +35,21 @@ def told_once(command: Command) -> Command:
     return Command(tuple(found))
 
 
-def _merged(before: Clause, clause: Clause) -> list[Clause] | None:
-    """What two clauses say together, if the second one adds only how or where; else None."""
+def _merged(before: Clause, clause: Clause, ends: bool) -> list[Clause] | None:
+    """What two clauses say together, if the second one adds only how or where; else None.
+
+    Args:
+        before: the first one.
+        clause: the second one.
+        ends: nothing comes behind it.
+    """
     match before, clause:
         case Follow(PlaceReference() as place, False), Follow(same) if place == same and (
             clause == _END or clause.past
         ):
             return [clause]
+        case Follow(PlaceReference(Place.INTERSECTION)), Follow(None) if not ends and not before.past:
+            return [replace(before, past=True)]
         case Follow(PlaceReference(Place.END)), GoToDoor(DoorReference(ordinal)) if ordinal == LAST:
             return [clause]
         case GoToDoor(_, Approach.TO | Approach.THROUGH), GoToDoor(

@@ -52,7 +52,8 @@ def read_clause(items: list[Item]) -> tuple[Readings, float] | None:
             and kept
             and kept[-1].kind is ItemKind.VERB
             and len(kept) == 1
-            and item.stop == item.start + 1
+            and item.stop <= item.start + 2
+            and item.value != "once"
         ):
             continue  # "bieg dann links ab"
         elif item.kind in (
@@ -109,6 +110,8 @@ def _is_afterthought(before: Sequence[Item], items: Sequence[Item]) -> bool:
     if len(items) != 1:
         return False
     if items[0].kind is ItemKind.REF and "after" not in items[0].roles:
+        if before and before[-1].value == "stop" and items[0].value.doorway:
+            return True  # "stop, right in the doorway"
         turns = len(before) and before[-1].kind is ItemKind.SIDE and not before[-1].roles
         placed = any(item.kind is ItemKind.REF for item in before)
         at_place = "at" in items[0].roles and not is_door(items[0].value)

@@ -78,6 +78,8 @@ def read_condition(
             stop = here
         if state and (noun or pronoun):
             break
+    if noun == Noun("door") and state and nouns.memory.names_door():
+        noun, pronoun = None, True  # "into the first door; if the door is closed, ..."
     if noun is None and not (pronoun and state):
         return None
     if noun is not None and noun.kind == "named" and not (state or absent):

@@ -12,7 +12,7 @@ def in_full(items: Sequence[Item]) -> list[Item]:
     """The items with what was left out."""
     found = _keeping_sides(_without_broken_commas(_with_otherwise(items)))
     found = _without_repetition(_with_one_way_out(_with_doors(found)))
-    found = _with_verbs(found)
+    found = _with_verbs(_passed_one_by_one(found))
     found = _with_sides(found)
     return _counted_from_passed(_without_counting(found))
 
@@ -108,6 +108,33 @@ def _with_doors(items: Sequence[Item]) -> list[Item]:
 
 
 _PARTS = (*JOINTS, ItemKind.BUT)
+
+
+def _passed_one_by_one(items: Sequence[Item]) -> list[Item]:
+    """Of "A crossing, then another crossing, and right at the third": the first ones are passed."""
+    told = [
+        index
+        for index, item in enumerate(items)
+        if (noun := _noun(item)) is not None
+        and noun.kind in ("intersection", "door")
+        and (not noun.definite or (noun.counted and noun.ordinal == 1))
+        and not item.roles
+        and _stands_alone(items, index)
+    ]
+    later = [n for item in items[told[-1] + 1 :] if (n := _noun(item))] if told else []
+    same = [n for n in later if told and n.kind == items[told[0]].value.kind]
+    if len(told) < 2 or not same:
+        return list(items)
+    return [
+        replace(item, roles=("past",)) if index in told else item
+        for index, item in enumerate(items)
+    ]
+
+
+def _stands_alone(items: Sequence[Item], index: int) -> bool:
+    """Whether a noun stands between joints, without a verb."""
+    before = index == 0 or items[index - 1].kind in _PARTS
+    return before and (index + 1 == len(items) or items[index + 1].kind in _PARTS)
 
 
 def _with_verbs(items: Sequence[Item]) -> list[Item]:

@@ -62,6 +62,8 @@ def readings_of(frame: ClauseFrame) -> Readings:
         raise NoMeaningError("verb")
     if frame.has(ItemKind.SLIGHT) and frame.sides and not frame.has(ItemKind.DEGREES):
         raise ValueError('by how much? say "turn left by 30 degrees"')
+    if frame.has(ItemKind.BEFORE_IT) and any(_is_doorway_of_room(item) for item in frame.refs):
+        raise NoMeaningError("in the doorway of a room")
     frame = with_places_of_doors(frame)
     for read in (
         _search,
@@ -81,6 +83,10 @@ def readings_of(frame: ClauseFrame) -> Readings:
             _check_all_is_read(frame, read.__name__)
             return found
     raise NoMeaningError("nothing")
+
+
+def _is_doorway_of_room(item: Item) -> bool:
+    return item.value.kind == "named" and item.value.at_end and "into" in item.roles
 
 
 LEFT_UNREAD = {
@@ -107,6 +113,9 @@ def _check_all_is_read(frame: ClauseFrame, reader: str) -> None:
         raise NoMeaningError(f"{unread[0]} is not read")
 
 
+_FACED = ("named", "wall", "intersection", "corner", "t_junction", "end")
+
+
 def _search(frame: ClauseFrame) -> Readings | None:
     """The verb "search the house" holds its object."""
     if "search" not in frame.verbs:
@@ -131,7 +140,7 @@ def _face(frame: ClauseFrame) -> Readings | None:
         and not frame.sides
         and len(frame.refs) == 1
         and bool(frame.roles(frame.refs[0]) & {"to", "toward"})
-        and (is_door(frame.refs[0].value) or frame.refs[0].value.kind in ("named", "wall"))
+        and (is_door(frame.refs[0].value) or frame.refs[0].value.kind in _FACED)
     )
     if "face" not in frame.verbs and not turns_to:
         return None

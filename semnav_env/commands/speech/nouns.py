@@ -50,6 +50,8 @@ class NounReader(NounWords):
             plain = rank is None or (name is not None and name[1] > rank[1])
             if here > at and self.find(here, "clause start"):
                 break
+            if said_which and self.find(here, "of several"):
+                break  # "die rechte der beiden Türen"
             if plain and (head := self._head(here, noun)):
                 if not determined and self._is_no_noun(here, noun.ordinal is not None):
                     return None  # "turn left" is no turning on the left
@@ -138,6 +140,10 @@ class NounReader(NounWords):
             if kind == "doorway":
                 return replace(noun, kind="door", doorway=True), stop
             return replace(noun, kind=kind), stop
+        another = self.find(at, "another") if noun == Noun("") and self.memory.last else None
+        if another and self.memory.last and not self.find(another[1], "noun"):
+            found = another
+            return Noun(self.memory.last.kind, 1, self.memory.last.side, definite=False), found[1]
         if (found := self.find(at, "one")) and found[1] <= len(self.words):
             plain = noun.ordinal is None and noun.side is None and not self._is_after_article(at)
             german = self.lexicon.language.code == "de"
@@ -170,8 +176,15 @@ class NounReader(NounWords):
                 noun, at = replace(noun, kind="entry"), came[1]
             elif noun.counted and noun.kind == "door" and (on := self.find(at, "further")):
                 noun, at = replace(noun, counted=False), on[1]
+            elif noun.kind == "door" and (room := self._of_room(noun, at)):
+                noun, at = room
             elif noun.doorway and (door := self._of_door(at)):
                 noun, at = replace(door[0], doorway=True, kind="door"), door[1]
+            elif (noun.side or noun.ordinal) and (several := self.find(at, "of several")):
+                kind = "door" if noun.kind == "one" else noun.kind
+                noun, at = replace(noun, kind=kind, elliptic=False), several[1]
+            elif noun.side is None and (spot := self._spot_before_side(noun, at)):
+                at = spot
             elif hall := self._of_hall(at):
                 at = hall
             else:
@@ -183,6 +196,23 @@ class NounReader(NounWords):
         start = self._preposition(at, "of") or at
         noun = self.read(start) if start < len(self.words) else None
         return noun if noun is not None and noun[0].kind in ("door", "room") else None
+
+    def _spot_before_side(self, noun: Noun, at: int) -> int | None:
+        """The word behind "down there" before a side: "the door down there on the right"."""
+        spot = self.find(at, "here") if noun.kind in DOORLIKE else None
+        sided = spot is not None and self._side_at(noun, spot[1]) is not None
+        return spot[1] if sided and spot is not None else None
+
+    def _of_room(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
+        """The room of a door: "of the kitchen", "vom Archiv"; its doorway is told apart."""
+        start = self._preposition(at, "of")
+        plain = noun.ordinal is None and noun.side is None and not noun.at_end
+        while start is not None and (found := self.find(start, "det")):
+            start = found[1]
+        named = self._name(start) if start is not None and plain else None
+        if named is None:
+            return None
+        return Noun("named", name=named[0], at_end=True, doorway=noun.doorway), named[1]
 
     def _numeral(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
         if noun.ordinal is None and (found := self.find(at, "numeral word")):

@@ -85,8 +85,8 @@ class ItemReader(ItemWords):
             if self.lexicon.find(self.words, at, "purpose"):
                 at = self._end_of_remark(at)
                 continue
-            if (choice := self._choice_among(at)) is not None:
-                at = choice
+            if (told := self._choice_among(at) or self._place_of_speaker(at)) is not None:
+                at = told
                 continue
             item = self._item(at, found)
             if item is None:
@@ -216,7 +216,7 @@ class ItemReader(ItemWords):
             if "when" in roles or "until" in roles:
                 inner, more = self._inner_preposition(stop, roles)
             has_article = self.words[inner - 1] in WITH_ARTICLE
-            noun = self.nouns.read(inner, has_article) or self._it(inner)
+            noun = self._its_door(inner) or self.nouns.read(inner, has_article) or self._it(inner)
             if noun is None:
                 continue
             behind = self._behind_clause(noun[1], roles)

@@ -79,10 +79,9 @@ def _without_breaks(items: list[Item]) -> list[Item]:
             and found
             and found[-1].kind not in SOFT
         ):
-            joined = "until" in behind.roles and found[-1].kind in (
-                ItemKind.VERB,
-                ItemKind.STRAIGHT,
-            )
+            goes = found[-1].kind in (ItemKind.VERB, ItemKind.STRAIGHT)
+            negated = len(found) > 1 and found[-2].kind is ItemKind.NOT
+            joined = "until" in behind.roles and goes and not negated
             if joined or (behind.value.kind == "start" and not behind.roles):
                 continue
         broken = (
@@ -194,11 +193,20 @@ def _with_antecedents(items: list[Item]) -> list[Item]:
         if item.kind is ItemKind.REF:
             noun = item.value
             if last is not None and (_is_it(item) or _is_door_again(item, last, verb)):
-                item = replace(item, value=last)
+                if found and _is_passed(found, last) and set(item.roles) & {"past"}:
+                    continue  # "past the corner, go round it"
+                at_door = noun.kind == "it" and noun.at_end
+                item = replace(item, value=replace(last, at_end=last.at_end or at_door))
             elif is_door(noun) or noun.kind == "named" or noun.kind in ("intersection", "corner"):
                 last = noun
         found.append(item)
     return found
+
+
+def _is_passed(found: Sequence[Item], noun: Noun) -> bool:
+    """Whether the last noun of the items is one, and is passed."""
+    said = [item for item in found if item.kind is ItemKind.REF]
+    return bool(said) and said[-1].value == noun and "past" in said[-1].roles
 
 
 def _is_it(item: Item) -> bool:

@@ -129,6 +129,9 @@ def _stop_at(frame: ClauseFrame) -> Steps:
         if noun.kind == "it" or noun.kind == "hall":
             continue
         if noun.kind == "named":
+            inside = noun.at_end and (noun.doorway or bool(roles & {"in", "into"}))
+            if inside or ("near" in roles and any(is_door(r.value) for r in rest)):
+                raise NoMeaningError("in the doorway of a room, or beside it")
             steps.append(GoToRoom(plain_name(noun.name), Approach.TO))
         elif is_door(noun):
             steps += _stop_at_door(noun, roles)

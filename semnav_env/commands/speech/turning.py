@@ -101,11 +101,17 @@ def read_turn(frame: ClauseFrame) -> Readings | None:
         return _door_on_side(frame, contexts, rest, way)
     if "be" in frame.verbs and len(rest) == 1 and rest[0].value.kind == "named":
         return ((*contexts, *moves(rest[0].value, frame.roles(rest[0]), frame.verbs)),)
-    into_hall = bool(rest) and all(item.value.kind in ("hall", "turning") for item in rest)
+    into_hall = bool(rest) and all(_is_no_door(item) for item in rest)
     if frame.goes_in and not into_hall:
         others = tuple(step for item in rest for step in before_turn(item, frame))
         return ((*contexts, *others, GoToDoor(DoorReference(1, Side(way.value)))),)
     return _turn_among(frame, contexts, rest, way)
+
+
+def _is_no_door(item: Item) -> bool:
+    """Whether one turns there and enters nothing: "rechts in den Gang hinein"."""
+    at_place = item.value.kind in ("intersection", "t_junction") and "at" in item.roles
+    return item.value.kind in ("hall", "turning") or at_place
 
 
 def read_sideless_turn(frame: ClauseFrame) -> Readings:

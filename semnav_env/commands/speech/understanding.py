@@ -69,11 +69,12 @@ def understand(
             texts.append(_passed_on_side(first, reader.nouns.memory.passed))
         if leave_out:
             texts = [without_unread(items or [], words, lexicon) for items in texts]
-        found += [
+        read = (
             _understand(words, items, lexicon, loose=leave_out)
             for items in texts
             if items is not None
-        ]
+        )
+        found += [replace(each, cost=each.cost + (0.0 if exact else SIDE_COST)) for each in read]
     if not found:
         return Understanding((), 0.0, ())
     right = [each for each in found if each.commands]
@@ -84,6 +85,9 @@ def understand(
     commands = dict.fromkeys(command for each in [best, *near] for command in each.commands)
     return Understanding(tuple(commands), best.cost, best.items)
 
+
+SIDE_COST = 0.05
+"""Cost of taking "right" before a preposition for a side: "right in the doorway"."""
 
 _BACK = (ItemKind.NO, ItemKind.NOT)
 """Items that take something back, so that nothing is counted on."""
