@@ -13,7 +13,7 @@ from semnav_env.commands.clauses import (
     IfThere,
 )
 from semnav_env.commands.command import Command
-from semnav_env.commands.references import LAST, DoorReference, Place, PlaceReference, RoomReference
+from semnav_env.commands.references import LAST, DoorReference, Place, PlaceReference
 
 _END = Follow(PlaceReference(Place.END))
 
@@ -24,10 +24,9 @@ def told_once(command: Command) -> Command:
     What depends on a condition is left as it is.
     """
     found: list[Clause] = []
-    for number, clause in enumerate(command.clauses, 1):
+    for clause in command.clauses:
         after_condition = any(isinstance(each, IfThere) for each in found)
-        ends = number == len(command.clauses)
-        merged = None if after_condition or not found else _merged(found[-1], clause, ends)
+        merged = None if after_condition or not found else _merged(found[-1], clause)
         if merged is None:
             found.append(clause)
         else:
@@ -35,21 +34,13 @@ def told_once(command: Command) -> Command:
     return Command(tuple(found))
 
 
-def _merged(before: Clause, clause: Clause, ends: bool) -> list[Clause] | None:
-    """What two clauses say together, if the second one adds only how or where; else None.
-
-    Args:
-        before: the first one.
-        clause: the second one.
-        ends: nothing comes behind it.
-    """
+def _merged(before: Clause, clause: Clause) -> list[Clause] | None:
+    """What two clauses say together, if the second one adds only how or where; else None."""
     match before, clause:
         case Follow(PlaceReference() as place, False), Follow(same) if place == same and (
             clause == _END or clause.past
         ):
             return [clause]
-        case Follow(PlaceReference(Place.INTERSECTION)), Follow(None) if not ends and not before.past:
-            return [replace(before, past=True)]
         case Follow(PlaceReference(Place.END)), GoToDoor(DoorReference(ordinal)) if ordinal == LAST:
             return [clause]
         case GoToDoor(_, Approach.TO | Approach.THROUGH), GoToDoor(
@@ -57,12 +48,6 @@ def _merged(before: Clause, clause: Clause, ends: bool) -> list[Clause] | None:
         ) if before.door != door:
             return [replace(before, approach=Approach.IN)]
         case GoToDoor(door, Approach.TO), GoToDoor(same, Approach.TO) if door == same:
-            return [clause]
-        case Follow(RoomReference(), _), Follow() if before == clause:
-            return [clause]
-        case GoToRoom(name), GoToRoom(same) if name == same:
-            return [clause]
-        case GoToRoom(name, Approach.THROUGH), Follow(RoomReference(same), True) if name == same:
             return [clause]
         case GoToRoom(), GoToDoor(DoorReference(1, None), Approach.TO):
             return [replace(before, approach=Approach.TO)]

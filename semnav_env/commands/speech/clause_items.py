@@ -14,7 +14,7 @@ from semnav_env.commands.clause_readings import (
     StopBeforeMentioned,
     on_condition,
 )
-from semnav_env.commands.clauses import Approach, Clause, GoToDoor, GoToRoom, IfThere
+from semnav_env.commands.clauses import Approach, Clause, GoToDoor, GoToRoom, IfThere, Stop
 from semnav_env.commands.references import DoorReference, PlaceReference, RoomReference
 from semnav_env.commands.speech.frame import ClauseFrame
 from semnav_env.commands.speech.frames import readings_of
@@ -207,6 +207,8 @@ def _next_door(closed: DoorReference, readings: Readings) -> Readings | None:
 
 def otherwise_of(readings: Readings) -> Readings:
     """The readings of a clause for the other case of a condition."""
+    if any(len(s) > 1 and s[-1] != Stop() and StopBeforeMentioned() in s for s in readings):
+        raise ValueError("one waits where one stands: a closed door is not seen")
     readings = tuple(
         tuple(step for step in steps if not isinstance(step, StopBeforeMentioned))
         for steps in readings
