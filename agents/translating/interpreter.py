@@ -100,7 +100,7 @@ class LearnedInterpreter:
         try:
             found = readings(text, self.language, self.rooms)
         except AmbiguousCommandError as error:
-            raise (self._wider(text, error) or error) from None
+            raise (self._refusal(text, error) or self._wider(text, error) or error) from None
         except CommandError as error:
             raise (self._question(text) or error) from None
         spoken = self._spoken(text)
@@ -128,6 +128,13 @@ class LearnedInterpreter:
         spoken = self._spoken(text)
         said = differences(found, spoken) if others else (command.say(spoken),)
         return TranslationQuestionError(text[:200], found, said, likeness)
+
+    def _refusal(self, text: str, error: AmbiguousCommandError) -> CommandError | None:
+        """The refusal of a text with words left out that the translator takes for no command."""
+        translated = self._translated(text) if error.unread else None
+        if translated is None or translated.refusal <= self.limits.refusing:
+            return None
+        return CommandError(f'"{error.unread}" is not understood', text[:200])
 
     def _wider(self, text: str, error: AmbiguousCommandError) -> AmbiguousCommandError | None:
         """A question with what the translator takes a text for beside the grammar's readings."""
@@ -187,6 +194,16 @@ class LearnedInterpreter:
         if self.language is not None:
             return language_of(self.language)
         return recognised([piece.text for piece in pieces(normalise(text, english()).text)])
+
+
+def understand(text: str, language: str | None = None, rooms: Sequence[str] = ()) -> Command:
+    """The command that a text means, by the grammar and the translator, see `LearnedInterpreter`.
+
+    Raises:
+        AmbiguousCommandError: it is doubtful; `error.readings` are what it may mean.
+        CommandError: it is not understood.
+    """
+    return LearnedInterpreter(language, rooms).interpret(text).command
 
 
 def _is_impossible(words: Sequence[str]) -> bool:

@@ -44,7 +44,12 @@ def commands_of(found: Sequence[ClauseReadings]) -> tuple[Command, ...]:
 def _with_dependent_turn(reading: Reading) -> Reading:
     """Of "If there is no door, go to the end and turn right": one turn, at the end."""
     match [each.clause for each in reading]:
-        case [*_, IfThere(_, _, False), Follow(PlaceReference() as place, False), Turn(way, None, None)]:
+        case [
+            *_,
+            IfThere(_, _, False),
+            Follow(PlaceReference() as place, False),
+            Turn(way, None, None),
+        ]:
             return [*reading[:-2], reading[-2]._replace(clause=Turn(way, place))]
     return reading
 

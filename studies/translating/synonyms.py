@@ -1,4 +1,4 @@
-"""Says a text with other phrases of the same class, so that the network meets the lexicon's words."""
+"""Says a text with other phrases of the same class, so that the network meets more words."""
 
 from __future__ import annotations
 

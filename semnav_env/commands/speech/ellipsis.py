@@ -150,7 +150,9 @@ def _straight_over(items: Sequence[Item]) -> list[Item]:
     """Of "A crossing, straight over it": past the crossing."""
     found: list[Item] = []
     for index, item in enumerate(items):
-        place = next((i for i in reversed(range(len(found))) if found[i].kind not in _BETWEEN), None)
+        place = next(
+            (i for i in reversed(range(len(found))) if found[i].kind not in _BETWEEN), None
+        )
         noun = _noun(found[place]) if place is not None else None
         over = item.kind is ItemKind.STRAIGHT and noun is not None and noun.kind == "intersection"
         ends = index + 1 < len(items) and items[index + 1].kind in (*_PARTS, ItemKind.PARTICLE)

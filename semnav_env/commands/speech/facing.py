@@ -1,4 +1,4 @@
-"""Reads how a robot is to stand: "so that the wall is on your left", "so dass die Küche vor dir ist"."""
+"""Reads how a robot is to stand: "so that the wall is on your left"."""
 
 from __future__ import annotations
 

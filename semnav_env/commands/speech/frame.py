@@ -124,7 +124,9 @@ def without_articles(frame: ClauseFrame) -> ClauseFrame:
     """The frame with "a right" as "right"."""
     sides = (ItemKind.SIDE,)
     return ClauseFrame(
-        tuple(replace(i, roles=()) if i.kind in sides and "a" in i.roles else i for i in frame.items)
+        tuple(
+            replace(i, roles=()) if i.kind in sides and "a" in i.roles else i for i in frame.items
+        )
     )
 
 

@@ -47,7 +47,6 @@ from semnav_env.commands.speech.moves import (
 from semnav_env.commands.speech.stopping import read_stop, read_wait
 from semnav_env.commands.speech.turning import read_degrees, read_turn
 
-
 _MOVING = (ItemKind.STRAIGHT, ItemKind.TO_END, ItemKind.IN, ItemKind.OUT)
 
 

@@ -203,24 +203,6 @@ class NounReader(NounWords):
         sided = spot is not None and self._side_at(noun, spot[1]) is not None
         return spot[1] if sided and spot is not None else None
 
-    def _of_room(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
-        """The room of a door: "of the kitchen", "vom Archiv"; its doorway is told apart."""
-        start = self._preposition(at, "of")
-        plain = noun.ordinal is None and noun.side is None and not noun.at_end
-        while start is not None and (found := self.find(start, "det")):
-            start = found[1]
-        named = self._name(start) if start is not None and plain else None
-        if named is None:
-            return None
-        return Noun("named", name=named[0], at_end=True, doorway=noun.doorway), named[1]
-
-    def _numeral(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
-        if noun.ordinal is None and (found := self.find(at, "numeral word")):
-            number = read_number(self.words, found[1], self.lexicon)
-            if number:
-                return replace(noun, ordinal=int(number[0])), number[1]
-        return None
-
     def _side_behind(self, noun: Noun, at: int) -> tuple[Side, int] | None:
         """A side behind a noun: "on your left", "left", "in front of you"."""
         if (same := self.find(at, "same side")) and self.memory.last and self.memory.last.side:
@@ -260,22 +242,6 @@ class NounReader(NounWords):
     def _is_noun(self, at: int) -> bool:
         noun = self.read(at) if at < len(self.words) else None
         return noun is not None and noun[0].kind not in ("it", "one", "hall")
-
-    def _of_hall(self, at: int) -> int | None:
-        """The word behind "of the hallway"."""
-        here = self._preposition(at, "of")
-        if here is None:
-            return None
-        while here < len(self.words) and (
-            found := self.find(here, "det") or self.find(here, "adj")
-        ):
-            here = found[1]
-        noun = self.find(here, "noun")
-        return (
-            noun[1]
-            if noun and noun[0] in ("hall", "room") and not self._numbered(noun[1])
-            else None
-        )
 
     def _without_head(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
         """A noun that is left out: "the second on the left", "die rechte"."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from semnav_env.commands.speech.ellipsis import in_full
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
@@ -46,7 +47,7 @@ def _without_bare_go(items: list[Item]) -> list[Item]:
     ends = [-1, *(i for i, item in enumerate(items) if item.kind is ItemKind.SIGN), len(items)]
     bare = [
         start + 1
-        for start, stop in zip(ends, ends[1:], strict=False)
+        for start, stop in pairwise(ends)
         if stop == start + 2 and items[start + 1].value == "go" and len(items) > 3
     ]
     return [item for i, item in enumerate(items) if i not in bare]
