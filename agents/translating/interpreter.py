@@ -40,7 +40,7 @@ class DoubtLimits:
     acting: float = 0.14
     beside: float = 0.02
     asking: float = 0.14
-    refusing: float = 0.5
+    refusing: float = 0.2
     choices: int = 3
 
 
@@ -120,8 +120,13 @@ class LearnedInterpreter:
     def _doubt(self, text: str, command: Command) -> AmbiguousCommandError | None:
         """The question whether a text means the grammar's reading; None to act on it."""
         translated = self._translated(text)
-        likeness = None if translated is None else translated.likeness_of(command)
-        if likeness is None or likeness >= self.limits.acting:
+        if translated is None:
+            return None
+        likeness = translated.likeness_of(command)
+        if likeness is None and translated.has_sides_of(command):
+            return None  # such as a search, for which there are no symbols
+        likeness = likeness or 0.0
+        if likeness >= self.limits.acting:
             return None
         others = self._others(text, (command,), self.limits.choices - 1)
         found = (command, *others)
