@@ -39,7 +39,7 @@ class DoubtLimits:
 
     acting: float = 0.14
     beside: float = 0.02
-    asking: float = 0.14
+    asking: float = 0.05
     refusing: float = 0.2
     choices: int = 3
 
