@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from semnav_env.agents.translating.files import BUNDLED_FOLDER, load_translator
+from semnav_env.agents.translating.support import TextSupport
 from semnav_env.agents.translating.translator import TranslatedText, Translation, translate
 from semnav_env.commands.clauses import Stop
 from semnav_env.commands.command import Command
@@ -14,11 +15,11 @@ from semnav_env.commands.corpora.meanings import meaning_of, normal
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.interpreters import Interpretation
 from semnav_env.commands.language import Language
-from semnav_env.commands.languages import english, language_of, languages
+from semnav_env.commands.languages import english, language_of
 from semnav_env.commands.normalise import normalise
 from semnav_env.commands.parser import check_rooms, differences, readings
-from semnav_env.commands.speech.lexicon import lexicon_of
 from semnav_env.commands.speech.recognition import recognised
+from semnav_env.commands.speech.understanding import QUESTION
 from semnav_env.commands.words import pieces
 
 
@@ -40,12 +41,8 @@ class DoubtLimits:
     acting: float = 0.14
     beside: float = 0.02
     asking: float = 0.05
-    refusing: float = 0.2
+    refusing: float = 0.3
     choices: int = 3
-
-
-NEVER_ASKED = ("beyond",)
-"""Kinds of words with which a refused text is not asked about: what no robot can do or see."""
 
 
 class TranslationQuestionError(AmbiguousCommandError):
@@ -102,7 +99,8 @@ class LearnedInterpreter:
         except AmbiguousCommandError as error:
             raise (self._refusal(text, error) or self._wider(text, error) or error) from None
         except CommandError as error:
-            raise (self._question(text) or error) from None
+            asks = error.problem == QUESTION
+            raise ((None if asks else self._question(text)) or error) from None
         spoken = self._spoken(text)
         if len(found) > 1:
             others = self._others(text, found, 1)
@@ -154,9 +152,12 @@ class LearnedInterpreter:
         translated = self._translated(text)
         if translated is None or translated.refusal > self.limits.refusing:
             return None
-        if _is_impossible(translated.words):
+        support = TextSupport.of(translated.plain.words)
+        if support.is_impossible:
             return None
-        likely = self._likely(translated, (), self.limits.asking)[: self.limits.choices]
+        found_likely = self._likely(translated, (), self.limits.asking)
+        likely = [each for each in found_likely if support.speaks_of(each.command)]
+        likely = likely[: self.limits.choices]
         if not likely:
             return None
         found, spoken = tuple(each.command for each in likely), self._spoken(text)
@@ -209,17 +210,6 @@ def understand(text: str, language: str | None = None, rooms: Sequence[str] = ()
         CommandError: it is not understood.
     """
     return LearnedInterpreter(language, rooms).interpret(text).command
-
-
-def _is_impossible(words: Sequence[str]) -> bool:
-    """Whether words name something that no robot can do or see."""
-    lexica = [lexicon_of(language) for language in languages().values()]
-    return any(
-        lexicon.find(words, at, kind)
-        for at in range(len(words))
-        for lexicon in lexica
-        for kind in NEVER_ASKED
-    )
 
 
 def _meaning(command: Command) -> object:

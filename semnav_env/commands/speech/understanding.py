@@ -86,6 +86,9 @@ def understand(
     return Understanding(tuple(commands), best.cost, best.items)
 
 
+QUESTION = "a question is not a command"
+"""Why a text that ends with a question mark is refused."""
+
 SIDE_COST = 0.05
 """Cost of taking "right" before a preposition for a side: "right in the doorway"."""
 
@@ -124,7 +127,7 @@ def _understand(
             0.0,
             tuple(found),
             0,
-            ("a question is not a command", found[-1].start, found[-1].stop),
+            (QUESTION, found[-1].start, found[-1].stop),
         )
     items = rewritten(found)
     if told := problem_of_distance(items, words, lexicon):
