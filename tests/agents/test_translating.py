@@ -24,6 +24,7 @@ from semnav_env.agents.translating.interpreter import (
 from semnav_env.agents.translating.masking import MAX_VALUES, masked
 from semnav_env.agents.translating.network import TranslatorNetwork, TranslatorShape
 from semnav_env.agents.translating.programs import UnsayableError, command_of, symbols_of
+from semnav_env.agents.translating.support import TextSupport
 from semnav_env.agents.translating.translator import MAX_TRANSLATED_WORDS, translate
 from semnav_env.commands import (
     AmbiguousCommandError,
@@ -288,3 +289,42 @@ def test_asking_needs_no_torch() -> None:
         "assert 'torch' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize(
+    ("words", "impossible"),
+    [
+        (("take", "the", "elevator"), True),
+        (("bring", "die", "post"), True),
+        (("mach", "einen", "rueckwaertssalto"), True),
+        (("stop", "just", "before", "the", "corner"), False),
+        (("you", "know", "kind", "of", "left"), False),
+    ],
+)
+def test_a_thing_is_one_unless_its_phrase_means_something_else(
+    words: tuple[str, ...], impossible: bool
+) -> None:
+    assert TextSupport.of(words).is_impossible is impossible
+
+
+@pytest.mark.parametrize(
+    ("text", "meant", "speaks"),
+    [
+        ("look at me when i talk", "face the first intersection", False),
+        ("where do you come from", "go back to the start", False),
+        ("follow me", "go down the hallway", False),
+        ("halt", "stop", False),
+        ("whizz to the crossing", "go down the hallway until the first intersection", True),
+        ("und dann die dritte", "go through the third door", True),
+    ],
+)
+def test_a_text_speaks_of_all_that_its_translation_names(
+    text: str, meant: str, speaks: bool
+) -> None:
+    assert TextSupport.of(text.split()).speaks_of(parse(meant)) is speaks
+
+
+def test_a_question_is_answered_by_a_refusal() -> None:
+    with pytest.raises(CommandError, match="a question is not a command") as refused:
+        INTERPRETER.interpret("is the door on the left open?")
+    assert not isinstance(refused.value, AmbiguousCommandError)
