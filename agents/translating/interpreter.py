@@ -41,7 +41,7 @@ class DoubtLimits:
     acting: float = 0.14
     beside: float = 0.02
     asking: float = 0.05
-    refusing: float = 0.3
+    refusing: float = 0.2
     choices: int = 3
 
 

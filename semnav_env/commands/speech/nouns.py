@@ -20,6 +20,10 @@ CHOOSING = ("open", "closed", "nearest", "any", "other", "next", "after next", "
 """Adjectives that say which one is meant."""
 
 
+LONGEST_NOUN = 24
+"""The most words of a noun with all that stands before it."""
+
+
 @dataclass
 class NounReader(NounWords):
     """Reads nouns of a text, and remembers what was named last.
@@ -45,7 +49,7 @@ class NounReader(NounWords):
         """
         noun, here = Noun(""), at
         said_which = is_article = False
-        while here < len(self.words):
+        while here < min(len(self.words), at + LONGEST_NOUN):
             rank, name = self.find(here, "ordinal"), self._name(here)
             plain = rank is None or (name is not None and name[1] > rank[1])
             if here > at and self.find(here, "clause start"):
