@@ -9,7 +9,16 @@ from itertools import pairwise, product
 from typing import Any
 
 from semnav_env.commands.clause_readings import ClauseReadings
-from semnav_env.commands.clauses import Approach, Clause, Follow, GoToDoor, IfThere, Leave, Turn
+from semnav_env.commands.clauses import (
+    Approach,
+    Clause,
+    Follow,
+    GoToDoor,
+    IfThere,
+    Leave,
+    Turn,
+    Turning,
+)
 from semnav_env.commands.command import Command, Link, links_of, may_count_on, reference_of
 from semnav_env.commands.one_reading import OutOfPlaceError, Reading, one_reading
 from semnav_env.commands.references import DoorReference, PlaceReference
@@ -48,8 +57,8 @@ def _with_dependent_turn(reading: Reading) -> Reading:
             *_,
             IfThere(_, _, False),
             Follow(PlaceReference() as place, False),
-            Turn(way, None, None),
-        ]:
+            Turn(Turning.LEFT | Turning.RIGHT as way, None, None),
+        ] if not reading[-1].in_any_case:
             return [*reading[:-2], reading[-2]._replace(clause=Turn(way, place))]
     return reading
 

@@ -52,6 +52,14 @@ def test_what_strangers_said_is_taken_as_meant(text: str, meant: str) -> None:
     assert {str(found) for found in readings(text, None, ROOMS)} == {meant}
 
 
+@pytest.mark.parametrize("turn", ["turn around", "turn left"])
+def test_a_turn_in_any_case_depends_on_nothing(turn: str) -> None:
+    text = (
+        f"if you see the first door, go down the hallway until the first corner, in any case {turn}"
+    )
+    assert str(parse(text)) == text
+
+
 @pytest.mark.parametrize(
     "text",
     [
