@@ -13,7 +13,8 @@ from tyro.conf import Positional, arg
 
 from semnav_env.agents.base import Agent, steps
 from semnav_env.agents.registry import make_agent
-from semnav_env.commands import SearchHouse, parse
+from semnav_env.agents.translating.interpreter import understand
+from semnav_env.commands import SearchHouse
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.dynamics.social import for_json
 from semnav_env.env import SemNavEnv
@@ -79,7 +80,7 @@ class Arguments:
             raise ValueError(f"seed is {self.seed}; it must be 0 or more")
         self._check_files()
         plan = load_floor_plan(self.map or DEFAULT_MAP)
-        command = parse(self.command, self.language, plan.room_names)
+        command = understand(self.command, self.language, plan.room_names)
         searches = SearchHouse() in command.clauses
         agent = make_agent(self.agent or ("searcher" if searches else "scripted"))
         filmed = self.save is not None or self.picture is not None

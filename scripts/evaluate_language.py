@@ -11,6 +11,8 @@ from typing import Literal
 
 from tyro.conf import Positional
 
+from semnav_env.agents.translating.interpreter import understand
+from semnav_env.commands import parse
 from semnav_env.commands.corpora import (
     Count,
     ParseOutcome,
@@ -20,6 +22,7 @@ from semnav_env.commands.corpora import (
     load_sentences,
     verdicts,
 )
+from semnav_env.commands.corpora.measure import Understand
 
 
 @dataclass(frozen=True)
@@ -31,12 +34,14 @@ class Arguments:
             sentences, one a line; by default the development and the held-out sets of the
             package.
         language: force a language; by default each text is recognised.
+        grammar: judge the grammar alone, without the learned second opinion.
         show: print the sentences with this outcome.
         json: print JSON.
     """
 
     corpora: Positional[tuple[Path, ...]] = ()
     language: str | None = None
+    grammar: bool = False
     show: Literal["understood", "asked", "refused", "misread"] | None = None
     json: bool = False
 
@@ -45,7 +50,7 @@ class Arguments:
         found = [
             verdict
             for path in self.corpora or (*development_corpora(), *held_out_corpora())
-            for verdict in verdicts(load_sentences(path), self.language)
+            for verdict in verdicts(load_sentences(path), self.language, self._understand())
         ]
         counts: defaultdict[tuple[str, str], Count] = defaultdict(Count)
         for verdict in found:
@@ -58,6 +63,9 @@ class Arguments:
         else:
             _print(counts, shown)
         return 0
+
+    def _understand(self) -> Understand:
+        return parse if self.grammar else understand
 
 
 def _is_shown(verdict: SentenceVerdict, show: str) -> bool:

@@ -1,135 +1,200 @@
-"""Asks where the grammar refuses a text, or where a translator would do something else."""
+"""Asks where the grammar refuses a text, or where a translator doubts what it takes it for."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from semnav_env.agents.translating.files import BUNDLED_FOLDER, load_translator
-from semnav_env.agents.translating.translator import Translation, translate
+from semnav_env.agents.translating.support import TextSupport
+from semnav_env.agents.translating.translator import TranslatedText, Translation, translate
 from semnav_env.commands.clauses import Stop
 from semnav_env.commands.command import Command
 from semnav_env.commands.corpora.meanings import meaning_of, normal
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.interpreters import Interpretation
 from semnav_env.commands.language import Language
-from semnav_env.commands.languages import english, language_of, languages
+from semnav_env.commands.languages import english, language_of
 from semnav_env.commands.normalise import normalise
 from semnav_env.commands.parser import check_rooms, differences, readings
-from semnav_env.commands.speech.lexicon import lexicon_of, parts_of
 from semnav_env.commands.speech.recognition import recognised
+from semnav_env.commands.speech.understanding import QUESTION
 from semnav_env.commands.words import pieces
 
-ENOUGH = 0.8
-"""Least probability of a translation that is asked about, chosen on the second author's sets, of
-which the bundled network read nothing: from here on none of their feasible texts is asked about
-wrongly."""
 
-DIFFERING = 0.9
-"""Least probability of a translation that is asked about beside what the grammar understands,
-chosen on the same sets: with less, more is asked needlessly and no more misreadings are
-prevented."""
+@dataclass(frozen=True)
+class DoubtLimits:
+    """From which probabilities on an interpreter acts or asks.
 
-NEVER_ASKED = ("beyond", "no", "not", "instead", "but", "or")
-"""Kinds of words with which no text is asked about: things that no robot can do, corrections,
-negations and choices, which the translator often takes for the opposite."""
+    They were chosen with networks that had not learned from the author who was measured, see
+    docs/language.md.
+
+    Attributes:
+        acting: least probability of the grammar's reading that is acted on without a question.
+        beside: least probability of a translation that is asked about beside the grammar's.
+        asking: least probability of a translation that is asked about where the grammar refuses.
+        refusing: greatest probability that a text is no command at which it is asked about.
+        choices: the most translations in a question.
+    """
+
+    acting: float = 0.14
+    beside: float = 0.02
+    asking: float = 0.05
+    refusing: float = 0.2
+    choices: int = 3
 
 
 class TranslationQuestionError(AmbiguousCommandError):
-    """A text that the grammar refuses, and that may mean what a network takes it for.
+    """A text that the grammar refuses or doubts, and what a network takes it for.
 
     Attributes:
-        likeness: how likely that is as the network sees it, 0 to 1.
+        likeness: probability of the first reading as the network sees it, 0 to 1.
     """
 
-    def __init__(self, text: str, command: Command, said: str, likeness: float) -> None:
-        super().__init__(text, (command,), (said,))
-        self.problem = f'did you mean "{said}"?'
+    def __init__(
+        self, text: str, found: tuple[Command, ...], said: tuple[str, ...], likeness: float
+    ) -> None:
+        super().__init__(text, found, said)
+        self.problem = f"did you mean {' or '.join(map(_quoted, said))}?"
         self.hint = "say that, or say it in other words"
-        self.args = (text, command, said, likeness)
+        self.args = (text, found, said, likeness)
         self.likeness = likeness
+
+
+def _quoted(text: str) -> str:
+    return f"'{text}'" if '"' in text else f'"{text}"'
 
 
 @dataclass(frozen=True)
 class LearnedInterpreter:
     """The grammar with a learned translator as a second opinion.
 
-    The translation is never carried out without a question. Where the grammar refuses a text, the
-    interpreter asks whether a likely translation is meant. Where the grammar has one reading, and a
-    very likely translation means something else, it asks which of both.
+    A translation is never carried out without a question. The robot acts where the grammar has one
+    reading that the translator takes for likely, too. Where it does not, it asks which of both is
+    meant. Where the grammar refuses a text, it asks whether a likely translation is meant.
 
     Attributes:
         language: code, or a loaded language; None to recognise it.
         rooms: names of the rooms of the floor plan; none if they are not known.
-        enough: least probability of a translation that is asked about where the grammar refuses.
-        differing: least probability of a translation that is asked about beside the grammar's
-            reading; above 1 for never.
+        limits: from which probabilities on it acts or asks.
         folder: of the translator's files.
     """
 
     language: str | Language | None = None
     rooms: Sequence[str] = ()
-    enough: float = ENOUGH
-    differing: float = DIFFERING
+    limits: DoubtLimits = DoubtLimits()
     folder: Path = BUNDLED_FOLDER
 
     def interpret(self, text: str) -> Interpretation:
-        """Every reading that the grammar finds.
+        """The reading that the grammar finds.
 
         Raises:
-            TranslationQuestionError: the grammar refuses the text, and a translation is likely.
-            AmbiguousCommandError: the grammar asks, or a translation differs from its reading.
+            TranslationQuestionError: the text is refused or doubtful, and some command is likely.
+            AmbiguousCommandError: the grammar asks.
             CommandError: the text is refused; it is the error of the grammar.
         """
         try:
             found = readings(text, self.language, self.rooms)
-        except AmbiguousCommandError:
-            raise
+        except AmbiguousCommandError as error:
+            raise (self._refusal(text, error) or self._wider(text, error) or error) from None
         except CommandError as error:
-            question = self._question(text)
-            raise (question or error) from None
+            asks = error.problem == QUESTION
+            raise ((None if asks else self._question(text)) or error) from None
         spoken = self._spoken(text)
-        other = self._other(text, found[0]) if len(found) == 1 else None
-        if other is not None:
-            both = (found[0], other)
-            raise AmbiguousCommandError(text[:200], both, differences(both, spoken))
+        if len(found) > 1:
+            others = self._others(text, found, 1)
+            return Interpretation(text, (*found, *others), spoken, "grammar")
+        if not self._is_canonical(text, found[0]) and (doubt := self._doubt(text, found[0])):
+            raise doubt
         return Interpretation(text, found, spoken, "grammar")
 
-    def _other(self, text: str, command: Command) -> Command | None:
-        """A very likely translation that means something else than a command; None without one."""
+    def _is_canonical(self, text: str, command: Command) -> bool:
+        """Whether a text is what the robot itself would say, which is never doubted."""
         spoken = self._spoken(text)
         said = normalise(text, spoken).text.rstrip(spoken.punctuation)
-        if said == normalise(command.say(spoken), spoken).text:
-            return None
-        other = self._translation(text)
-        if other is None or other.likeness < self.differing or other.unsaid:
-            return None
-        return None if _is_same(command, other.command) else other.command
+        return said == normalise(command.say(spoken), spoken).text
 
-    def _translation(self, text: str) -> Translation | None:
-        """A translation that names only rooms that there are."""
-        found = translate(text, self.rooms, load_translator(self.folder))
-        if found is not None:
-            check_rooms(found.command, text, self.rooms)
-        return found
+    def _doubt(self, text: str, command: Command) -> AmbiguousCommandError | None:
+        """The question whether a text means the grammar's reading; None to act on it."""
+        translated = self._translated(text)
+        if translated is None:
+            return None
+        likeness = translated.likeness_of(command)
+        if likeness is None and translated.has_sides_of(command):
+            return None  # such as a search, for which there are no symbols
+        likeness = likeness or 0.0
+        if likeness >= self.limits.acting:
+            return None
+        others = self._others(text, (command,), self.limits.choices - 1)
+        found = (command, *others)
+        spoken = self._spoken(text)
+        said = differences(found, spoken) if others else (command.say(spoken),)
+        return TranslationQuestionError(text[:200], found, said, likeness)
+
+    def _refusal(self, text: str, error: AmbiguousCommandError) -> CommandError | None:
+        """The refusal of a text with words left out that the translator takes for no command."""
+        translated = self._translated(text) if error.unread else None
+        if translated is None or translated.refusal <= self.limits.refusing:
+            return None
+        return CommandError(f'"{error.unread}" is not understood', text[:200])
+
+    def _wider(self, text: str, error: AmbiguousCommandError) -> AmbiguousCommandError | None:
+        """A question with what the translator takes a text for beside the grammar's readings."""
+        others = self._others(text, error.readings, 1)
+        if not others:
+            return None
+        found, spoken = (*error.readings, *others), self._spoken(text)
+        return TranslationQuestionError(text[:200], found, differences(found, spoken), 0.0)
 
     def _question(self, text: str) -> TranslationQuestionError | None:
         """What to ask about a text that the grammar refuses; None if nothing."""
+        translated = self._translated(text)
+        if translated is None or translated.refusal > self.limits.refusing:
+            return None
+        support = TextSupport.of(translated.plain.words)
+        if support.is_impossible:
+            return None
+        found_likely = self._likely(translated, (), self.limits.asking)
+        likely = [each for each in found_likely if support.speaks_of(each.command)]
+        likely = likely[: self.limits.choices]
+        if not likely:
+            return None
+        found, spoken = tuple(each.command for each in likely), self._spoken(text)
+        said = tuple(command.say(spoken) for command in found)
+        return TranslationQuestionError(text[:200], found, said, likely[0].likeness)
+
+    def _others(self, text: str, known: Sequence[Command], count: int) -> tuple[Command, ...]:
+        """The likeliest commands besides those that are known."""
+        translated = self._translated(text)
+        if translated is None:
+            return ()
+        likely = self._likely(translated, known, self.limits.beside)
+        return tuple(each.command for each in likely[:count])
+
+    def _likely(
+        self, translated: TranslatedText, known: Iterable[Command], least: float
+    ) -> list[Translation]:
+        """The translations from a probability on that mean something else than what is known."""
+        meant = [_meaning(command) for command in known]
+        found = []
+        for each in translated.translations:
+            idle = all(isinstance(clause, Stop) for clause in each.command.clauses)
+            meaning = _meaning(each.command)
+            if each.likeness >= least and not idle and meaning not in meant:
+                found.append(each)
+                meant.append(meaning)
+        return found
+
+    def _translated(self, text: str) -> TranslatedText | None:
+        """What the translator takes a text for, without rooms that there are not."""
         try:
-            translation = self._translation(text)
+            found = translate(text, self.rooms, load_translator(self.folder))
+            for each in found.translations if found is not None else ():
+                check_rooms(each.command, text, self.rooms)
         except CommandError:
             return None
-        if translation is None or not self._is_asked(translation):
-            return None
-        said = translation.command.say(self._spoken(text))
-        return TranslationQuestionError(text[:200], translation.command, said, translation.likeness)
-
-    def _is_asked(self, translation: Translation) -> bool:
-        """Whether a translation is likely, and nothing that the text says is lost in it."""
-        idle = all(isinstance(clause, Stop) for clause in translation.command.clauses)
-        said = translation.likeness >= self.enough and not translation.unsaid
-        return said and not idle and _is_known(translation.words)
+        return found
 
     def _spoken(self, text: str) -> Language:
         if self.language is not None:
@@ -137,21 +202,19 @@ class LearnedInterpreter:
         return recognised([piece.text for piece in pieces(normalise(text, english()).text)])
 
 
-def _is_known(words: Sequence[str]) -> bool:
-    """Whether the grammar knows every word, and none of a kind in which a translation errs."""
-    lexica = [lexicon_of(language) for language in languages().values()]
-    for at, word in enumerate(words):
-        if any(lexicon.find(words, at, kind) for lexicon in lexica for kind in NEVER_ASKED):
-            return False
-        known = any(lexicon.words.issuperset(parts_of(word, lexicon)) for lexicon in lexica)
-        if word.isalpha() and not known:
-            return False
-    return True
+def understand(text: str, language: str | None = None, rooms: Sequence[str] = ()) -> Command:
+    """The command that a text means, by the grammar and the translator, see `LearnedInterpreter`.
+
+    Raises:
+        AmbiguousCommandError: it is doubtful; `error.readings` are what it may mean.
+        CommandError: it is not understood.
+    """
+    return LearnedInterpreter(language, rooms).interpret(text).command
 
 
-def _is_same(one: Command, other: Command) -> bool:
-    """Whether two commands lead to the same by the rules of docs/commands.md."""
+def _meaning(command: Command) -> object:
+    """What is the same for commands that lead to the same by the rules of docs/commands.md."""
     try:
-        return normal(meaning_of(one)) == normal(meaning_of(other))
+        return normal(meaning_of(command))
     except TypeError:  # a clause without a step in the notation, such as a search
-        return one == other
+        return command

@@ -30,6 +30,10 @@ MAX_SYMBOLS = 48
 """The most symbols that are said; eight clauses need no more than that."""
 
 
+UNLIKELY = 7.0
+"""A beginning whose probability is less than that of a whole by this power of e is given up."""
+
+
 @dataclass(frozen=True)
 class TranslatorShape:
     """Sizes of the network.
@@ -136,20 +140,42 @@ class TranslatorNetwork:
         result: Array = shifted - np.log(np.exp(shifted).sum())
         return result
 
-    def translate(
-        self, words: Sequence[str], marks: Sequence[int]
-    ) -> tuple[tuple[str, ...], float]:
-        """The symbols that follow each other most likely, and their probability."""
-        encoded = self.encode(words, marks)
+    def candidates(self, encoded: Array, count: int) -> list[tuple[tuple[str, ...], float]]:
+        """The likeliest symbols and the logarithms of their probabilities, the likeliest first.
+
+        A beam search: of each length the `count` likeliest beginnings are kept.
+
+        Args:
+            encoded: the words, see `encode`.
+            count: how many, and the width of the beam.
+        """
+        live: list[tuple[float, list[int]]] = [(0.0, [SYMBOLS.index(START)])]
+        done: list[tuple[float, list[int]]] = []
+        while live and len(live[0][1]) <= MAX_SYMBOLS:
+            longer = []
+            for share, said in live:
+                shares = self.log_shares(said, encoded)
+                longer += [
+                    (share + float(shares[k]), [*said, int(k)])
+                    for k in np.argsort(-shares, kind="stable")[:count]
+                ]
+            longer.sort(key=lambda each: -each[0])
+            ended = [each for each in longer[: 2 * count] if SYMBOLS[each[1][-1]] == END]
+            live = [each for each in longer if SYMBOLS[each[1][-1]] != END][:count]
+            done = sorted([*done, *ended], key=lambda each: -each[0])[:count]
+            if done and live and live[0][0] < done[0][0] - UNLIKELY:
+                break
+            if len(done) == count and (not live or live[0][0] < done[-1][0]):
+                break
+        return [(tuple(SYMBOLS[k] for k in said[1:-1]), share) for share, said in done]
+
+    def log_share_of(self, symbols: Sequence[str], encoded: Array) -> float:
+        """The logarithm of the probability that these symbols, and no more, are said."""
         said, total = [SYMBOLS.index(START)], 0.0
-        while len(said) <= MAX_SYMBOLS:
-            shares = self.log_shares(said, encoded)
-            best = int(np.argmax(shares))
-            total += float(shares[best])
-            if SYMBOLS[best] == END:
-                return tuple(SYMBOLS[each] for each in said[1:]), math.exp(total)
-            said.append(best)
-        return tuple(SYMBOLS[each] for each in said[1:]), 0.0
+        for symbol in (*symbols, END):
+            total += float(self.log_shares(said, encoded)[SYMBOLS.index(symbol)])
+            said.append(SYMBOLS.index(symbol))
+        return total
 
     def _attend(
         self, name: str, x: Array, other: Array | None = None, causal: bool = False

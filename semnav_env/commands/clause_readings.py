@@ -40,6 +40,17 @@ class TurnBack:
 
 
 @dataclass(frozen=True, slots=True)
+class TurnIntoHall:
+    """Mark: into the hallway on a side: here behind a door, else at the next turning.
+
+    Attributes:
+        turning: left or right.
+    """
+
+    turning: Turning
+
+
+@dataclass(frozen=True, slots=True)
 class NextIfClosed:
     """Mark: what to do if the door that was mentioned last is closed ("if it's closed, ...").
 
@@ -82,6 +93,7 @@ Step: TypeAlias = (
     | EnterMentionedDoor
     | StopBeforeMentioned
     | TurnBack
+    | TurnIntoHall
     | IntoDoorway
     | NextIfClosed
     | SideOfMentionedDoor

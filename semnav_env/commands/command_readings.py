@@ -9,10 +9,19 @@ from itertools import pairwise, product
 from typing import Any
 
 from semnav_env.commands.clause_readings import ClauseReadings
-from semnav_env.commands.clauses import Approach, Clause, Follow, GoToDoor, Leave
+from semnav_env.commands.clauses import (
+    Approach,
+    Clause,
+    Follow,
+    GoToDoor,
+    IfThere,
+    Leave,
+    Turn,
+    Turning,
+)
 from semnav_env.commands.command import Command, Link, links_of, may_count_on, reference_of
 from semnav_env.commands.one_reading import OutOfPlaceError, Reading, one_reading
-from semnav_env.commands.references import DoorReference
+from semnav_env.commands.references import DoorReference, PlaceReference
 
 MAX_READINGS = 16
 """The most readings of a command; nobody would choose among more, so the text is refused."""
@@ -34,10 +43,24 @@ def commands_of(found: Sequence[ClauseReadings]) -> tuple[Command, ...]:
     """
     _check_number(math.prod(len(each.readings) for each in found))
     readings = [one_reading(found, choice) for choice in product(*(f.readings for f in found))]
+    readings = [_with_dependent_turn(reading) for reading in readings]
     _check_conditions(readings, last=len(found) - 1)
     commands = [clauses for reading in readings if reading for clauses in _countings(reading)]
     _check_number(len(commands))
     return tuple(dict.fromkeys(Command(clauses) for clauses in commands))
+
+
+def _with_dependent_turn(reading: Reading) -> Reading:
+    """Of "If there is no door, go to the end and turn right": one turn, at the end."""
+    match [each.clause for each in reading]:
+        case [
+            *_,
+            IfThere(_, _, False),
+            Follow(PlaceReference() as place, False),
+            Turn(Turning.LEFT | Turning.RIGHT as way, None, None),
+        ] if not reading[-1].in_any_case:
+            return [*reading[:-2], reading[-2]._replace(clause=Turn(way, place))]
+    return reading
 
 
 def _check_number(readings: int) -> None:

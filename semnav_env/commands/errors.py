@@ -75,6 +75,7 @@ class AmbiguousCommandError(CommandError):
     Attributes:
         readings: these commands, the likelier first.
         differences: for each reading the clauses in which it differs, in the text's language.
+        unread: words that were left out because they are not understood.
         later: whether these begin later than the text, behind what is clear.
     """
 
@@ -97,6 +98,7 @@ class AmbiguousCommandError(CommandError):
             super().__init__(f"this can mean {ways}", text, hint="say which")
         self.args = (text, readings, differences, suggestion, unread, later)
         self.suggestion = suggestion
+        self.unread = unread
         self.readings = readings
         self.differences = differences
         self.later = later

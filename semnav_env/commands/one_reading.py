@@ -17,6 +17,7 @@ from semnav_env.commands.clause_readings import (
     Steps,
     StopBeforeMentioned,
     TurnBack,
+    TurnIntoHall,
 )
 from semnav_env.commands.clauses import (
     Approach,
@@ -26,12 +27,19 @@ from semnav_env.commands.clauses import (
     GoToDoor,
     GoToRoom,
     IfThere,
+    Leave,
     Stop,
     Turn,
     Turning,
 )
 from semnav_env.commands.command import reference_of
-from semnav_env.commands.references import DoorReference, Place, Side
+from semnav_env.commands.references import (
+    DoorReference,
+    Place,
+    PlaceReference,
+    RoomReference,
+    Side,
+)
 
 
 class ReadingClause(NamedTuple):
@@ -95,6 +103,8 @@ def one_reading(found: Sequence[ClauseReadings], choice: Sequence[Steps]) -> Rea
                     assert isinstance(entered, GoToDoor)
                     inside = replace(entered, approach=Approach.IN)
                     reading[-1:] = [ReadingClause(inside), ReadingClause(step)]
+                case TurnIntoHall(way):
+                    reading.append(ReadingClause(_into_hall(way, reading)))
                 case TurnBack():
                     _turn_back(reading)
                 case NextIfClosed(clause):
@@ -122,12 +132,38 @@ def _is_at_door(reading: Reading) -> bool:
 def _stop_before(reading: Reading, index: int) -> None:
     """Go to the last clause's door or room and not in."""
     before = reading[-1].clause if reading else None
-    if isinstance(before, Follow) and isinstance(before.until, DoorReference) and not before.past:
-        before = GoToDoor(before.until)
+    if isinstance(before, Stop) and len(reading) > 1 and _stops_in_front(reading[-2].clause):
+        return
+    if isinstance(before, Stop) and len(reading) > 1 and _leads_to_door(reading[-2].clause):
+        reading.pop()
+        before = reading[-1].clause
+    if isinstance(before, Follow) and not before.past:
+        if isinstance(before.until, DoorReference):
+            before = GoToDoor(before.until)
+        elif isinstance(before.until, RoomReference):
+            before = GoToRoom(before.until.name)
         reading[-1] = ReadingClause(before)
     if not isinstance(before, GoToDoor | GoToRoom):
         raise OutOfPlaceError("in front of what? name the door", index)
     reading[-1] = reading[-1]._replace(clause=replace(before, approach=Approach.TO))
+
+
+def _stops_in_front(clause: Clause) -> bool:
+    return isinstance(clause, GoToDoor | GoToRoom) and clause.approach is Approach.TO
+
+
+def _leads_to_door(clause: Clause) -> bool:
+    """Whether a clause leads along the hallway to a door or a room."""
+    until = clause.until if isinstance(clause, Follow) and not clause.past else None
+    return isinstance(until, DoorReference | RoomReference)
+
+
+def _into_hall(way: Turning, reading: Reading) -> Turn:
+    """A turn into the hallway in front of the robot, or into one that leads off."""
+    match reading[-1].clause if reading else None:
+        case Leave() | GoToDoor(_, Approach.THROUGH):
+            return Turn(way)
+    return Turn(way, PlaceReference(Place.TURNING))
 
 
 def _turn_back(reading: Reading) -> None:

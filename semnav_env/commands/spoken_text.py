@@ -120,7 +120,9 @@ def _ask_without_unread(
     meant = understand(words, lexicon, names, leave_out=True).commands
     if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
         return
-    unread = next(item for item in understood.items if item.kind is ItemKind.UNKNOWN)
+    unread = next((i for i in understood.items if i.kind is ItemKind.UNKNOWN), None)
+    if unread is None:
+        unread = understood.items[min(understood.reached, len(understood.items) - 1)]
     ways = tuple(command.say(lexicon.language) for command in meant)
     unread_words = " ".join(words[unread.start : unread.stop])
     raise AmbiguousCommandError(text[:200], meant, ways, unread=unread_words)

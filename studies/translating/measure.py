@@ -19,9 +19,6 @@ from semnav_env.commands.interpreters import Interpretation, Interpreter
 from semnav_env.commands.languages import english
 from semnav_env.commands.parser import readings
 
-NEVER = 2.0
-"""A probability that no translation has."""
-
 
 @dataclass(frozen=True)
 class RecognisingGrammar:
@@ -55,15 +52,18 @@ class TranslatorAlone:
     def interpret(self, text: str) -> Interpretation:
         """The likeliest command."""
         found = translate(text, self.rooms, load_translator(self.folder))
-        if found is None or found.likeness < self.enough:
+        if found is None or not found.translations or found.refusal > 0.5:
+            raise CommandError("it is no command", text)
+        first = found.translations[0]
+        if first.likeness < self.enough:
             raise CommandError("it is not understood", text)
-        return Interpretation(text, (found.command,), english(), "learned", found.likeness)
+        return Interpretation(text, (first.command,), english(), "learned", first.likeness)
 
 
 def interpreters(
     sentences: Sequence[Sentence], folder: Path, sure: float
 ) -> dict[str, Interpreter]:
-    """The grammar, with a translator that asks of refusals, of all, and the translator alone.
+    """The grammar, the grammar with a translator that doubts it, and the translator alone.
 
     Args:
         sentences: of a corpus, which tell the rooms of the building.
@@ -73,7 +73,6 @@ def interpreters(
     rooms = tuple(dict.fromkeys(rooms_in(each.meanings for each in sentences)))
     return {
         "grammar": RecognisingGrammar(rooms),
-        "questions": LearnedInterpreter(rooms=rooms, differing=NEVER, folder=folder),
         "second opinion": LearnedInterpreter(rooms=rooms, folder=folder),
         "alone": TranslatorAlone(rooms, folder, sure),
     }

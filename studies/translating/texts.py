@@ -21,7 +21,9 @@ from semnav_env.commands.references import DoorReference, PlaceReference, Side
 from semnav_env.commands.rewording import paraphrases
 from semnav_env.commands.sampling import sample_command
 from studies.speech.robustness import FILLERS, PUNCTUATION
+from studies.translating.infeasible import infeasible
 from studies.translating.programs import command_of_meaning
+from studies.translating.synonyms import with_synonyms
 
 JOINTS = {
     "en": (", then ", " and then ", " and ", ". ", ", ", ", after that ", " then "),
@@ -154,6 +156,15 @@ def _with_filler(text: TrainingText, rng: np.random.Generator) -> TrainingText:
     return replace(text, text=" ".join(words))
 
 
+def _with_synonyms(text: TrainingText, rng: np.random.Generator) -> TrainingText:
+    return replace(text, text=with_synonyms(text.text, text.language, rng))
+
+
+def _infeasible(text: TrainingText, rng: np.random.Generator) -> TrainingText:
+    changed = infeasible(text.text, text.language, rng)
+    return text if changed is None else replace(text, text=changed, commands=())
+
+
 def _without_punctuation(text: TrainingText, rng: np.random.Generator) -> TrainingText:
     del rng
     plain = text.text.translate(str.maketrans("", "", PUNCTUATION)).lower()
@@ -216,6 +227,8 @@ def _with(clause: Any, name: str, value: object) -> Clause:
 
 CHANGES: tuple[tuple[float, Callable[[TrainingText, np.random.Generator], TrainingText]], ...] = (
     (0.3, _mirrored),
+    (0.5, _with_synonyms),
+    (0.08, _infeasible),
     (0.3, _with_filler),
     (0.15, _with_filler),
     (0.4, _without_punctuation),

@@ -172,9 +172,9 @@ def _unfolded(step: Step) -> list[Step]:
                 there = ("if", word, _FIRST, *cases)
                 return [("to", what), *_unfolded(there)]
             absent = {"closed": "no", "open": "there"}.get(word, word)
-            then = _turned_at(what, then) if absent == "there" else then
             if absent == "no" and otherwise:
                 absent, then, otherwise = "there", otherwise, then
+            then = _turned_at(what, then) if absent == "there" else then
             first = _plain(what)[1]
             if first[:2] == ("door", 1) and normal(then) == (("through", first),):
                 second = ("door", 2, *first[2:])

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import TypeAlias
 
 from semnav_env.commands.command import Command
 from semnav_env.commands.corpora.meanings import meaning_of, normal
 from semnav_env.commands.corpora.sentences import Sentence
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.parser import parse
+
+Understand: TypeAlias = Callable[[str, str | None, Sequence[str]], Command]
+"""What takes a text for a command, given a language or None and the rooms; like `parse`."""
 
 
 class ParseOutcome(StrEnum):
@@ -47,22 +51,28 @@ class SentenceVerdict:
 
 
 def verdicts(
-    sentences: Sequence[Sentence], language: str | None = None
+    sentences: Sequence[Sentence], language: str | None = None, understand: Understand = parse
 ) -> Iterator[SentenceVerdict]:
     """Judge sentences; the rooms that their meanings name are those of the building.
 
     Args:
         sentences: of one corpus.
         language: forces a language; by default each text is recognised.
+        understand: takes texts for commands; by default the grammar.
     """
     rooms = tuple(dict.fromkeys(rooms_in(each.meanings for each in sentences)))
-    return (judge(sentence, rooms, language) for sentence in sentences)
+    return (judge(sentence, rooms, language, understand) for sentence in sentences)
 
 
-def judge(sentence: Sentence, rooms: Sequence[str], language: str | None = None) -> SentenceVerdict:
+def judge(
+    sentence: Sentence,
+    rooms: Sequence[str],
+    language: str | None = None,
+    understand: Understand = parse,
+) -> SentenceVerdict:
     """What becomes of one sentence."""
     try:
-        command = parse(sentence.text, language, rooms)
+        command = understand(sentence.text, language, rooms)
     except AmbiguousCommandError as error:
         outcome = _asked(sentence, error.readings)
         return SentenceVerdict(sentence, outcome, tuple(map(str, error.readings)))

@@ -14,6 +14,13 @@ KINDS = ("feasible", "ambiguous", "infeasible", "plain")
 """What a sentence is: "plain" is one without a meaning beside it."""
 
 
+AUTHORS = ("", "second_", "third_", "fourth_", "fifth_", "sixth_")
+"""Beginnings of the names of the development sets; the first author's have none."""
+
+HELD_OUT = ("seventh_", "eighth_")
+"""Beginnings of the names of the held-out sets."""
+
+
 @dataclass(frozen=True)
 class Sentence:
     """A command as somebody worded it.
@@ -36,14 +43,15 @@ class Sentence:
 
 
 def development_corpora() -> tuple[Path, ...]:
-    """The files of three authors on which the parser was tuned, which come with the package."""
-    sets = product(("", "second_", "third_"), ("english", "german"))
+    """The files of six authors on which the parser was tuned, which come with the package."""
+    sets = product(AUTHORS, ("english", "german"))
     return tuple(_folder() / f"{author}{language}.jsonl" for author, language in sets)
 
 
 def held_out_corpora() -> tuple[Path, ...]:
-    """The files of a fourth author, on which nothing was tuned."""
-    return tuple(sorted(_folder().glob("fourth_*.jsonl")))
+    """The files of authors on which nothing was tuned."""
+    found = (path for author in HELD_OUT for path in _folder().glob(f"{author}*.jsonl"))
+    return tuple(sorted(found))
 
 
 def _folder() -> Path:

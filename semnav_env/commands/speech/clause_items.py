@@ -14,7 +14,7 @@ from semnav_env.commands.clause_readings import (
     StopBeforeMentioned,
     on_condition,
 )
-from semnav_env.commands.clauses import Approach, Clause, GoToDoor, GoToRoom, IfThere
+from semnav_env.commands.clauses import Approach, Clause, GoToDoor, GoToRoom, IfThere, Stop
 from semnav_env.commands.references import DoorReference, PlaceReference, RoomReference
 from semnav_env.commands.speech.frame import ClauseFrame
 from semnav_env.commands.speech.frames import readings_of
@@ -52,7 +52,8 @@ def read_clause(items: list[Item]) -> tuple[Readings, float] | None:
             and kept
             and kept[-1].kind is ItemKind.VERB
             and len(kept) == 1
-            and item.stop == item.start + 1
+            and item.stop <= item.start + 2
+            and item.value != "once"
         ):
             continue  # "bieg dann links ab"
         elif item.kind in (
@@ -109,6 +110,8 @@ def _is_afterthought(before: Sequence[Item], items: Sequence[Item]) -> bool:
     if len(items) != 1:
         return False
     if items[0].kind is ItemKind.REF and "after" not in items[0].roles:
+        if before and before[-1].value == "stop" and items[0].value.doorway:
+            return True  # "stop, right in the doorway"
         turns = len(before) and before[-1].kind is ItemKind.SIDE and not before[-1].roles
         placed = any(item.kind is ItemKind.REF for item in before)
         at_place = "at" in items[0].roles and not is_door(items[0].value)
@@ -119,7 +122,7 @@ def _is_afterthought(before: Sequence[Item], items: Sequence[Item]) -> bool:
         return False
     doors = [item for item in before if item.kind is ItemKind.REF and is_door(item.value)]
     turns = any(item.kind is ItemKind.VERB and item.value == "turn" for item in before)
-    sideless = len(doors) == 1 and doors[0].value.side is None and bool(items[0].roles)
+    sideless = len(doors) == 1 and doors[0].value.side is None and "on" in items[0].roles
     return sideless or (turns and not doors)
 
 
@@ -204,6 +207,8 @@ def _next_door(closed: DoorReference, readings: Readings) -> Readings | None:
 
 def otherwise_of(readings: Readings) -> Readings:
     """The readings of a clause for the other case of a condition."""
+    if any(len(s) > 1 and s[-1] != Stop() and StopBeforeMentioned() in s for s in readings):
+        raise ValueError("one waits where one stands: a closed door is not seen")
     readings = tuple(
         tuple(step for step in steps if not isinstance(step, StopBeforeMentioned))
         for steps in readings

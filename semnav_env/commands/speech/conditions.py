@@ -32,13 +32,15 @@ def read_condition(
     """The condition that begins at a word; None if none does."""
     unless = lexicon.find(words, at, "unless")
     begin = unless or lexicon.find(words, at, "if")
-    inverted = None
+    inverted = asked = None
     if begin is None and (at == 0 or not words[at - 1][0].isalpha()):
-        begin = inverted = lexicon.find(words, at, "if start")
+        begin = asked = lexicon.find(words, at, "if there")
+        if asked is None:
+            begin = inverted = lexicon.find(words, at, "if start")
     if begin is None:
         return None
     here, noun, side = begin[1], None, None
-    absent, state, exists, pronoun = unless is not None, "", False, False
+    absent, state, exists, pronoun = unless is not None, "", asked is not None, False
     at_end = False
     stop = here
     while here < len(words):
@@ -76,12 +78,20 @@ def read_condition(
             stop = here
         if state and (noun or pronoun):
             break
+    if noun == Noun("door") and state and nouns.memory.names_door():
+        noun, pronoun = None, True  # "into the first door; if the door is closed, ..."
     if noun is None and not (pronoun and state):
         return None
     if noun is not None and noun.kind == "named" and not (state or absent):
         return None  # "when you see the kitchen" is a place
     if inverted and not state:
         return None
+    if asked:
+        then = _then(words, stop, lexicon)
+        shown = noun is not None and noun.definite and not absent
+        if then is None or (shown and words[then - 1] == "?"):
+            return None  # "do you see the two doors? take the first"
+        stop = then
     if not (exists or state or absent):
         return None
     if noun is not None and side is not None and noun.side is None:
@@ -90,6 +100,14 @@ def read_condition(
         noun = replace(noun, at_end=True)
     closed = state == "closed"
     return Item(ItemKind.IF, at, stop, Premise(noun, absent is not closed, state))
+
+
+def _then(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> int | None:
+    """Where what depends on an inverted condition begins: "is there a door? then ..."."""
+    if at + 1 >= len(words) or words[at] not in (",", "?"):
+        return None
+    kinds = ("then", "verb", "around alone", "back")
+    return at + 1 if any(lexicon.find(words, at + 1, kind) for kind in kinds) else None
 
 
 CLASSES = (

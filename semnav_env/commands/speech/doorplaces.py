@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from semnav_env.commands.references import (
+    LAST,
     Side,
 )
 from semnav_env.commands.speech.frame import ClauseFrame
@@ -13,6 +14,16 @@ from semnav_env.commands.speech.moves import (
     PLACES,
     is_door,
 )
+
+
+def _is_before_end(frame: ClauseFrame) -> bool:
+    """Whether a clause names what is before a place at which the hallway ends."""
+    return any(
+        item.value.kind in ("corner", "end", "t_junction", "wall")
+        and "before" in item.roles
+        and item.value.ordinal in (None, 1)
+        for item in frame.refs
+    )
 
 
 def with_places_of_doors(frame: ClauseFrame) -> ClauseFrame:
@@ -46,6 +57,8 @@ def with_places_of_doors(frame: ClauseFrame) -> ClauseFrame:
         raise ValueError("doors beside a place are not known: count them, or say before or after")
     if ends:
         noun = replace(noun, at_end=True)
+    elif noun.ordinal is None and noun.definite and _is_before_end(frame):
+        noun = replace(noun, ordinal=LAST)  # "the door before the corner"
     for item in frame.of(ItemKind.PARTICLE):
         if item.value in ("ahead", "behind") and noun.side is None and not frame.sides:
             noun = replace(noun, side=Side(item.value))

@@ -12,8 +12,8 @@ def in_full(items: Sequence[Item]) -> list[Item]:
     """The items with what was left out."""
     found = _keeping_sides(_without_broken_commas(_with_otherwise(items)))
     found = _without_repetition(_with_one_way_out(_with_doors(found)))
-    found = _with_verbs(found)
-    found = _with_sides(found)
+    found = _with_verbs(_passed_one_by_one(_straight_over(found)))
+    found = _with_sides(_with_side_told_apart(found))
     return _counted_from_passed(_without_counting(found))
 
 
@@ -91,8 +91,23 @@ def _without_repetition(items: Sequence[Item]) -> list[Item]:
             same = _noun(before)
             if same is not None and same.ordinal == noun.ordinal and same.ordinal is not None:
                 continue
+        if (at := _said_before(found, item)) is not None:
+            found = found[:at]
         found.append(item)
     return found
+
+
+def _said_before(found: Sequence[Item], item: Item) -> int | None:
+    """Where a room was named alone before it is named again: "past the lab, yes, past the lab"."""
+    noun = _noun(item)
+    at = len(found)
+    while at and (found[at - 1].kind is ItemKind.SIGN or found[at - 1].value == "go"):
+        at -= 1
+    before = _noun(found[at - 1]) if at and at < len(found) else None
+    if before is None or noun is None or noun.kind != "named" or before.name != noun.name:
+        return None
+    alone = at < 2 or found[at - 2].kind in _PARTS
+    return at - 1 if alone and found[at - 1].roles in (item.roles, ()) else None
 
 
 def _with_doors(items: Sequence[Item]) -> list[Item]:
@@ -110,6 +125,54 @@ def _with_doors(items: Sequence[Item]) -> list[Item]:
 _PARTS = (*JOINTS, ItemKind.BUT)
 
 
+def _passed_one_by_one(items: Sequence[Item]) -> list[Item]:
+    """Of "A crossing, then another crossing, and right at the third": the first ones are passed."""
+    told = [
+        index
+        for index, item in enumerate(items)
+        if (noun := _noun(item)) is not None
+        and noun.kind in ("intersection", "door")
+        and (not noun.definite or (noun.counted and noun.ordinal == 1))
+        and not item.roles
+        and _stands_alone(items, index)
+    ]
+    later = [n for item in items[told[-1] + 1 :] if (n := _noun(item))] if told else []
+    same = [n for n in later if told and n.kind == items[told[0]].value.kind]
+    if len(told) < 2 or not same:
+        return list(items)
+    return [
+        replace(item, roles=("past",)) if index in told else item
+        for index, item in enumerate(items)
+    ]
+
+
+def _straight_over(items: Sequence[Item]) -> list[Item]:
+    """Of "A crossing, straight over it": past the crossing."""
+    found: list[Item] = []
+    for index, item in enumerate(items):
+        place = next(
+            (i for i in reversed(range(len(found))) if found[i].kind not in _BETWEEN), None
+        )
+        noun = _noun(found[place]) if place is not None else None
+        over = item.kind is ItemKind.STRAIGHT and noun is not None and noun.kind == "intersection"
+        ends = index + 1 < len(items) and items[index + 1].kind in (*_PARTS, ItemKind.PARTICLE)
+        parted = place is not None and place < len(found) - 1
+        if over and ends and parted and place is not None and not found[place].roles:
+            found[place:] = [replace(found[place], roles=("past",))]
+            continue
+        found.append(item)
+    return found
+
+
+_BETWEEN = (ItemKind.SIGN, ItemKind.HERE)
+
+
+def _stands_alone(items: Sequence[Item], index: int) -> bool:
+    """Whether a noun stands between joints, without a verb."""
+    before = index == 0 or items[index - 1].kind in _PARTS
+    return before and (index + 1 == len(items) or items[index + 1].kind in _PARTS)
+
+
 def _with_verbs(items: Sequence[Item]) -> list[Item]:
     """Of "Pass one door on the right, then one on the left": passed, too."""
     found: list[Item] = []
@@ -124,6 +187,24 @@ def _with_verbs(items: Sequence[Item]) -> list[Item]:
         indefinite = noun is not None and (not noun.definite or noun.counted)
         found.append(replace(item, roles=("past",)) if gapped and indefinite else item)
     return found
+
+
+def _with_side_told_apart(items: Sequence[Item]) -> list[Item]:
+    """Of "Right side, last door" and "the third door, on the left side, ...": the door's side."""
+    found = list(items)
+    for at, item in enumerate(items):
+        if item.kind is not ItemKind.SIDE or "on" not in item.roles:
+            continue
+        alone = at + 1 < len(items) and items[at + 1].value == "," and at in (0, 1)
+        if alone and at + 2 < len(items) and _is_sideless_door(items[at + 2]):
+            noun = replace(items[at + 2].value, side=item.value)
+            return [*items[:at], replace(items[at + 2], value=noun), *items[at + 3 :]]
+    return found
+
+
+def _is_sideless_door(item: Item) -> bool:
+    noun = _noun(item)
+    return noun is not None and noun.kind in ("door", "room", "one") and noun.side is None
 
 
 def _with_sides(items: Sequence[Item]) -> list[Item]:
@@ -150,11 +231,13 @@ def _without_counting(items: Sequence[Item]) -> list[Item]:
     for index, item in enumerate(items):
         noun = _noun(item)
         counts = index > 0 and items[index - 1].kind is ItemKind.VERB
-        if noun is None or not noun.counted or not counts or items[index - 1].value != "count":
+        alone = index == 0 and len(items) > 1 and items[1].kind is ItemKind.SIGN
+        told = counts and items[index - 1].value == "count"
+        if noun is None or not noun.counted or not (told or (alone and not item.roles)):
             continue
         later = next((n for n in map(_noun, items[index + 1 :]) if n is not None), None)
         if later is not None and later.ordinal == noun.ordinal:
-            return [*items[: index - 1], *items[index + 1 :]]
+            return [*items[: max(0, index - 1)], *items[index + 1 :]]
     return list(items)
 
 

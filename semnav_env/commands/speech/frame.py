@@ -120,6 +120,16 @@ def replace_items(frame: ClauseFrame, *kinds: ItemKind) -> ClauseFrame:
     return ClauseFrame(tuple(item for item in frame.items if item.kind not in kinds))
 
 
+def without_articles(frame: ClauseFrame) -> ClauseFrame:
+    """The frame with "a right" as "right"."""
+    sides = (ItemKind.SIDE,)
+    return ClauseFrame(
+        tuple(
+            replace(i, roles=()) if i.kind in sides and "a" in i.roles else i for i in frame.items
+        )
+    )
+
+
 def distances_of(frame: ClauseFrame) -> Steps:
     """The steps of the distances of a clause."""
     return tuple(Follow(item.value) for item in frame.of(ItemKind.DISTANCE))
@@ -158,7 +168,7 @@ def contexts_of(frame: ClauseFrame) -> tuple[Steps, list[Item]]:
         elif "between" in roles or (
             "after" in roles and (not door or len(frame.refs) > 1 or "past" not in roles)
         ):
-            steps += _passed(item.value)
+            steps += _passed(item.value, between="between" in roles)
         else:
             rest.append(item)
     if steps and not frame.verbs - {"be"}:  # "it's two doors past the kitchen"
@@ -166,10 +176,10 @@ def contexts_of(frame: ClauseFrame) -> tuple[Steps, list[Item]]:
     return tuple(steps), rest
 
 
-def _passed(noun: Noun) -> Steps:
+def _passed(noun: Noun, *, between: bool = False) -> Steps:
     if noun.kind == "it":
         return ()
-    place = landmark(noun)
+    place = landmark(replace(noun, ordinal=1) if between and noun.counted else noun)
     if place == END:
         raise NoMeaningError("past the end")
     return (Follow(place, past=True),)

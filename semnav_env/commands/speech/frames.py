@@ -47,6 +47,8 @@ from semnav_env.commands.speech.moves import (
 from semnav_env.commands.speech.stopping import read_stop, read_wait
 from semnav_env.commands.speech.turning import read_degrees, read_turn
 
+_MOVING = (ItemKind.STRAIGHT, ItemKind.TO_END, ItemKind.IN, ItemKind.OUT)
+
 
 def readings_of(frame: ClauseFrame) -> Readings:
     """The readings of a clause.
@@ -59,6 +61,8 @@ def readings_of(frame: ClauseFrame) -> Readings:
         raise NoMeaningError("verb")
     if frame.has(ItemKind.SLIGHT) and frame.sides and not frame.has(ItemKind.DEGREES):
         raise ValueError('by how much? say "turn left by 30 degrees"')
+    if frame.has(ItemKind.BEFORE_IT) and any(_is_doorway_of_room(item) for item in frame.refs):
+        raise NoMeaningError("in the doorway of a room")
     frame = with_places_of_doors(frame)
     for read in (
         _search,
@@ -75,8 +79,40 @@ def readings_of(frame: ClauseFrame) -> Readings:
     ):
         found = read(frame)
         if found is not None:
+            _check_all_is_read(frame, read.__name__)
             return found
     raise NoMeaningError("nothing")
+
+
+def _is_doorway_of_room(item: Item) -> bool:
+    return item.value.kind == "named" and item.value.at_end and "into" in item.roles
+
+
+LEFT_UNREAD = {
+    "read_degrees": (*_MOVING, ItemKind.BACK, ItemKind.SECONDS),
+    "read_wait": (ItemKind.STRAIGHT, ItemKind.OUT, ItemKind.BACK, ItemKind.AROUND),
+    "read_stop": (ItemKind.STRAIGHT, ItemKind.BACK, ItemKind.AROUND, ItemKind.DEGREES),
+    "_face": (*_MOVING, ItemKind.DISTANCE, ItemKind.SECONDS, ItemKind.BACK),
+    "_around": (ItemKind.OUT, ItemKind.IN, ItemKind.TO_END, ItemKind.DEGREES),
+    "read_back": (ItemKind.IN, ItemKind.STRAIGHT),
+    "read_leave": (ItemKind.DISTANCE, ItemKind.TO_END, ItemKind.BACK, ItemKind.AROUND),
+    "read_in": (ItemKind.BACK, ItemKind.AROUND, ItemKind.SECONDS),
+}
+"""Kinds of items that a reader takes no notice of, although they say something."""
+
+
+def _check_all_is_read(frame: ClauseFrame, reader: str) -> None:
+    """Refuse a clause of which a part would be dropped without a word.
+
+    Raises:
+        NoMeaningError: some part would be.
+    """
+    unread = [item.kind for item in frame.items if item.kind in LEFT_UNREAD.get(reader, ())]
+    if unread and "away" not in frame.verbs:
+        raise NoMeaningError(f"{unread[0]} is not read")
+
+
+_FACED = ("named", "wall", "intersection", "corner", "t_junction", "end")
 
 
 def _search(frame: ClauseFrame) -> Readings | None:
@@ -89,6 +125,9 @@ def _search(frame: ClauseFrame) -> Readings | None:
 
 
 def _face(frame: ClauseFrame) -> Readings | None:
+    faced = [item for item in frame.refs if "faced" in item.roles]
+    if faced:
+        return _faced(frame, faced[0])
     if "wall" in frame.verbs:
         if len(frame.sides) != 1 or frame.refs:
             raise NoMeaningError("the wall on which side")
@@ -100,7 +139,7 @@ def _face(frame: ClauseFrame) -> Readings | None:
         and not frame.sides
         and len(frame.refs) == 1
         and bool(frame.roles(frame.refs[0]) & {"to", "toward"})
-        and (is_door(frame.refs[0].value) or frame.refs[0].value.kind in ("named", "wall"))
+        and (is_door(frame.refs[0].value) or frame.refs[0].value.kind in _FACED)
     )
     if "face" not in frame.verbs and not turns_to:
         return None
@@ -113,6 +152,19 @@ def _face(frame: ClauseFrame) -> Readings | None:
     if isinstance(what, DoorReference) and frame.sides:
         what = with_side(what, Side(frame.sides[0].value))
     return ((Face(what),),)
+
+
+def _faced(frame: ClauseFrame, item: Item) -> Readings:
+    """Of "So that the wall is on your left" and "so that the kitchen is ahead of you"."""
+    noun: Noun = item.value
+    if len(frame.refs) > 1 or frame.sides or frame.verbs - {"turn", "face", "stop", "go"}:
+        raise NoMeaningError("so that, and something else")
+    if noun.kind == "wall" and noun.side in (Side.LEFT, Side.RIGHT):
+        return ((Face(noun.side),),)
+    if noun.side in (Side.LEFT, Side.RIGHT):
+        raise ValueError("one turns to what is ahead, or to have the wall on a side")
+    what = landmark(replace(noun, side=None))
+    return ((Face(what),),) if noun.side is Side.AHEAD else ((Face(what), Turn(Turning.AROUND)),)
 
 
 def _turned_away(frame: ClauseFrame) -> Readings:

@@ -73,7 +73,8 @@ def read_go(frame: ClauseFrame) -> Readings | None:
     if not rest and not steps and frame.verbs & {"continue"} and not frame.verbs & {"take"}:
         steps = [Follow()]
     if frame.goes_in and rest:
-        steps, choices = _entered(steps, choices)
+        in_hall = rest[-1].value.kind in ("end", "hall")
+        steps, choices = _entered(steps, choices, in_hall)
         if rest[-1].value.kind == "named" and "through" in frame.roles(rest[-1]):
             steps.append(Follow(END))  # "durch das Lager hindurch"
     if contexts and not rest and "be" in frame.verbs and len(steps) == len(contexts):
@@ -152,7 +153,7 @@ def _left_out(noun: Noun, roles: frozenset[str], frame: ClauseFrame) -> Readings
     return (turn,), *doors[-1:]
 
 
-def _entered(steps: list[Step], choices: Readings) -> tuple[list[Step], Readings]:
+def _entered(steps: list[Step], choices: Readings, in_hall: bool) -> tuple[list[Step], Readings]:
     """The steps with the last door gone through instead of up to."""
     if choices != ((),):
         through = [
@@ -166,8 +167,9 @@ def _entered(steps: list[Step], choices: Readings) -> tuple[list[Step], Readings
         return [*steps[:-1], GoToDoor(last.until)], choices
     if isinstance(last, GoToDoor):
         return [*steps[:-1], replace(last, approach=Approach.THROUGH)], choices
-    if isinstance(last, GoToRoom):
-        return steps, choices
+    along = isinstance(last, Follow) and last.until in (None, END) and not last.past
+    if isinstance(last, GoToRoom) or (along and in_hall):
+        return steps, choices  # "den Gang durch"
     return [*steps, EnterMentionedDoor()], choices
 
 

@@ -42,14 +42,38 @@ class ItemWords(ABC):
             return behind
         while behind < len(words) and self._is_small(behind):
             behind += 1
-        broken = self._is_small(at) and behind < len(words) and words[behind] == ","
-        return behind if broken else None
+        broken = self._is_small(at) and behind + 1 < len(words) and words[behind] == ","
+        again = broken and not self.lexicon.find(words, behind + 1, "and")
+        return behind if again else None
 
     def _end_of_remark(self, at: int) -> int:
         """The sign behind a clause that says why: "so that we can see you"."""
         while at < len(self.words) and self.words[at] not in SIGNS:
             at += 1
         return at
+
+    def _choice_among(self, at: int) -> int | None:
+        """The word behind "of the doors on the left,", of which one is chosen then."""
+        begins = at == 0 or self.words[at - 1] in SIGNS
+        if begins and (end := self.lexicon.find(self.words, at, "from the end")):
+            self.nouns.memory.backwards = True
+            return end[1] + 1 if self.words[end[1] : end[1] + 1] in ([","], [":"]) else end[1]
+        doors = self.lexicon.find(self.words, at, "among doors")
+        side = self.nouns._side_at(Noun("door"), doors[1]) if doors else None
+        if side is None:
+            return None
+        self.nouns.memory.among = side[0]
+        return side[1] + 1 if self.words[side[1] : side[1] + 1] == [","] else side[1]
+
+    def _place_of_speaker(self, at: int) -> int | None:
+        """The word behind "you are in the kitchen.", which says only where one is."""
+        begins = at == 0 or self.words[at - 1] in SIGNS
+        told = self.lexicon.find(self.words, at, "you are") if begins else None
+        noun = self.nouns.read(told[1]) if told else None
+        if noun is None or noun[0].kind not in ("named", "room", "area", "hall"):
+            return None
+        ends = noun[1] < len(self.words) and self.words[noun[1]] in (".", ",", ";")
+        return noun[1] + 1 if ends and noun[1] + 1 < len(self.words) else None
 
     def _is_small(self, at: int) -> bool:
         return any(
@@ -129,6 +153,11 @@ class ItemWords(ABC):
     def _it(self, at: int) -> tuple[Noun, int] | None:
         it = self.lexicon.find(self.words, at, "it")
         return (Noun("it"), it[1]) if it else None
+
+    def _its_door(self, at: int) -> tuple[Noun, int] | None:
+        """Of "Up to its door": the door of the room that was named."""
+        found = self.lexicon.find(self.words, at, "its door")
+        return (Noun("it", at_end=True), found[1]) if found else None
 
     def _may_be_side(self, at: int) -> bool:
         """Whether "right" before a preposition may be a side: "turn right after the door"."""

@@ -69,7 +69,7 @@ class Noun:
         definite: not "a door".
         is_next: it is said to be the next one.
         elliptic: the noun itself is left out.
-        at_end: it is at the end of the hallway.
+        at_end: it is at the end of the hallway; of a named room: its door is meant.
         closed: it is said to be closed.
         doorway: its opening is meant: "doorway", "threshold".
     """

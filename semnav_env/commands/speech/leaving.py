@@ -68,7 +68,7 @@ def read_back(frame: ClauseFrame) -> Readings | None:
     if frame.has(ItemKind.TO_END):
         return ((Turn(Turning.AROUND), Follow(END)),)
     if amounts := distances_of(frame):
-        return ((Turn(Turning.AROUND), *amounts),)
+        return ((TurnBack(), *amounts),)
     if "return" in frame.verbs or _is_way_back(frame):
         return ((GoBack(),),)
     return (GoBack(),), (Turn(Turning.AROUND), Follow())
@@ -110,6 +110,8 @@ def read_leave(frame: ClauseFrame) -> Readings | None:
         or any("out" in frame.roles(r) and "into" not in frame.roles(r) for r in frame.refs)
     ):
         return None
+    if (left := _left_to_side(frame)) is not None:
+        return left
     if frame.verbs - {"leave", "let", "exit", "go", "out", "continue", "follow", "take"}:
         raise NoMeaningError("leave and something else")
     doors = [
@@ -171,6 +173,18 @@ def read_leave(frame: ClauseFrame) -> Readings | None:
         side = Side(frame.sides[0].value)
         return steps, (GoToDoor(DoorReference(1, side)),)
     return (steps,)
+
+
+def _left_to_side(frame: ClauseFrame) -> Readings | None:
+    """Of "Out of the room right": the room around has no side, so one turns to it."""
+    if len(frame.refs) != 1 or frame.sides or frame.verbs - {"leave", "exit", "go", "turn"}:
+        return None
+    noun = frame.refs[0].value
+    sided = noun.kind == "room" and noun.ordinal is None and noun.side in (Side.LEFT, Side.RIGHT)
+    plain = all(item.kind in (ItemKind.REF, ItemKind.VERB) for item in frame.items)
+    if not sided or not plain or "out" not in frame.roles(frame.refs[0]):
+        return None
+    return ((Leave(), Turn(Turning(noun.side.value))),)
 
 
 def _leads_on(frame: ClauseFrame, door: Item) -> bool:

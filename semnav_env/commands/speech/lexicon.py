@@ -193,7 +193,11 @@ def parts_of(word: str, lexicon: SpeechLexicon) -> tuple[str, ...]:
     A separable verb is a particle and a verb, with "zu" between them or not ("hineinzufahren"). Of
     a compound the last part says what it is ("Flurkreuzung").
     """
-    if word in lexicon.words or len(word) < MIN_COMPOUND or not word.isalpha():
+    if word in lexicon.words or not word.isalpha():
+        return (word,)
+    if word.endswith("ste") and lexicon.find((word[:-1],), 0, "verb"):
+        return word[:-1], "du"  # "kannste"
+    if len(word) < MIN_COMPOUND:
         return (word,)
     for first in sorted(lexicon.of_class("separable"), key=len, reverse=True):
         rest = word.removeprefix(first)

@@ -76,6 +76,8 @@ def moves(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     Raises:
         NoMeaningError: these do not go together.
     """
+    if roles and not roles - {"of", "from", "with"}:
+        raise NoMeaningError("of something else")  # "the door of the kitchen"
     if noun.kind == "it":
         return _it(roles, verbs)
     if noun.kind == "start" and (not roles or roles & {"to", "until", "toward", "at", "into"}):
@@ -120,6 +122,10 @@ def _hall(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
 
 def _room(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     room = RoomReference(plain_name(noun.name))
+    if noun.at_end and (noun.doorway or roles & {"in"}) and "to" not in roles:
+        raise NoMeaningError("in the doorway of a room")
+    if noun.at_end and roles & {"to", "toward"} and not roles & {"into", "through"}:
+        return (GoToRoom(room.name, Approach.TO),)
     if roles & {"past", "after"} or verbs & {"pass"}:
         return (Follow(room, past=True),)
     if roles & {"near", "opposite", "before", "from"} and not roles & {
@@ -129,7 +135,7 @@ def _room(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
         "into",
     }:
         raise NoMeaningError("beside a room")
-    if "until" in roles and "front" not in roles:
+    if "until" in roles and not roles & {"front", "into"}:
         return (Follow(room),)
     if "front" in roles and "into" not in roles:
         return (GoToRoom(room.name, Approach.TO),)

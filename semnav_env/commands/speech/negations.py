@@ -86,6 +86,8 @@ def without_negated(items: list[Item]) -> list[Item]:
 
 def _without(items: list[Item], at: int) -> list[Item]:
     """The items without the negated clause that begins at an item."""
+    if items[at + 1 : at + 2] and items[at + 1].kind is ItemKind.HERE and _goes_on(items, at + 2):
+        return [*items[: cut_before(items, at)], *items[_goes_on(items, at + 2) :]]
     stop = end_of_clause(items, at + 1)
     named = [i for i in range(at + 1, stop) if items[i].kind is ItemKind.REF]
     if len(named) > 1 and not any(items[i].kind is ItemKind.VERB for i in range(at + 1, stop)):
@@ -106,19 +108,29 @@ def _without(items: list[Item], at: int) -> list[Item]:
         if again and items[again[0]].value != "be":  # "don't turn around go straight"
             return [*items[:at], *items[again[0] :]]
     if not negated and (said := _said_before(items, at)) is not None and following < len(items):
-        return [*items[:said], *rest]  # "durch die Tür rechts nicht, durch die linke"
+        counted = [i for i in items[said:at] if i.kind is ItemKind.REF and i.value.counted]
+        passed = [replace(i, roles=("past",)) for i in counted]
+        joint = _other_clause([]) if passed else []
+        return [*items[:said], *passed, *joint, *rest]  # "rechts nicht, durch die linke"
     if not rest or not negated:
         if len(negated) == len(verbs) == 1 and verbs[0].value in ("go", "turn"):
             return [*before, replace(verbs[0], value="stop")]
         if before and len(negated) == 1 and not verbs and _is_contrast(before, negated[0]):
             return [*items[: cut_before(items, at)], *rest]
         return items
+    if len(negated) == 1 and before and _takes_back(before[-1], negated[0], items, stop):
+        return [*before, *items[stop:]]  # "left, not right, and then ..."
     if any(item.kind in (ItemKind.IF, ItemKind.OTHERWISE) for item in rest[:1]):
         return items
     place = next((i for i in negated if i.kind is ItemKind.REF and "at" in i.roles), None)
+    if place is not None and verbs and verbs[-1].value in _STOPPING:
+        return [*before, replace(place, roles=("past",)), *_other_clause(rest)]
     if place is not None and not is_door(place.value) and verbs:
         return _behind_place(before, place, rest, goes_on=verbs[-1].value in _GOING_ON)
     refs = [item for item in negated if item.kind is ItemKind.REF]
+    if len(verbs) == len(negated) == 1 and verbs[0].value in _STOPPING and _is_place(before):
+        return [*before[:-1], replace(before[-1], roles=("past",)), *_other_clause(rest)]
+    before = _without_name(before, refs)
     if refs and refs[-1].value.counted and not verbs:
         return [*before, replace(refs[-1], roles=("past",)), *items[stop:]]
     if refs and rest[0].kind is ItemKind.REF and rest[0].value.kind == "it":
@@ -134,7 +146,46 @@ def _without(items: list[Item], at: int) -> list[Item]:
     return [*before, *rest]
 
 
+def _goes_on(items: Sequence[Item], at: int) -> int:
+    """The item behind "but" at an item: "not here, but at the corner"; 0 if there is none."""
+    while at < len(items) and items[at].kind in SOFT:
+        at += 1
+    return at + 1 if at + 1 < len(items) and items[at].kind is ItemKind.BUT else 0
+
+
+def _takes_back(said: Item, negated: Item, items: Sequence[Item], stop: int) -> bool:
+    """Whether a side that is not meant stands behind the one that is, before another clause."""
+    sides = said.kind is negated.kind is ItemKind.SIDE and said.value != negated.value
+    goes_on = stop < len(items) and items[stop].kind in (ItemKind.AND, ItemKind.THEN)
+    return sides and goes_on
+
+
+def _without_name(before: list[Item], refs: Sequence[Item]) -> list[Item]:
+    """Of "The kitchen. Not the kitchen, the library": without the room that is not meant."""
+    names = [item.value.name for item in refs if item.value.kind == "named"]
+    last = next((i for i in reversed(range(len(before))) if before[i].kind not in SOFT), None)
+    said = None if last is None else before[last]
+    if said is None or said.kind is not ItemKind.REF or said.value.name not in names:
+        return before
+    start = last or 0
+    while start and before[start - 1].kind is ItemKind.VERB:
+        start -= 1
+    return before[:start]
+
+
 _GOING_ON = ("continue", "go")
+_STOPPING = ("stop", "wait", "stop keep")
+
+
+def _is_place(before: Sequence[Item]) -> bool:
+    """Whether what stands before a negation ends with a place: "am Labor nicht anhalten"."""
+    return bool(before) and before[-1].kind is ItemKind.REF and "at" in before[-1].roles
+
+
+def _other_clause(rest: list[Item]) -> list[Item]:
+    """What is done behind a place at which one does not stop, as a clause of its own."""
+    at = rest[0].start if rest else 0
+    return [Item(ItemKind.THEN, at, at), *rest]
 
 
 def _behind_place(
@@ -186,7 +237,9 @@ def _named_again(item: Item, noun: Noun) -> Item:
     if item.kind is ItemKind.BEFORE_IT:
         return Item(ItemKind.REF, item.start, item.stop, noun, ("before",))
     is_it = item.kind is ItemKind.REF and item.value.kind == "it"
-    return replace(item, value=noun) if is_it else item
+    if not is_it:
+        return item
+    return replace(item, value=replace(noun, at_end=noun.at_end or item.value.at_end))
 
 
 def cut_before(items: Sequence[Item], at: int) -> int:

@@ -21,17 +21,32 @@ class NounMemory:
         went_on: some noun could be counted on.
         passed: counted doors on both sides before one on a side, which may count those there alone:
             "pass two doors, then the third on the left"; with that side.
+        told: how many were told one by one: "one door, another door".
+        backwards: the next door is counted from the end.
+        among: side of the doors of which one is chosen: "of the doors on the left, the third".
     """
 
     last: Noun | None = None
     counts_on: bool = False
     went_on: bool = False
     passed: dict[Noun, Side] = field(default_factory=dict)
+    among: Side | None = None
+    told: int = 0
+    backwards: bool = False
 
     def remember(self, noun: object) -> None:
         """Note what a later noun can stand for."""
         if isinstance(noun, Noun) and noun.kind in COUNTABLE:
+            again = self.last is not None and noun.kind == self.last.kind and not noun.definite
+            single = noun.ordinal in (None, 1) and (not noun.definite or noun.counted)
+            self.told = self.told + 1 if again and single else int(single)
             self.last = noun
+
+    def names_door(self) -> bool:
+        """Whether a certain door was named last, which "the door" can stand for."""
+        last = self.last
+        certain = last is not None and (last.ordinal is not None or last.side is not None)
+        return certain and last is not None and last.kind in ("door", "room")
 
     def chosen(self, adjective: str) -> int | None:
         """The ordinal of "the middle one" or "the last one" of several that were named."""
@@ -41,7 +56,10 @@ class NounMemory:
 
     def resolved(self, noun: Noun) -> Noun:
         """The noun with the kind and the ordinal that it stands for."""
-        noun = self._counted_on(noun)
+        if self.backwards and noun.ordinal is not None and noun.ordinal > 0:
+            self.backwards = False
+            return replace(noun, ordinal=-noun.ordinal)
+        noun = self._counted_on(self._chosen_among(noun))
         if self._goes_on(noun):
             self.went_on = True
             noun = replace(noun, ordinal=1) if self.counts_on else noun
@@ -56,9 +74,19 @@ class NounMemory:
                 noun = replace(noun, side=self.last.side)
         return noun
 
+    def _chosen_among(self, noun: Noun) -> Noun:
+        """Of "Of the doors on the left, the third": on the left."""
+        if self.among is None or noun.kind not in ("door", "room", "one") or noun.side is not None:
+            return noun
+        kind = "door" if noun.kind == "one" else noun.kind
+        return replace(noun, kind=kind, side=self.among, elliptic=False)
+
     def _counted_on(self, noun: Noun) -> Noun:
         """Of "The fourth door" after "past three doors" is the next one."""
         last = self.last
+        one_by_one = last is not None and self.told > 1 and noun.kind in ("one", last.kind)
+        if one_by_one and noun.ordinal == self.told + 1 and not noun.counted:
+            return replace(noun, ordinal=1)
         if last is None or not last.counted or last.ordinal is None or noun.counted:
             return noun
         same = (noun.kind in ("one", last.kind) and last.side in (None, noun.side)) or noun.elliptic

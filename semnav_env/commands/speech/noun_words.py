@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from semnav_env.commands.references import Side
+from semnav_env.commands.speech.items import Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
 from semnav_env.commands.speech.numerals import read_number
 
@@ -127,3 +129,37 @@ class NounWords:
         relative = self.find(at, "relative")
         state = self.find(relative[1], "is open") if relative else None
         return state[1] if state else None
+
+    def _numeral(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
+        if noun.ordinal is None and (found := self.find(at, "numeral word")):
+            number = read_number(self.words, found[1], self.lexicon)
+            if number:
+                return replace(noun, ordinal=int(number[0])), number[1]
+        return None
+
+    def _of_hall(self, at: int) -> int | None:
+        """The word behind "of the hallway"."""
+        here = self._preposition(at, "of")
+        if here is None:
+            return None
+        while here < len(self.words) and (
+            found := self.find(here, "det") or self.find(here, "adj")
+        ):
+            here = found[1]
+        noun = self.find(here, "noun")
+        return (
+            noun[1]
+            if noun and noun[0] in ("hall", "room") and not self._numbered(noun[1])
+            else None
+        )
+
+    def _of_room(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
+        """The room of a door: "of the kitchen", "vom Archiv"; its doorway is told apart."""
+        start = self._preposition(at, "of")
+        plain = noun.ordinal is None and noun.side is None and not noun.at_end
+        while start is not None and (found := self.find(start, "det")):
+            start = found[1]
+        named = self._name(start) if start is not None and plain else None
+        if named is None:
+            return None
+        return Noun("named", name=named[0], at_end=True, doorway=noun.doorway), named[1]

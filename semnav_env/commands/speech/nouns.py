@@ -20,6 +20,10 @@ CHOOSING = ("open", "closed", "nearest", "any", "other", "next", "after next", "
 """Adjectives that say which one is meant."""
 
 
+LONGEST_NOUN = 24
+"""The most words of a noun with all that stands before it."""
+
+
 @dataclass
 class NounReader(NounWords):
     """Reads nouns of a text, and remembers what was named last.
@@ -45,11 +49,13 @@ class NounReader(NounWords):
         """
         noun, here = Noun(""), at
         said_which = is_article = False
-        while here < len(self.words):
+        while here < min(len(self.words), at + LONGEST_NOUN):
             rank, name = self.find(here, "ordinal"), self._name(here)
             plain = rank is None or (name is not None and name[1] > rank[1])
             if here > at and self.find(here, "clause start"):
                 break
+            if said_which and self.find(here, "of several"):
+                break  # "die rechte der beiden Türen"
             if plain and (head := self._head(here, noun)):
                 if not determined and self._is_no_noun(here, noun.ordinal is not None):
                     return None  # "turn left" is no turning on the left
@@ -138,6 +144,10 @@ class NounReader(NounWords):
             if kind == "doorway":
                 return replace(noun, kind="door", doorway=True), stop
             return replace(noun, kind=kind), stop
+        another = self.find(at, "another") if noun == Noun("") and self.memory.last else None
+        if another and self.memory.last and not self.find(another[1], "noun"):
+            found = another
+            return Noun(self.memory.last.kind, 1, self.memory.last.side, definite=False), found[1]
         if (found := self.find(at, "one")) and found[1] <= len(self.words):
             plain = noun.ordinal is None and noun.side is None and not self._is_after_article(at)
             german = self.lexicon.language.code == "de"
@@ -170,8 +180,15 @@ class NounReader(NounWords):
                 noun, at = replace(noun, kind="entry"), came[1]
             elif noun.counted and noun.kind == "door" and (on := self.find(at, "further")):
                 noun, at = replace(noun, counted=False), on[1]
+            elif noun.kind == "door" and (room := self._of_room(noun, at)):
+                noun, at = room
             elif noun.doorway and (door := self._of_door(at)):
                 noun, at = replace(door[0], doorway=True, kind="door"), door[1]
+            elif (noun.side or noun.ordinal) and (several := self.find(at, "of several")):
+                kind = "door" if noun.kind == "one" else noun.kind
+                noun, at = replace(noun, kind=kind, elliptic=False), several[1]
+            elif noun.side is None and (spot := self._spot_before_side(noun, at)):
+                at = spot
             elif hall := self._of_hall(at):
                 at = hall
             else:
@@ -184,12 +201,11 @@ class NounReader(NounWords):
         noun = self.read(start) if start < len(self.words) else None
         return noun if noun is not None and noun[0].kind in ("door", "room") else None
 
-    def _numeral(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
-        if noun.ordinal is None and (found := self.find(at, "numeral word")):
-            number = read_number(self.words, found[1], self.lexicon)
-            if number:
-                return replace(noun, ordinal=int(number[0])), number[1]
-        return None
+    def _spot_before_side(self, noun: Noun, at: int) -> int | None:
+        """The word behind "down there" before a side: "the door down there on the right"."""
+        spot = self.find(at, "here") if noun.kind in DOORLIKE else None
+        sided = spot is not None and self._side_at(noun, spot[1]) is not None
+        return spot[1] if sided and spot is not None else None
 
     def _side_behind(self, noun: Noun, at: int) -> tuple[Side, int] | None:
         """A side behind a noun: "on your left", "left", "in front of you"."""
@@ -230,22 +246,6 @@ class NounReader(NounWords):
     def _is_noun(self, at: int) -> bool:
         noun = self.read(at) if at < len(self.words) else None
         return noun is not None and noun[0].kind not in ("it", "one", "hall")
-
-    def _of_hall(self, at: int) -> int | None:
-        """The word behind "of the hallway"."""
-        here = self._preposition(at, "of")
-        if here is None:
-            return None
-        while here < len(self.words) and (
-            found := self.find(here, "det") or self.find(here, "adj")
-        ):
-            here = found[1]
-        noun = self.find(here, "noun")
-        return (
-            noun[1]
-            if noun and noun[0] in ("hall", "room") and not self._numbered(noun[1])
-            else None
-        )
 
     def _without_head(self, noun: Noun, at: int) -> tuple[Noun, int] | None:
         """A noun that is left out: "the second on the left", "die rechte"."""

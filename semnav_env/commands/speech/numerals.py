@@ -18,7 +18,23 @@ def read_number(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> tuple[
     if _DIGITS.fullmatch(words[at]) or _THOUSANDS.fullmatch(words[at]):
         return _in_digits(words[at], lexicon.language.decimal), at + 1
     found = lexicon.find(words, at, "number")
-    return (float(found[0]), found[1]) if found else None
+    return _with_decimals(words, float(found[0]), found[1], lexicon) if found else None
+
+
+def _with_decimals(
+    words: Sequence[str], value: float, at: int, lexicon: SpeechLexicon
+) -> tuple[float, int]:
+    """A number with what follows it: "one point five", "a hundred and twenty"."""
+    if point := lexicon.find(words, at, "decimal point"):
+        digit = lexicon.find(words, point[1], "number")
+        if digit and float(digit[0]) < 10:
+            return value + float(digit[0]) / 10, digit[1]
+    if value == 100:
+        conjunction = lexicon.find(words, at, "and")
+        more = lexicon.find(words, conjunction[1] if conjunction else at, "number")
+        if more and 1 < float(more[0]) < 100:
+            return value + float(more[0]), more[1]
+    return value, at
 
 
 def _in_digits(text: str, decimal: str) -> float:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from semnav_env.commands.references import Side
 from semnav_env.commands.speech.conditions import read_condition
+from semnav_env.commands.speech.facing import read_facing
 from semnav_env.commands.speech.item_words import SIGNS, ItemWords
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.commands.speech.lexicon import SpeechLexicon
@@ -84,6 +85,9 @@ class ItemReader(ItemWords):
             if self.lexicon.find(self.words, at, "purpose"):
                 at = self._end_of_remark(at)
                 continue
+            if (told := self._choice_among(at) or self._place_of_speaker(at)) is not None:
+                at = told
+                continue
             item = self._item(at, found)
             if item is None:
                 stop = self._filler(at) or self._skipped(at) or self._no_correction(at)
@@ -125,6 +129,8 @@ class ItemReader(ItemWords):
         condition = read_condition(self.words, at, self.lexicon, self.nouns)
         if condition is not None:
             yield condition
+        if (faced := read_facing(self.words, at, self.lexicon, self.nouns)) is not None:
+            yield faced
         yield from self._nouns(at, before)
         last = before[-1] if before else None
         after_door = last is not None and last.kind is ItemKind.REF and last.value.kind == "door"
@@ -210,7 +216,7 @@ class ItemReader(ItemWords):
             if "when" in roles or "until" in roles:
                 inner, more = self._inner_preposition(stop, roles)
             has_article = self.words[inner - 1] in WITH_ARTICLE
-            noun = self.nouns.read(inner, has_article) or self._it(inner)
+            noun = self._its_door(inner) or self.nouns.read(inner, has_article) or self._it(inner)
             if noun is None:
                 continue
             behind = self._behind_clause(noun[1], roles)
@@ -261,7 +267,8 @@ class ItemReader(ItemWords):
                 sided = named is not None and side[1] > named[1]  # "the left side"
                 again = not self.lexicon.find(self.words[half : half + 1], 0, "side")
                 on = self.words[at] in ("on", "auf") or sided or again  # "also on the left"
-                roles = ("on",) if on else ()
+                article = self.nouns.find(at, "a") is not None and half == at + 1
+                roles = ("on",) if on else ("a",) if article else ()
                 yield Item(ItemKind.SIDE, at, side[1], side[0], roles)
         where = self.lexicon.find(self.words, at, "where")
         if where:

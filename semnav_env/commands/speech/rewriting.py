@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from semnav_env.commands.speech.ellipsis import in_full
 from semnav_env.commands.speech.items import JOINTS, Item, ItemKind, Noun
@@ -22,7 +23,7 @@ from semnav_env.commands.speech.statements import merged_names, without_labels
 
 def rewritten(items: Sequence[Item]) -> list[Item]:
     """The items without those that others replace."""
-    found = _repaired(_without_first_no(in_full(in_order(items))))
+    found = _repaired(_without_first_no(_without_bare_go(in_full(in_order(items)))))
     found = _corrected(merged_names(without_labels(found)))
     found = without_negated(_without_breaks(found))
     return _with_antecedents(_without_too_far(found))
@@ -39,6 +40,17 @@ def _without_too_far(items: list[Item]) -> list[Item]:
                     break
             return _without_too_far([*items[:start], *items[at + 1 :]])
     return items
+
+
+def _without_bare_go(items: list[Item]) -> list[Item]:
+    """Of "Kitchen. Go.": a sentence that only says to go says nothing more."""
+    ends = [-1, *(i for i, item in enumerate(items) if item.kind is ItemKind.SIGN), len(items)]
+    bare = [
+        start + 1
+        for start, stop in pairwise(ends)
+        if stop == start + 2 and items[start + 1].value == "go" and len(items) > 3
+    ]
+    return [item for i, item in enumerate(items) if i not in bare]
 
 
 def _without_first_no(items: list[Item]) -> list[Item]:
@@ -79,10 +91,9 @@ def _without_breaks(items: list[Item]) -> list[Item]:
             and found
             and found[-1].kind not in SOFT
         ):
-            joined = "until" in behind.roles and found[-1].kind in (
-                ItemKind.VERB,
-                ItemKind.STRAIGHT,
-            )
+            goes = found[-1].kind in (ItemKind.VERB, ItemKind.STRAIGHT)
+            negated = len(found) > 1 and found[-2].kind is ItemKind.NOT
+            joined = "until" in behind.roles and goes and not negated
             if joined or (behind.value.kind == "start" and not behind.roles):
                 continue
         broken = (
@@ -185,20 +196,57 @@ def _with_antecedents(items: list[Item]) -> list[Item]:
     last: Noun | None = None
     verb = ""
     found: list[Item] = []
-    for item in items:
+    for at, item in enumerate(items):
         verb = item.value if item.kind is ItemKind.VERB else verb
         if item.kind is ItemKind.REF and item.value.relative:
             item, found = _behind_landmark(item, found)
         if _is_needless(item, found):
+            if last is not None and last.kind == "named" and not _was_passed(found, last):
+                found.append(replace(item, value=last))  # "to the library, the door after it"
             continue
         if item.kind is ItemKind.REF:
             noun = item.value
             if last is not None and (_is_it(item) or _is_door_again(item, last, verb)):
-                item = replace(item, value=last)
+                if found and _is_passed(found, last) and set(item.roles) & {"past"}:
+                    continue  # "past the corner, go round it"
+                at_door = noun.kind == "it" and noun.at_end
+                item = replace(item, value=replace(last, at_end=last.at_end or at_door))
+            elif last is not None and last.kind == "named" and _says_behind(items, at):
+                pass
             elif is_door(noun) or noun.kind == "named" or noun.kind in ("intersection", "corner"):
                 last = noun
         found.append(item)
     return found
+
+
+def _was_passed(found: Sequence[Item], noun: Noun) -> bool:
+    """Whether some item says to pass a room, which need not be said again."""
+    return any(
+        item.kind is ItemKind.REF
+        and item.value.name == noun.name
+        and bool(set(item.roles) & {"past", "after"} or _goes_by(found))
+        for item in found
+    )
+
+
+def _goes_by(found: Sequence[Item]) -> bool:
+    return any(item.kind is ItemKind.VERB and item.value == "pass" for item in found)
+
+
+def _says_behind(items: Sequence[Item], at: int) -> bool:
+    """Whether "after it" follows a door: what was named before is meant."""
+    item = items[at]
+    if at + 1 >= len(items) or not is_door(item.value):
+        return False
+    behind = items[at + 1]
+    named = behind.kind is ItemKind.REF and behind.value.kind == "it"
+    return named and "after" in behind.roles and item.value.ordinal in (None, 1)
+
+
+def _is_passed(found: Sequence[Item], noun: Noun) -> bool:
+    """Whether the last noun of the items is one, and is passed."""
+    said = [item for item in found if item.kind is ItemKind.REF]
+    return bool(said) and said[-1].value == noun and "past" in said[-1].roles
 
 
 def _is_it(item: Item) -> bool:
@@ -222,6 +270,10 @@ def _behind_landmark(item: Item, before: list[Item]) -> tuple[Item, list[Item]]:
     if not places or is_door(before[places[-1]].value):
         return item, before
     at = places[-1]
+    same = item.value.kind == before[at].value.kind
+    if same and any(each.kind is ItemKind.SIDE for each in before[at + 1 :]):
+        noun = replace(item.value, ordinal=1, relative=False)
+        return replace(item, value=noun), before  # "next crossing left, the one after that right"
     passed = replace(before[at], roles=("past",))
     seen = [
         each

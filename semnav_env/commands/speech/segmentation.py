@@ -37,6 +37,25 @@ WAYS = 3
 """Ways to part the beginning of a text that are kept for each place in it."""
 
 
+MAX_SKIPPED = 3.0
+"""The highest cost of what is left out of a text; with more it is rather no command."""
+
+SKIPPED = {
+    **{ItemKind.UNKNOWN: 1.0, ItemKind.PARTICLE: 0.6, ItemKind.HERE: 0.3, ItemKind.BUT: 0.3},
+    **{ItemKind.BEFORE_IT: 1.5, ItemKind.IN: 1.0, ItemKind.STRAIGHT: 0.8, ItemKind.FROM_THERE: 1.0},
+}
+"""Costs of leaving out items that say little, by their kind."""
+
+
+def cost_of_skipping(item: Item) -> float | None:
+    """The cost of leaving out an item; None if it says too much to be left out."""
+    if item.kind is ItemKind.VERB:
+        return 0.8 if item.value in ("go", "reach", "find", "continue") else None
+    if item.kind is ItemKind.REF:
+        return 1.0 if item.value.kind in ("it", "hall") else None
+    return SKIPPED.get(item.kind)
+
+
 @dataclass(frozen=True)
 class Parting:
     """A way to part the beginning of a text into clauses.
@@ -53,14 +72,19 @@ class Parting:
 class ClauseSegmentation:
     """Parts items into clauses.
 
+    Args:
+        items: of a text.
+        loose: items that say little may be left out; what is left is to be asked about.
+
     Attributes:
         items: of a text.
         problem: why no robot can do what a clause says, if that is why it has no reading.
         reached: the item up to which the text could be parted.
     """
 
-    def __init__(self, items: Sequence[Item]) -> None:
+    def __init__(self, items: Sequence[Item], loose: bool = False) -> None:
         self.items = tuple(items)
+        self._loose = loose
         self.problem: tuple[str, int, int] | None = None
         self.reached = 0
         self._ways: list[list[Parting]] = []
@@ -74,6 +98,8 @@ class ClauseSegmentation:
             if not ways[start]:
                 continue
             self.reached = max(self.reached, start)
+            if self._loose:
+                self._skip(ways, start)
             begin = self._behind_joints(start)
             if begin == len(self.items):
                 self._add(ways[begin], ways[start], None)
@@ -85,6 +111,14 @@ class ClauseSegmentation:
                     self.reached = max(self.reached, stop)
                     self._add(ways[stop], ways[start], self._priced(found, start, begin, stop))
         return ways[-1]
+
+    def _skip(self, ways: list[list[Parting]], start: int) -> None:
+        """Leave out an item that says little, at a cost."""
+        cost = cost_of_skipping(self.items[start])
+        if cost is not None:
+            for way in ways[start]:
+                if way.cost + cost <= MAX_SKIPPED + CLAUSE_COST * len(way.clauses):
+                    self._add(ways[start + 1], [way], Parting(cost, ()))
 
     def beginnings(self) -> Iterator[Parting]:
         """The best parting of each beginning of the items, the longest first."""

@@ -52,13 +52,16 @@ def read_wait(frame: ClauseFrame) -> Readings | None:
     if frame.verbs - {"stop", "wait", "go", "continue", "make"} or frame.sides:
         raise NoMeaningError("a time and something else")
     rest = replace_items(frame, ItemKind.SECONDS)
+    if any(item.value.kind == "it" and "before" in frame.roles(item) for item in rest.refs):
+        raise NoMeaningError("wait in front of it")
+    before = (StopBeforeMentioned(),) if frame.has(ItemKind.BEFORE_IT) else ()
     if frame.has(ItemKind.IN) and rest.refs:
         raise NoMeaningError("enter, and a time")
     there = _stop_at(rest) if rest.refs else ()
     count = -int(-seconds // MAX_SECONDS)
     share, more = divmod(int(seconds), count)
     waits = tuple(Stop(share + (index < more)) for index in range(count))
-    return ((*there, *waits),)
+    return ((*before, *there, *waits),)
 
 
 def read_stop(frame: ClauseFrame) -> Readings | None:
@@ -126,6 +129,9 @@ def _stop_at(frame: ClauseFrame) -> Steps:
         if noun.kind == "it" or noun.kind == "hall":
             continue
         if noun.kind == "named":
+            inside = noun.at_end and (noun.doorway or bool(roles & {"in", "into"}))
+            if inside or ("near" in roles and any(is_door(r.value) for r in rest)):
+                raise NoMeaningError("in the doorway of a room, or beside it")
             steps.append(GoToRoom(plain_name(noun.name), Approach.TO))
         elif is_door(noun):
             steps += _stop_at_door(noun, roles)

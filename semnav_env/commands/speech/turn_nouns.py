@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from semnav_env.commands.clause_readings import (
     Readings,
+    TurnIntoHall,
     at_reference,
 )
 from semnav_env.commands.clauses import (
@@ -80,7 +81,14 @@ def read_turn_into(frame: ClauseFrame) -> Readings | None:
     if is_first and kind is Place.TURNING and isinstance(place, PlaceReference):
         return tuple((*contexts, Turn(way, place)) for way in ways)
     follows = (Follow(),) if "follow" in frame.verbs else ()
-    return tuple((*first, Turn(way) if plain else Turn(way, at), *follows, *later) for way in ways)
+    into_hall = noun.kind == "hall" and noun.ordinal is None and not plain and not first
+    return tuple(
+        (*first, _turn(way, None if plain else at, into_hall), *follows, *later) for way in ways
+    )
+
+
+def _turn(way: Turning, at: PlaceReference | None, into_hall: bool) -> Turn | TurnIntoHall:
+    return TurnIntoHall(way) if into_hall else Turn(way, at)
 
 
 def _is_turn_noun(item: Item, frame: ClauseFrame) -> bool:

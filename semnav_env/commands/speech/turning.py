@@ -31,6 +31,7 @@ from semnav_env.commands.speech.frame import (
     contexts_of,
     distances_of,
     moves_or_mention,
+    without_articles,
 )
 from semnav_env.commands.speech.items import Item, ItemKind, Noun
 from semnav_env.commands.speech.moves import (
@@ -88,6 +89,11 @@ def read_turn(frame: ClauseFrame) -> Readings | None:
     way = next(iter(frame.sides))
     contexts, rest = contexts_of(frame)
     doors = [item for item in rest if is_door(item.value) and _takes_side(item, frame)]
+    taken = any("a" in item.roles for item in frame.of(ItemKind.SIDE))  # "it's a right"
+    if taken:
+        frame = without_articles(frame)
+    if taken and frame.verbs == {"be"} and not rest:
+        return ((*contexts, Turn(way)),)
     if frame.verbs == {"be"} and not rest and not any(is_door(i.value) for i in frame.refs):
         door = DoorReference(1, Side(way.value))
         return (*contexts, GoToDoor(door)), (*contexts, GoToDoor(door, Approach.TO))
@@ -95,10 +101,17 @@ def read_turn(frame: ClauseFrame) -> Readings | None:
         return _door_on_side(frame, contexts, rest, way)
     if "be" in frame.verbs and len(rest) == 1 and rest[0].value.kind == "named":
         return ((*contexts, *moves(rest[0].value, frame.roles(rest[0]), frame.verbs)),)
-    if frame.goes_in:
+    into_hall = bool(rest) and all(_is_no_door(item) for item in rest)
+    if frame.goes_in and not into_hall:
         others = tuple(step for item in rest for step in before_turn(item, frame))
         return ((*contexts, *others, GoToDoor(DoorReference(1, Side(way.value)))),)
     return _turn_among(frame, contexts, rest, way)
+
+
+def _is_no_door(item: Item) -> bool:
+    """Whether one turns there and enters nothing: "rechts in den Gang hinein"."""
+    at_place = item.value.kind in ("intersection", "t_junction") and "at" in item.roles
+    return item.value.kind in ("hall", "turning") or at_place
 
 
 def read_sideless_turn(frame: ClauseFrame) -> Readings:
@@ -180,7 +193,7 @@ def _turn_among(frame: ClauseFrame, contexts: Steps, rest: list[Item], way: Turn
         if item not in rest:
             continue
         noun, roles = item.value, frame.roles(item)
-        if "before" in roles and not roles & {"at", "to", "past"}:
+        if "before" in roles and not roles & {"at", "to", "past"} and noun.kind != "named":
             raise NoMeaningError("turn before a place")
         if noun.kind in ("it", "start", "way back"):
             continue
@@ -188,10 +201,12 @@ def _turn_among(frame: ClauseFrame, contexts: Steps, rest: list[Item], way: Turn
             turn, more = _turn_hall(noun, roles, turn)
             steps += more
         elif noun.kind == "named":
-            if roles & {"at", "near"} and not roles & {"into"}:
+            if roles & {"at", "near", "before"} and not roles & {"into"}:
                 before.append(Follow(landmark(noun)))
             else:
                 steps += moves(noun, roles, frame.verbs - {"turn"})
+        elif is_door(noun) and not roles and noun.side not in (None, Side(way.value)):
+            raise NoMeaningError("two sides")  # "right, third door left"
         elif is_door(noun) and (roles & {"at", "near"} or not roles):
             door = landmark(noun)
             assert isinstance(door, DoorReference)

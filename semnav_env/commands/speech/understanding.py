@@ -69,7 +69,12 @@ def understand(
             texts.append(_passed_on_side(first, reader.nouns.memory.passed))
         if leave_out:
             texts = [without_unread(items or [], words, lexicon) for items in texts]
-        found += [_understand(words, items, lexicon) for items in texts if items is not None]
+        read = (
+            _understand(words, items, lexicon, loose=leave_out)
+            for items in texts
+            if items is not None
+        )
+        found += [replace(each, cost=each.cost + (0.0 if exact else SIDE_COST)) for each in read]
     if not found:
         return Understanding((), 0.0, ())
     right = [each for each in found if each.commands]
@@ -80,6 +85,12 @@ def understand(
     commands = dict.fromkeys(command for each in [best, *near] for command in each.commands)
     return Understanding(tuple(commands), best.cost, best.items)
 
+
+QUESTION = "a question is not a command"
+"""Why a text that ends with a question mark is refused."""
+
+SIDE_COST = 0.05
+"""Cost of taking "right" before a preposition for a side: "right in the doorway"."""
 
 _BACK = (ItemKind.NO, ItemKind.NOT)
 """Items that take something back, so that nothing is counted on."""
@@ -107,7 +118,7 @@ def _passed_on_side(items: Sequence[Item], passed: Mapping[Noun, Side]) -> list[
 
 
 def _understand(
-    words: Sequence[str], found: Sequence[Item], lexicon: SpeechLexicon
+    words: Sequence[str], found: Sequence[Item], lexicon: SpeechLexicon, loose: bool = False
 ) -> Understanding:
     asks = bool(found) and found[-1].value == "?"
     if asks and not any(item.kind is ItemKind.COULD_YOU for item in found):
@@ -116,14 +127,14 @@ def _understand(
             0.0,
             tuple(found),
             0,
-            ("a question is not a command", found[-1].start, found[-1].stop),
+            (QUESTION, found[-1].start, found[-1].stop),
         )
     items = rewritten(found)
     if told := problem_of_distance(items, words, lexicon):
         return Understanding((), 0.0, tuple(items), 0, told)
     while items and items[-1].kind in (ItemKind.NO, ItemKind.SIGN):
         items.pop()
-    segmentation = ClauseSegmentation(items)
+    segmentation = ClauseSegmentation(items, loose)
     partings = segmentation.best()
     commands: dict[Command, None] = {}
     problem = segmentation.problem or _too_long(segmentation)

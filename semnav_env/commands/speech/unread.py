@@ -45,7 +45,7 @@ def without_unread(
         if instead is None or left_out > MAX_UNREAD:
             return None
         found = instead
-    return found if left_out else None
+    return found
 
 
 def _first_unread(items: Sequence[Item]) -> int | None:
@@ -62,12 +62,57 @@ def _instead(
         return told
     if (aside := _aside(items, at, stop, words, lexicon)) is not None:
         return aside
+    if (told := _without_remark(items, at, words, lexicon)) is not None:
+        return told
     unread = words[items[at].start : items[stop - 1].stop]
+    if _is_vocative(items, at, stop, unread, lexicon):
+        return [*items[:at], *items[stop:]]
     if len(unread) != 1 or not unread[0].isalpha() or unread[0] in lexicon.of_class("beyond"):
         return None
     if any(lexicon.find(words, items[at].start, kind) for kind in (*_NAMING, "if", "not", "or")):
         return None
     return _without_one(items, at, words, lexicon)
+
+
+def _is_vocative(
+    items: Sequence[Item], at: int, stop: int, unread: Sequence[str], lexicon: SpeechLexicon
+) -> bool:
+    """Whether a few unknown words stand by themselves: "..., both sides included"."""
+    begins = at == 0 or items[at - 1].kind in _PARTS
+    ends = stop == len(items) or items[stop].kind in _PARTS
+    small = [word for word in unread if any(lexicon.find((word,), 0, kind) for kind in _NAMING)]
+    known = set(unread) & lexicon.of_class("beyond")
+    return begins and ends and 1 < len(unread) <= MAX_ASIDE and not small and not known
+
+
+MAX_ASIDE = 4
+"""The most unknown words that stand by themselves and are left out."""
+
+
+def _without_remark(
+    items: list[Item], at: int, words: Sequence[str], lexicon: SpeechLexicon
+) -> list[Item] | None:
+    """Without a clause that only tells something: "the patient is waiting, ..."."""
+    start, stop = at, at
+    while start and items[start - 1].kind not in _PARTS:
+        start -= 1
+    while stop < len(items) and items[stop].kind not in _PARTS:
+        stop += 1
+    clause, last = items[start:stop], items[stop - 1].stop
+    first = items[start - 1].stop if start else 0
+    said = words[first:last]
+    if any(item.kind in _SAYING and not _is_small_noun(item) for item in clause):
+        return None
+    if lexicon.of_class("beyond").intersection(said) - lexicon.words:
+        return None
+    begins = any(lexicon.find(said, 0, kind) for kind in ("verb", "prep"))
+    told = any(lexicon.find(said[i : i + 1], 0, "finite") for i in range(1, len(said)))
+    rest = [*items[:start], *items[stop:]]
+    return rest if told and not begins and any(i.kind in _SAYING for i in rest) else None
+
+
+def _is_small_noun(item: Item) -> bool:
+    return item.kind is ItemKind.REF and item.value.kind in ("it", "one", "hall", "area")
 
 
 def _without_one(

@@ -1,0 +1,99 @@
+"""What a text must say before a translation of it is asked about."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from semnav_env.commands.clauses import Follow, GoBack, Leave, Stop
+from semnav_env.commands.command import Command
+from semnav_env.commands.references import DoorReference, PlaceReference
+from semnav_env.commands.speech.lexicon import SpeechLexicon, parts_of
+from semnav_env.commands.speech.recognition import lexicon_for, recognised
+
+_COUNTED = ("one", "ordinal", "another")
+NEEDED = {
+    "door": ("noun door", "noun room", "noun doorway", "number", "it", "after that", *_COUNTED),
+    "intersection": ("noun intersection", "noun turning", *_COUNTED),
+    "corner": ("noun corner", "one"),
+    "t_junction": ("noun t_junction", "noun intersection"),
+    "end": ("noun end", "noun wall", "noun hall", "to end", "end until", "at end", "verb cross"),
+    "turning": ("noun turning", "noun hall", "noun intersection", "verb turn", *_COUNTED),
+    "back": ("back", "verb return", "verb back", "noun start", "noun way back", "start where"),
+    "leave": ("verb leave", "verb exit", "noun room", "noun door", "noun area", "out", "prep out"),
+}
+"""For what a command names, the classes of phrases of which a text must have one."""
+
+UNCOVERING = ("beyond", "greeting", "aside")
+"""Classes of phrases that do not explain a word for something that no robot can do or see."""
+
+MIN_THING = 5
+"""The fewest letters of a thing at the end of a compound, such as "salto"."""
+
+
+@dataclass(frozen=True)
+class TextSupport:
+    """What the words of a text say.
+
+    Attributes:
+        words: of the text without values and rooms.
+        lexicon: of its language, with words of others where it has some.
+    """
+
+    words: tuple[str, ...]
+    lexicon: SpeechLexicon
+
+    @classmethod
+    def of(cls, words: Sequence[str]) -> TextSupport:
+        """That of some words, whose language is recognised."""
+        each = tuple(part for word in words for part in word.split(" "))
+        return cls(each, lexicon_for(each, recognised(each)))
+
+    @cached_property
+    def is_impossible(self) -> bool:
+        """Whether they name something that no robot can do or see."""
+        covered: set[int] = set()
+        for at in range(len(self.words)):
+            for kind, _, stop in self.lexicon.matches(self.words, at):
+                covered.update(range(at, stop) if kind not in UNCOVERING else ())
+        beyond = [
+            at for at in range(len(self.words)) if self.lexicon.find(self.words, at, "beyond")
+        ]
+        return any(at not in covered for at in beyond) or any(map(self._is_thing, self.words))
+
+    def _is_thing(self, word: str) -> bool:
+        """Whether an unknown word ends with a thing: "Rückwärtssalto"."""
+        if word in self.lexicon.words or len(parts_of(word, self.lexicon)) > 1:
+            return False
+        things = self.lexicon.of_class("beyond") - self.lexicon.words
+        return any(word.endswith(thing) for thing in things if len(thing) >= MIN_THING)
+
+    @cached_property
+    def classes(self) -> frozenset[str]:
+        """The classes of all phrases in the text, with their values and without."""
+        found: set[str] = set()
+        for at in range(len(self.words)):
+            for kind, value, _ in self.lexicon.matches(self.words, at):
+                found |= {kind, f"{kind} {value}"}
+        return frozenset(found)
+
+    def speaks_of(self, command: Command) -> bool:
+        """Whether a command has something to do, of all of which the text speaks."""
+        idle = all(isinstance(clause, Stop) or clause == Follow() for clause in command.clauses)
+        return not idle and all(self.classes & set(NEEDED[name]) for name in _named(command))
+
+
+def _named(command: Command) -> set[str]:
+    """What a command names, by the keys of `NEEDED`."""
+    found: set[str] = set()
+    for clause in command.clauses:
+        for field in ("until", "at", "door", "what"):
+            what = getattr(clause, field, None)
+            if isinstance(what, DoorReference):
+                found.add("door")
+            elif isinstance(what, PlaceReference):
+                found.add(what.place.value)
+        found |= {"back"} if isinstance(clause, GoBack) else set()
+        found |= {"leave"} if isinstance(clause, Leave) else set()
+    return found
