@@ -34,6 +34,10 @@ FROZEN = {
     "sixth_english": "8b1f945cc49e571d23df188317a18f6bf1b95944e9da48cf59bec239b61528e9",
     "sixth_german": "67e531f257647241facc5de894b3e02b2b6c74d9ec2ef4694da94b7cc33aa782",
     "fourth_german": "96fb2dba7245273765d5899874a746eaf16057085c5207441a22009c87ac8be2",
+    "seventh_english": "fcdf631c632d264b02ac7a5bcb8185c52630ecd7a000315c9bc7c0ec90a580cd",
+    "seventh_german": "9fe59f0da5e876889f1f1dbf9f157d267d01bfde8ef4ea1f39f6d6469f5cdd56",
+    "eighth_english": "dec64768b3ad131d7badb370f7e881eaefdf18c189710203d9b3b070b7948840",
+    "eighth_german": "9b362e7f4d5dcefbe146bcb8b270903c3277b0d6f8cb1f5baa6260fcd9017db1",
 }
 SIZES = dict.fromkeys(FROZEN, 170) | {"english": 330, "german": 330}
 
