@@ -101,11 +101,11 @@ class LearnedInterpreter:
         except CommandError as error:
             asks = error.problem == QUESTION
             raise ((None if asks else self._question(text)) or error) from None
-        spoken = self._spoken(text)
-        if len(found) > 1:
+        spoken, (first, *more) = self._spoken(text), found
+        if more:
             others = self._others(text, found, 1)
             return Interpretation(text, (*found, *others), spoken, "grammar")
-        if not self._is_canonical(text, found[0]) and (doubt := self._doubt(text, found[0])):
+        if not self._is_canonical(text, first) and (doubt := self._doubt(text, first)):
             raise doubt
         return Interpretation(text, found, spoken, "grammar")
 

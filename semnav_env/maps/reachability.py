@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import cast
 
 import shapely
-from shapely import LineString, Polygon
+from shapely import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features.frames import middle_of
@@ -101,7 +101,7 @@ def _line(door: PlanDoor) -> LineString:
     return LineString((door.start, door.end))
 
 
-def _ends(corridor: Polygon) -> list[BaseGeometry]:
+def _ends(corridor: Polygon) -> Sequence[BaseGeometry]:
     """Places on the axis of a corridor before its two ends; its middle if it is short.
 
     The axis of a bent corridor, such as an L, leaves it: its ends are the two places that are
@@ -118,9 +118,9 @@ def _ends(corridor: Polygon) -> list[BaseGeometry]:
     return ends if all(map(corridor.covers, ends)) else _farthest_apart(corridor)
 
 
-def _farthest_apart(corridor: Polygon) -> list[BaseGeometry]:
+def _farthest_apart(corridor: Polygon) -> Sequence[BaseGeometry]:
     """The two places farthest apart, away from the walls; any place if it is too narrow."""
-    places = shapely.points(shapely.get_coordinates(corridor.buffer(-BEND_CLEARANCE).convex_hull))
-    pairs = combinations(places.tolist(), 2)
+    corners = shapely.get_coordinates(corridor.buffer(-BEND_CLEARANCE).convex_hull)
+    pairs = combinations(map(Point, corners), 2)
     apart = max(pairs, key=lambda pair: pair[0].distance(pair[1]), default=None)
     return list(apart or [corridor.representative_point()])

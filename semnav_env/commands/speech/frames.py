@@ -159,9 +159,9 @@ def _faced(frame: ClauseFrame, item: Item) -> Readings:
     noun: Noun = item.value
     if len(frame.refs) > 1 or frame.sides or frame.verbs - {"turn", "face", "stop", "go"}:
         raise NoMeaningError("so that, and something else")
-    if noun.kind == "wall" and noun.side in (Side.LEFT, Side.RIGHT):
-        return ((Face(noun.side),),)
-    if noun.side in (Side.LEFT, Side.RIGHT):
+    if noun.side is not None and noun.side in (Side.LEFT, Side.RIGHT):
+        if noun.kind == "wall":
+            return ((Face(noun.side),),)
         raise ValueError("one turns to what is ahead, or to have the wall on a side")
     what = landmark(replace(noun, side=None))
     return ((Face(what),),) if noun.side is Side.AHEAD else ((Face(what), Turn(Turning.AROUND)),)
