@@ -91,7 +91,7 @@ def test_without_a_pose_the_exit_code_is_1(capsys: pytest.CaptureFixture[str]) -
         (("--door", "kitchen", "--from=0,0,0"), "pose 0,0,0: a spot at"),
         (("--door", "kitchen", "--obstacle", "1,2"), "is not x,y,radius"),
         (("--door", "kitchen", "--obstacle", "1,2,0"), "radius more than 0"),
-        (("--door", "kitchen", "--obstacle", "nan,2,1"), "must be finite"),
+        (("--door", "kitchen", "--obstacle", "nan,2,1"), "is not x,y,radius"),
         (("--door", "kitchen", "--robot", "car"), "no robot named 'car'"),
         (("--door", "kitchen", "--plot", "poses.txt"), "poses.txt"),
         ((), "--door"),

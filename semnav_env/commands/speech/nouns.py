@@ -57,7 +57,8 @@ class NounReader(NounWords):
             if said_which and self.find(here, "of several"):
                 break  # "die rechte der beiden Türen"
             if plain and (head := self._head(here, noun)):
-                if not determined and self._is_no_noun(here, noun.ordinal is not None):
+                bare = not determined and name is None
+                if bare and self._is_no_noun(here, noun.ordinal is not None):
                     return None  # "turn left" is no turning on the left
                 if self._is_elliptic_turn(here, noun):
                     break  # "at the second turn left", of intersections
