@@ -49,9 +49,9 @@ class Arguments:
             heidelberg_hallway if not given, for a search a generated house.
         language: of the command: en or de (english, german); recognised if not given.
         robot: wheelchair or spot.
-        agent: scripted, oracle, blind, random, drive, listener (trained), the folder of a
-            trained agent, or package.module:Class; searcher (knows the plan) or explorer for a
-            search. If not given: scripted, for a search searcher.
+        agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
+            folder of a trained agent, or package.module:Class; searcher (knows the plan) or
+            explorer for a search. If not given: scripted, for a search searcher.
         pose: where the robot starts, x,y,heading in metres and radians; random if not given.
         seed: of everything that is random.
         dynamics: what else moves.

@@ -28,8 +28,8 @@ class Arguments:
     Attributes:
         split: a split (`semnav episodes list`), or a file of episodes.
         out: name of the dataset, such as semnav/train-scripted-v0, or a new folder.
-        agent: scripted, oracle, blind, random, drive, listener (trained), the folder of a
-            trained agent, or package.module:Class.
+        agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
+            folder of a trained agent, or package.module:Class.
         observation: what is recorded: semantic, raw, truth, all or command; the agent's own if not
             given.
         rounds: round observations to a millimetre, which takes far less room.

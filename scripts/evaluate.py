@@ -56,8 +56,8 @@ class Arguments:
     Attributes:
         suite: heidelberg, office_cross, or "all" of these; a split (`semnav episodes list`); or a
             file of episodes.
-        agent: scripted, oracle, blind, random, drive, listener (trained), the folder of a
-            trained agent, or package.module:Class.
+        agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
+            folder of a trained agent, or package.module:Class.
         robot: wheelchair or spot.
         seeds: number of start poses, each with its own noise, for every command of a suite; 20 if
             not given.

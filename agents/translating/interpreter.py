@@ -22,6 +22,9 @@ from semnav_env.commands.speech.recognition import recognised
 from semnav_env.commands.speech.understanding import QUESTION
 from semnav_env.commands.words import pieces
 
+SETTLED = (QUESTION, "a distance is")
+"""How problems begin that the grammar has understood: "30 cm" is no occasion to ask about 30 m."""
+
 
 @dataclass(frozen=True)
 class DoubtLimits:
@@ -99,8 +102,8 @@ class LearnedInterpreter:
         except AmbiguousCommandError as error:
             raise (self._refusal(text, error) or self._wider(text, error) or error) from None
         except CommandError as error:
-            asks = error.problem == QUESTION
-            raise ((None if asks else self._question(text)) or error) from None
+            is_settled = error.problem.startswith(SETTLED)
+            raise ((None if is_settled else self._question(text)) or error) from None
         spoken, (first, *more) = self._spoken(text), found
         if more:
             others = self._others(text, found, 1)
@@ -153,7 +156,7 @@ class LearnedInterpreter:
         if translated is None or translated.refusal > self.limits.refusing:
             return None
         support = TextSupport.of(translated.plain.words)
-        if support.is_impossible:
+        if support.is_impossible or support.is_forbidding:
             return None
         found_likely = self._likely(translated, (), self.limits.asking)
         likely = [each for each in found_likely if support.speaks_of(each.command)]

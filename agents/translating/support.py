@@ -25,6 +25,10 @@ NEEDED = {
 }
 """For what a command names, the classes of phrases of which a text must have one."""
 
+FORBIDDING = ("not", "or")
+"""Classes of phrases with which nothing is asked about: the translator often takes what is
+forbidden, or one of two things, for what is wanted."""
+
 UNCOVERING = ("beyond", "greeting", "aside")
 """Classes of phrases that do not explain a word for something that no robot can do or see."""
 
@@ -77,6 +81,11 @@ class TextSupport:
             for kind, value, _ in self.lexicon.matches(self.words, at):
                 found |= {kind, f"{kind} {value}"}
         return frozenset(found)
+
+    @property
+    def is_forbidding(self) -> bool:
+        """Whether they forbid something, or leave a choice."""
+        return not self.classes.isdisjoint(FORBIDDING)
 
     def speaks_of(self, command: Command) -> bool:
         """Whether a command has something to do, of all of which the text speaks."""

@@ -45,7 +45,7 @@ def follow_log(
     for record in records:
         if tracker is None:
             if record.odometry is None and record.pose is None:
-                lost = record
+                lost = lost or record
                 continue
             by_odometry = record.odometry is not None
         robot = _robot_pose(record, mount, by_odometry)

@@ -328,3 +328,20 @@ def test_a_question_is_answered_by_a_refusal() -> None:
     with pytest.raises(CommandError, match="a question is not a command") as refused:
         INTERPRETER.interpret("is the door on the left open?")
     assert not isinstance(refused.value, AmbiguousCommandError)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "don't turn left",
+        "do not enter the first door on the left",
+        "geh nicht durch die erste Tür rechts",
+        "go through the first or the second door on the left",
+        "move 30 cm forward",
+        "fahr 20 Zentimeter vor",
+    ],
+)
+def test_nothing_is_asked_about_what_forbids_leaves_a_choice_or_is_too_short(text: str) -> None:
+    with pytest.raises(CommandError) as caught:
+        LearnedInterpreter().interpret(text)
+    assert not isinstance(caught.value, AmbiguousCommandError)

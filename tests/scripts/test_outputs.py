@@ -112,7 +112,7 @@ def test_a_place_that_is_not_there_lists_each_name_once(capsys):
 @pytest.mark.parametrize("command", ["demo", "evaluate"])
 def test_the_help_names_the_trained_agents(capsys, command):
     assert cli.main([command, "--help"]) == 0
-    assert "drive, listener (trained)" in " ".join(
+    assert "drive, listener, listener_drives (trained)" in " ".join(
         capsys.readouterr().out.replace("│", " ").split()
     )
 
