@@ -77,12 +77,16 @@ class PhraseCompiler:
     def __init__(self, table: Mapping[str, str], language: Language) -> None:
         self._rows = {key: row.split("|") for key, row in table.items() if key.startswith("<")}
         self._sets: dict[str, PhraseSet] = {}
+        self._tokens: dict[str, list[Phrase]] = {}
         self._language = language
 
     def compiled(self, text: str) -> Iterator[Phrase]:
         """The phrases of a text; several if a set stands for a part of a word."""
         tokens = text.split(" ")
-        for choice in product(*(self._token(token) for token in tokens)):
+        for token in tokens:
+            if token not in self._tokens:  # most words stand in many phrases
+                self._tokens[token] = self._token(token)
+        for choice in product(*(self._tokens[token] for token in tokens)):
             yield tuple(part for parts in choice for part in parts)
 
     def words(self) -> Iterator[str]:
