@@ -87,3 +87,16 @@ def test_a_remark_is_left_out_with_a_question(text: str, meant: str) -> None:
         parse(text, None, ROOMS)
     assert [str(command) for command in caught.value.readings] == [meant]
     assert caught.value.unread
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("turn 180 degrees to the right", "turn right by 180 degrees"),
+        ("rotate one hundred and eighty degrees to the left", "turn left by 180 degrees"),
+        ("turn 180 degrees", "turn around"),
+        ("do a 180", "turn around"),
+    ],
+)
+def test_half_a_turn_may_have_a_side(text: str, meant: str) -> None:
+    assert str(parse(text)) == meant
