@@ -163,6 +163,8 @@ def test_a_stopped_study_is_taken_up_again(
     [row] = [json.loads(line) for line in out.read_text().splitlines()]
     assert row["passed"]
     said = [line.split() for line in capsys.readouterr().out.splitlines()]
-    assert ["exit_via_door", "spot", "1", "1.0000"] in [line[:4] for line in said]
+    assert ["exit_via_door", "spot", "1", "1.0000", "0.0000"] in [
+        line[:4] + line[7:8] for line in said
+    ]
     with pytest.raises(ValueError, match="no rule nix; there are: one_metre, lining_up"):
         Arguments(rules=("nix",)).run()
