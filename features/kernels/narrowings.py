@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,9 @@ MAX_INTRUSION = 0.1
 MAX_SIDE_SLOPE = math.tan(math.radians(20.0))
 """Largest slope of a side against the direction through the opening."""
 
+Table: TypeAlias = NDArray[np.int64]
+"""By pieces along the sides of an opening: how far outside the jamb the innermost side lies."""
+
 
 @kernel(counts_references=True)
 def is_narrowing(door: FloatArray, solid: FloatArray) -> bool:
@@ -74,21 +78,20 @@ def is_narrowing(door: FloatArray, solid: FloatArray) -> bool:
 
 
 @kernel(counts_references=True)
-def _sides(door: FloatArray, solid: FloatArray) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _sides(door: FloatArray, solid: FloatArray) -> tuple[Table, Table]:
     """Record where sides run along the direction through the opening.
 
     Returns:
-        Two tables of flags. Their first two axes are: before or behind the opening; right or left
-        of it. Their last axis is the distance from the opening in pieces of `CELL_LENGTH`. The
-        first table, shape (2, 2, SETBACK_STEPS, n), has the sides up to `SIDE_RANGE_MAX`; its third
-        axis is how far outside the jamb they lie at most, in steps up to `MAX_SETBACK`. The second,
-        shape (2, 2, m), has those within `CORRIDOR_HALF_WIDTH` up to `CORRIDOR_RANGE`.
+        Two tables. Their first two axes are: before or behind the opening; right or left of it.
+        Their last axis is the distance from the opening in pieces of `CELL_LENGTH`. The first
+        table, up to `SIDE_RANGE_MAX`, says how far outside the jamb a side lies, in steps up to
+        `MAX_SETBACK`; `SETBACK_STEPS` where there is none. In the second, up to `CORRIDOR_RANGE`,
+        it is 0 where there is a side within `CORRIDOR_HALF_WIDTH`, else 1.
     """
-    close = np.zeros(
-        (2, 2, SETBACK_STEPS, round((SIDE_RANGE_MAX - SIDE_RANGE_MIN) / CELL_LENGTH)),
-        dtype=np.bool_,
-    )
-    far = np.zeros((2, 2, round((CORRIDOR_RANGE - SIDE_RANGE_MIN) / CELL_LENGTH)), dtype=np.bool_)
+    pieces = round((SIDE_RANGE_MAX - SIDE_RANGE_MIN) / CELL_LENGTH)
+    close = np.full((2, 2, pieces), SETBACK_STEPS, np.int64)
+    pieces = round((CORRIDOR_RANGE - SIDE_RANGE_MIN) / CELL_LENGTH)
+    far = np.ones((2, 2, pieces), np.int64)
     x, y = 0.5 * (door[0] + door[2]), 0.5 * (door[1] + door[3])
     dx, dy = door[2] - door[0], door[3] - door[1]
     width = math.hypot(dx, dy)
@@ -102,23 +105,21 @@ def _sides(door: FloatArray, solid: FloatArray) -> tuple[NDArray[np.bool_], NDAr
             continue
         side, aside = _beside(0.5 * (across1 + across2), 0.5 * width)
         if -MAX_INTRUSION <= aside < CORRIDOR_HALF_WIDTH - 0.5 * width:
-            _mark(along1, along2, far[0, side])
-            _mark(-along1, -along2, far[1, side])
+            _mark(along1, along2, 0, far[0, side])
+            _mark(-along1, -along2, 0, far[1, side])
         if -MAX_INTRUSION <= aside < MAX_SETBACK:
             step = int(max(0.0, aside) / MAX_SETBACK * SETBACK_STEPS)
-            _mark(along1, along2, close[0, side, step])
-            _mark(-along1, -along2, close[1, side, step])
-    for step in range(1, SETBACK_STEPS):
-        close[:, :, step] |= close[:, :, step - 1]
+            _mark(along1, along2, step, close[0, side])
+            _mark(-along1, -along2, step, close[1, side])
     return close, far
 
 
 @kernel
-def _goes_on(far: NDArray[np.bool_]) -> bool:
+def _goes_on(far: Table) -> bool:
     """Whether both sides of a corridor are there before and behind the opening."""
     for end in range(2):
         for side in range(2):
-            if _length(far[end, side]) < MIN_CORRIDOR_SIDE:
+            if _length(far[end, side], 0) < MIN_CORRIDOR_SIDE:
                 return False
     return True
 
@@ -130,36 +131,43 @@ def _beside(across: float, half: float) -> tuple[int, float]:
 
 
 @kernel
-def _mark(along1: float, along2: float, there: NDArray[np.bool_]) -> None:
-    """Mark the pieces that a segment covers, if it lies at positive distances from the opening."""
+def _mark(along1: float, along2: float, step: int, steps: Table) -> None:
+    """Note a side in the pieces that a segment covers at positive distances from the opening."""
     first = math.ceil((min(along1, along2) - SIDE_RANGE_MIN) / CELL_LENGTH - 0.5)
     last = math.floor((max(along1, along2) - SIDE_RANGE_MIN) / CELL_LENGTH - 0.5)
-    for k in range(max(first, 0), min(last, len(there) - 1) + 1):
-        there[k] = True
+    for k in range(max(first, 0), min(last, len(steps) - 1) + 1):
+        steps[k] = min(steps[k], step)
 
 
 @kernel
-def _runs_through(here: NDArray[np.bool_], beyond: NDArray[np.bool_]) -> bool:
+def _runs_through(here: Table, beyond: Table) -> bool:
     """Whether one side runs on from this side of the opening to beyond it."""
+    last = SETBACK_STEPS - 1
     for side in range(2):
-        if min(_length(here[side, -1]), _length(beyond[side, -1])) >= MIN_THROUGH_SIDE:
+        if min(_length(here[side], last), _length(beyond[side], last)) >= MIN_THROUGH_SIDE:
             return True
     return False
 
 
 @kernel
-def _length(pieces: NDArray[np.bool_]) -> float:
-    """Length of the pieces that are there, metres; 1 nm more, against rounding in comparisons."""
-    return float(pieces.sum()) * CELL_LENGTH + 1e-9
+def _length(steps: Table, most: int) -> float:
+    """Length of the pieces with a side `most` steps outside the jamb or less, metres.
+
+    It is 1 nm more, against rounding in comparisons.
+    """
+    count = 0
+    for k in range(len(steps)):
+        count += steps[k] <= most
+    return count * CELL_LENGTH + 1e-9
 
 
 @kernel
-def _runs(there: NDArray[np.bool_], length: float) -> bool:
+def _runs(there: Table, length: float) -> bool:
     """Whether both sides have a length, together less than `MAX_SETBACK` outside the jambs."""
     aside = 0.0
     for side in range(2):
         step = 0
-        while step < SETBACK_STEPS and _length(there[side, step]) < length:
+        while step < SETBACK_STEPS and _length(there[side], step) < length:
             step += 1
         aside += MAX_SETBACK * step / SETBACK_STEPS
     return aside < MAX_SETBACK - 1e-9
