@@ -2,7 +2,8 @@
 
 import pytest
 
-from semnav_env.commands import AmbiguousCommandError, CommandError, parse
+from semnav_env.commands import AmbiguousCommandError, CommandError, parse, readings
+from semnav_env.episodes import load_episodes
 from semnav_env.scripts.ground import understood
 from semnav_env.tasks.request import EpisodeRequest
 
@@ -133,3 +134,30 @@ def test_the_language_of_a_text_is_recognised_everywhere() -> None:
     assert understood("dreh dich um") == around
     with pytest.raises(CommandError, match="this is German"):
         EpisodeRequest("nimm die Tür", language="en").checked_command(())
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("den Raum verlassen und danach durch die letzte Tür links", "Tür links"),
+        ("den Raum verlassen und dann nach links", "leave the room and turn left"),
+        ("go outside and then at the 1st intersection, turn right", "at the first intersection"),
+        ("go outside and then when you reach the second crossing, turn right", "second"),
+        ("continue and then left", "go down the hallway and turn left"),
+        ("go and then left", "turn left"),
+    ],
+)
+def test_and_then_parts_two_clauses_behind_a_verb_that_says_where_to(text: str, meant: str) -> None:
+    """Behind a bare "go" it says nothing; "then" alone may stand inside a clause."""
+    command = parse(text)
+    assert meant in f"{command.say('en')} {command.say('de')}"
+    assert len(command.clauses) == 1 + (not text.startswith("go and"))
+
+
+@pytest.mark.parametrize(
+    "name", ["train-00844", "train-01181", "test_long-00791", "test_long-00941"]
+)
+def test_frozen_texts_with_and_then_are_read_as_their_programs(name: str) -> None:
+    split, _, number = name.rpartition("-")
+    episode = load_episodes(split)[int(number)]
+    assert readings(episode.command, episode.language) == episode.programs

@@ -54,6 +54,7 @@ def read_clause(items: list[Item]) -> tuple[Readings, float] | None:
             and len(kept) == 1
             and item.stop <= item.start + 2
             and item.value != "once"
+            and (item.value != "and then" or kept[-1].value == "go")
         ):
             continue  # "bieg dann links ab"
         elif item.kind in (

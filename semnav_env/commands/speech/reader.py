@@ -186,6 +186,8 @@ class ItemReader(ItemWords):
                     yield Item(ItemKind.AROUND, at, stop, kind)
                 elif kind == "be":
                     yield Item(ItemKind.VERB, at, stop, kind)
+                elif kind == "then" and self.lexicon.find(self.words, at, "and"):
+                    yield Item(ItemKind.THEN, at, stop, "and then")
                 else:
                     yield Item(ItemKind(kind), at, stop, value)
                 break
