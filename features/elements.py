@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from semnav_env.features.frames import Point, heading_between, middle_of
+from semnav_env.features.validation import finite_floats, require
 
 
 class CornerKind(IntEnum):
@@ -94,6 +95,8 @@ class SceneLeaf:
 class Door:
     """An open doorway: the gap from the end of one wall to the start of the next.
 
+    Its ends become tuples, whatever rows of numbers they are given as.
+
     Attributes:
         start: the jamb where a wall ends, (x, y) in metres.
         end: the jamb where the next wall starts; the scanner is on the left of start-end.
@@ -102,6 +105,9 @@ class Door:
         confidence: how likely it is a door, 0 to 1.
         leaf: its open leaf, if one is seen.
         visible: share of its opening that is in view, 0 to 1; below 1 only in a true scene.
+
+    Raises:
+        ValueError: an end is not two finite numbers.
     """
 
     start: Point
@@ -111,6 +117,15 @@ class Door:
     confidence: float = 1.0
     leaf: SceneLeaf | None = None
     visible: float = 1.0
+
+    def __post_init__(self) -> None:
+        if type(self.start) is tuple and type(self.end) is tuple:
+            return
+        for name in ("start", "end"):  # doors are keys, and arrays cannot be hashed
+            point = finite_floats(getattr(self, name))
+            right = "(x, y), two finite numbers of metres"
+            require(point and len(point) == 2, name, getattr(self, name), right)
+            object.__setattr__(self, name, point)
 
     @property
     def midpoint(self) -> Point:

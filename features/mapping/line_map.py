@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from semnav_env.features.elements import Door, Wall
-from semnav_env.features.frames import Point, Pose, relative, to_parent, wrap_angle
+from semnav_env.features.frames import Point, Pose, relative, to_local, to_parent, wrap_angle
 from semnav_env.features.mapping.association import LineIndex
 from semnav_env.features.mapping.duplicate_walls import without_duplicates
 from semnav_env.features.mapping.line_cells import MAX_BEAM_LENGTH
@@ -202,5 +202,6 @@ def _place(line: Line) -> Pose:
 
 
 def _distance(wall: Wall) -> float:
-    """From the origin of the wall's frame to the nearer of its ends, metres."""
-    return min(math.hypot(*wall.start), math.hypot(*wall.end))
+    """From the origin of the wall's frame to the nearest point of the wall, metres."""
+    x, y = to_local((*wall.start, wall.heading), (0.0, 0.0))
+    return math.hypot(max(-x, 0.0, x - wall.length), y)

@@ -7,23 +7,32 @@ import re
 from collections.abc import Iterator
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.readers.csv_columns import Columns, cells_of, is_header
+from semnav_env.features.readers.csv_columns import (
+    Columns,
+    cells_of,
+    is_header,
+    is_passed_over,
+    separator_of,
+)
 from semnav_env.features.readers.geometry import Geometry, checked_scan
 from semnav_env.features.readers.log import BadRecordError, LogError, LogRecord
 from semnav_env.features.readers.text import TextFile, TextLog
 from semnav_env.features.scan import Scan
 
 _ANGLES = ("angle_min", "angle_increment")
-_SETTING = re.compile(rb"(angle_min|angle_increment|range_min|range_max)\s*[=:]\s*([^\s,;]+)")
+_SETTING = re.compile(
+    rb"(angle_min|angle_increment|range_min|range_max)\s*[=:]\s*([^\s,;]+(?:,\d[^\s,;]*)?)"
+)
 
 
 def is_csv(head: bytes) -> bool:
     """Whether a text that begins so is a table of numbers, or of columns that hold ranges."""
     for line in head.splitlines(keepends=True):
-        if line.strip() and not line.startswith(b"#"):
-            cells = cells_of(line) if line.endswith(b"\n") else cells_of(line)[:-1]
+        if not (is_passed_over(line) or line.startswith(b"#")):
+            if not line.endswith(b"\n"):
+                line = line[: line.rfind(separator_of(line))]  # its last cell may be cut
             try:
-                return len(cells) > 1 and Columns.of(cells).count > 1
+                return Columns.of(line).count > 1
             except LogError:
                 return False
     return False
@@ -56,22 +65,21 @@ class CsvLog(TextLog):
             if line.startswith(b"#"):
                 self._hear(line, number)
                 continue
-            if not line.strip():
+            if is_passed_over(line):
                 continue
-            cells = cells_of(line)
             if columns is None:
-                columns = self._columns(cells)
-                if is_header(cells):
+                columns = self._columns(line)
+                if is_header(cells_of(line, columns.separator)):
                     continue
             try:
-                yield self._record(columns, cells, number)
+                yield self._record(columns, line, number)
             except BadRecordError as error:
                 self.count_bad(str(error), number)
 
     def _hear(self, comment: bytes, number: int) -> None:
         for name, value in _SETTING.findall(comment):
             try:
-                self._said[name.decode()] = float(value)
+                self._said[name.decode()] = float(value.replace(b",", b"."))
             except ValueError:
                 said = value.decode("ascii", "replace")
                 raise LogError(
@@ -79,9 +87,9 @@ class CsvLog(TextLog):
                     "number, in metres or radians"
                 ) from None
 
-    def _columns(self, cells: list[bytes]) -> Columns:
+    def _columns(self, line: bytes) -> Columns:
         try:
-            columns = Columns.of(cells)
+            columns = Columns.of(line)
         except LogError as error:
             raise LogError(f"{self.path}: {error}") from None
         for name in _ANGLES:
@@ -93,8 +101,8 @@ class CsvLog(TextLog):
                 )
         return columns
 
-    def _record(self, columns: Columns, cells: list[bytes], number: int) -> LogRecord:
-        row = columns.row(cells)
+    def _record(self, columns: Columns, line: bytes, number: int) -> LogRecord:
+        row = columns.row(line)
         return LogRecord(self._scan(columns, row), columns.pose(row), None, number)
 
     def _scan(self, columns: Columns, row: FloatArray) -> Scan:

@@ -14,6 +14,12 @@ from semnav_env.features.scan import Scan
 _FARTHEST = 4.0 * math.pi
 Direction: TypeAlias = Annotated[float, Bounds(-_FARTHEST, _FARTHEST, "rad")]
 
+_LATEST = 1e11
+"""What is larger is no time in seconds: a date after the year 5000."""
+
+_NANOSECONDS = (1e18, 1e19)
+"""Numbers of 19 digits: nanoseconds since 1970, on a date from 2001 to 2286."""
+
 _WIDEST = 3.0 * math.pi
 """A turn and a half: some scanners repeat beams of the circle; radians."""
 
@@ -75,6 +81,22 @@ def checked_scan(
         return Scan(ranges, start, step, range_min, range_max, stamp)
     except ValueError:
         raise BadRecordError("ranges that are not metres") from None
+
+
+def stamp_in_seconds(stamp: float) -> float:
+    """A time of a table in seconds; nanoseconds since 1970 are recognised.
+
+    Raises:
+        BadRecordError: it is too large to be either.
+    """
+    if _NANOSECONDS[0] <= stamp < _NANOSECONDS[1]:
+        return stamp * 1e-9
+    if abs(stamp) > _LATEST:
+        raise BadRecordError(
+            f"a time beyond {_LATEST:.0e}, which is not in seconds; divide milliseconds by 1000, "
+            "microseconds by 1e6"
+        )
+    return stamp
 
 
 def _fault_of_angles(start: float, step: float, swept: float) -> str:

@@ -8,7 +8,12 @@ from pathlib import Path
 from typing import ClassVar
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.readers.geometry import Geometry, checked_pose, checked_scan
+from semnav_env.features.readers.geometry import (
+    Geometry,
+    checked_pose,
+    checked_scan,
+    stamp_in_seconds,
+)
 from semnav_env.features.readers.log import BadRecordError, LogError, LogReader, LogRecord
 from semnav_env.features.readers.npz_arrays import NpzArrays
 from semnav_env.features.validation import shown
@@ -88,7 +93,7 @@ class NpzLog(LogReader):
 
     def _record(self, row: FloatArray, number: int) -> LogRecord:
         range_max, range_min = self._limits
-        stamp = None if self._stamps is None else float(self._stamps[number - 1])
+        stamp = None if self._stamps is None else stamp_in_seconds(float(self._stamps[number - 1]))
         pose = None if self._poses is None else checked_pose(*self._poses[number - 1].tolist())
         scan = checked_scan(row, self._start, self._step, range_max, stamp, range_min)
         return LogRecord(scan, pose, None, number)

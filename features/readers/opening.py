@@ -98,6 +98,8 @@ def _check(text: TextFile) -> None:
             f"{path} is a bare array; save it with its angles: "
             "np.savez(path, ranges=..., angle_min=..., angle_increment=...)"
         )
+    if head.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise LogError(f"{path} is a text in UTF-16; save it in UTF-8")
     if b"\0" in head:
         raise LogError(f"{path} is a binary file; {_EXPECTED}")
 

@@ -59,6 +59,7 @@ def follow_log(
                 f"scan {record.line} has {len(ranges)} beams and the first one "
                 f"{tracker.lidar.beams}: give the topic of one lidar"
             )
+        _check_directions(record, tracker.lidar)
         seconds = _elapsed(last, record.stamp)
         yield record, tracker.update(ranges, relative(start, robot), seconds=seconds)
         last = record.stamp
@@ -82,6 +83,23 @@ def lidar_of(scan: Scan, rate_hz: float = 15.0) -> LidarSpec:
         scan.range_max,
         rate_hz,
     )
+
+
+def _check_directions(record: LogRecord, lidar: LidarSpec) -> None:
+    """Refuse a scan whose first or last beam points elsewhere than that of the first scan.
+
+    Raises:
+        LogError: by more than the angle between two beams.
+    """
+    scan, step = record.scan, lidar.angle_increment
+    turned = wrap_angle(scan.angle_min - lidar.angle_min)
+    widened = (scan.angle_increment - step) * (lidar.beams - 1)
+    if max(abs(turned), abs(turned + widened)) > step:
+        raise LogError(
+            f"scan {record.line} begins at {scan.angle_min:.4g} rad in steps of "
+            f"{scan.angle_increment:.4g}, and the first one at {lidar.angle_min:.4g} in steps of "
+            f"{step:.4g}: follow the scans of one lidar, which always looks the same way"
+        )
 
 
 def _robot_pose(record: LogRecord, mount: Pose, by_odometry: bool) -> Pose:

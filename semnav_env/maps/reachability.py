@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import combinations
 from typing import cast
 
+import numpy as np
 import shapely
 from shapely import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features.frames import middle_of
+from semnav_env.features.kernels.grid_search import least_costs
 from semnav_env.maps.doorways import DRAWING_TOLERANCE, clear_width
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region
+from semnav_env.maps.geodesic import GRID_SPACING
 from semnav_env.maps.plan_fault import PlanFault, point_in, written
 from semnav_env.maps.reach import HEADING_COUNT, REACH_SPACING, Reach, reach
 from semnav_env.robots import RobotSpec
@@ -28,6 +30,10 @@ drives "to the end" stops before the wall."""
 
 BEND_CLEARANCE = 0.5
 """Distance of the ends of a bent corridor from its walls, metres: narrower ones hold no body."""
+
+MAX_END_CELLS = 250_000
+"""Largest number of cells of the grid on which the ends of a bent corridor are found; a larger one
+gets coarser cells."""
 
 END_TOLERANCE = 0.6
 """Distance at which that place counts as reached, metres."""
@@ -104,8 +110,8 @@ def _line(door: PlanDoor) -> LineString:
 def _ends(corridor: Polygon) -> Sequence[BaseGeometry]:
     """Places on the axis of a corridor before its two ends; its middle if it is short.
 
-    The axis of a bent corridor, such as an L, leaves it: its ends are the two places that are
-    farthest apart.
+    The axis of a bent corridor, such as an L or a U, leaves it: its ends are the two places that
+    are farthest apart on the way inside it.
     """
     rectangle = cast(Polygon, corridor.minimum_rotated_rectangle)
     corners = list(rectangle.exterior.coords)[:4]
@@ -119,8 +125,24 @@ def _ends(corridor: Polygon) -> Sequence[BaseGeometry]:
 
 
 def _farthest_apart(corridor: Polygon) -> Sequence[BaseGeometry]:
-    """The two places farthest apart, away from the walls; any place if it is too narrow."""
-    corners = shapely.get_coordinates(corridor.buffer(-BEND_CLEARANCE).convex_hull)
-    pairs = combinations(map(Point, corners), 2)
-    apart = max(pairs, key=lambda pair: pair[0].distance(pair[1]), default=None)
-    return list(apart or [corridor.representative_point()])
+    """The two places with the longest way between them inside a corridor, away from its walls.
+
+    The ends of a U are those of its legs, however near to each other they are. One is the place
+    farthest from any first one, the other that farthest from there. Any place if the corridor is
+    too narrow.
+    """
+    west, south, east, north = corridor.bounds
+    spacing = max(GRID_SPACING, math.sqrt((east - west) * (north - south) / MAX_END_CELLS))
+    x, y = np.meshgrid(np.arange(west, east, spacing), np.arange(south, north, spacing))
+    roomy = np.asarray(shapely.contains_xy(corridor.buffer(-BEND_CLEARANCE), x, y))
+    if not roomy.any():
+        return [corridor.representative_point()]
+    weight = np.where(shapely.contains_xy(corridor, x, y), 1.0, np.inf)
+    cell, ends = tuple(np.argwhere(roomy)[0]), []
+    for _ in range(2):
+        source, diagonal = np.array([cell]), spacing * math.hypot(1, 1)
+        ways = least_costs(source, np.zeros(1), weight, spacing, diagonal, True)
+        ways[~roomy | ~np.isfinite(ways)] = -1.0
+        cell = np.unravel_index(ways.argmax(), ways.shape)
+        ends.append(Point(x[cell], y[cell]))
+    return ends

@@ -59,6 +59,14 @@ def test_a_scan_that_does_not_say_where_it_was_taken_is_an_error(first) -> None:
         poses([record(1, *first), record(2, first[1], first[0])])
 
 
+@pytest.mark.parametrize("angles", [(math.pi / 2, 0.01), (-math.pi / 2, 0.02), (0.0, 0.01)])
+def test_scans_that_look_elsewhere_than_the_first_are_refused(angles: tuple[float, float]) -> None:
+    """As those of a second lidar at the back of the robot, with as many beams."""
+    scans = [Scan(np.full(181, np.nan), *each) for each in ((-math.pi / 2, 0.01), angles)]
+    with pytest.raises(LogError, match=r"scan 2 begins at .* follow the scans of one lidar"):
+        poses([LogRecord(scan, driven(k), None, k + 1) for k, scan in enumerate(scans)])
+
+
 @pytest.mark.parametrize("beams", [8, 77, 360, 431, 720, 862, 1440, 3000])
 @pytest.mark.parametrize("repeated", [0, 1, 3])
 @pytest.mark.parametrize("rounded", [float, np.float32, np.float16])

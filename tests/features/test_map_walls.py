@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from semnav_env.features import Scan, extract
 from semnav_env.features.elements import Wall
-from semnav_env.features.frames import to_parent
+from semnav_env.features.frames import ORIGIN, to_parent
+from semnav_env.features.mapping import LineMap, MapSettings
 from semnav_env.features.mapping.duplicate_walls import without_duplicates
 from semnav_env.features.mapping.line_cells import CELL_LENGTH
 from semnav_env.features.mapping.lines import Line, fuse, gap, line_of
@@ -111,3 +113,15 @@ def test_a_short_line_along_a_long_one_is_a_double():
     long, short = Wall((0.0, 0.0), (5.0, 0.0)), Wall((1.0, 0.03), (2.0, 0.05))
     back, far = Wall((4.0, -0.05), (1.0, -0.05)), Wall((1.0, 0.3), (2.0, 0.3))
     assert without_duplicates((short, long, back, far)) == (long, back, far)
+
+
+def test_a_wall_whose_ends_are_far_away_is_mapped():
+    """A corridor that is seen 9.9 m far in both directions; the walls are 1 m away."""
+    angles = np.linspace(-math.pi, math.pi, 1440, endpoint=False)
+    with np.errstate(divide="ignore"):
+        ranges = 1.0 / np.abs(np.sin(angles))
+    scan = Scan(ranges, angles[0], angles[1] - angles[0], range_max=9.9)
+    line_map = LineMap(MapSettings(wall_hits=1))
+    line_map.add(extract(scan), scan, ORIGIN)
+    assert len(line_map.walls) == 2
+    assert all(wall.length > 15.0 for wall in line_map.walls)

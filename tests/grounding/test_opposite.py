@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -154,6 +157,20 @@ def test_an_unseen_opposite_side_is_inspected_by_turning() -> None:
     assert isinstance(follower.goal, PassGoal)
     assert isinstance(follower.goal, PassGoal)
     assert follower.goal.door.midpoint == (3.0, -1.0)
+
+
+@pytest.mark.parametrize("kind", [np.array, list])
+def test_doors_whose_ends_are_arrays_are_found_as_others(kind: Callable[..., Any]) -> None:
+    doors = tuple(Door(kind(door.start), kind(door.end)) for door in FACING.doors)
+    assert doors == tuple(FACING.doors)
+    assert answer(TO_FIRST, Scene(FACING.walls, doors), (0.0, 0.0, 0.0)) == answer(
+        TO_FIRST, FACING, (0.0, 0.0, 0.0)
+    )
+
+
+def test_a_door_whose_end_is_no_point_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"end is .*; it must be \(x, y\), two finite numbers"):
+        Door((0.0, 0.0), np.array([1.0, 0.0, 0.0]))  # type: ignore[arg-type]
 
 
 def test_no_door_is_called_missing_before_the_first_scan() -> None:

@@ -119,6 +119,28 @@ def test_a_bent_corridor_that_is_blocked_is_found_with_the_end() -> None:
         assert fault.where == pytest.approx(end, abs=1.1)
 
 
+@pytest.mark.parametrize("angle", [0.0, 40.0])
+def test_both_ends_of_a_corridor_that_turns_back_are_its_legs(angle: float) -> None:
+    """A U of legs 2 m wide, 6 m apart and 20 m long: blocking either leg cuts off its end."""
+    ring = (0, 0), (10, 0), (10, 20), (8, 20), (8, 2), (2, 2), (2, 20), (0, 20), (0, 0)
+    walls = line(*ring)
+    for blocks in ([], [(0.01, 12, 1.6, 12.5)], [(8.4, 12, 9.99, 12.5)]):
+        surfaces = (walls, *(cabinet(*block) for block in blocks))
+        turned = [
+            replace(
+                s, points=tuple(shapely.affinity.rotate(LineString(s.points), angle, (0, 0)).coords)
+            )
+            for s in surfaces
+        ]
+        hall = shapely.affinity.rotate(Polygon(ring), angle, (0, 0))
+        plan = FloorPlan("u", tuple(turned), (), (), (Region("hall", hall),), (), hall)
+        ends = [shapely.affinity.rotate(Point(*f.where), -angle, (0, 0)) for f in check(plan)]
+        assert len(ends) == len(blocks)
+        for end, block in zip(ends, blocks, strict=True):
+            assert block[0] - 0.1 < end.x < block[2] + 0.1
+            assert end.y > 18.0
+
+
 def test_what_stands_in_a_doorway_is_found() -> None:
     plan = room_at_a_corridor(0.9, cabinet(3.95, 2.1, 4.05, 2.2))
     assert "door: furniture at (4.05, 2.20) stands in this doorway" in found(plan)
