@@ -13,7 +13,7 @@ from semnav_env.features import ExtractorSettings, Scan, Scene, extract
 from semnav_env.features.plot import check_suffix, save_page
 from semnav_env.features.readers import Geometry, ScanLog, TruncatedLogError, open_log
 from semnav_env.scripts.jsonl import JsonLines
-from semnav_env.scripts.outputs import check_file
+from semnav_env.scripts.outputs import check_distinct, check_file
 from semnav_env.scripts.progress import tracked
 from semnav_env.scripts.sampling import EvenSample
 from semnav_env.scripts.scene_report import ExtractionTally, document
@@ -96,5 +96,6 @@ class Arguments:
             raise ValueError(f"--out is the log itself, {self.log}; give another file")
         check_file(self.out, "--out")
         check_file(self.plot, "--plot")
+        check_distinct({"the log": self.log, "--out": self.out, "--plot": self.plot})
         if self.plot:
             check_suffix(self.plot)

@@ -25,7 +25,7 @@ from semnav_env.features.readers import (
 from semnav_env.maps import FloorPlan, save_floor_plan
 from semnav_env.maps.line_map_plan import plan_of_scene
 from semnav_env.scripts.arguments import parse_pose
-from semnav_env.scripts.outputs import check_file
+from semnav_env.scripts.outputs import check_distinct, check_file
 from semnav_env.scripts.progress import tracked
 
 
@@ -125,6 +125,7 @@ class Arguments:
             raise ValueError(f"--out is the log itself, {self.log}; give another file")
         check_file(self.out, "--out")
         check_file(self.picture, "--picture")
+        check_distinct({"the log": self.log, "--out": self.out, "--picture": self.picture})
         if self.picture:
             check_suffix(self.picture)
 

@@ -12,6 +12,7 @@ from tyro.conf import Positional
 from semnav_env.features.plot import check_suffix
 from semnav_env.maps import save_floor_plan
 from semnav_env.maps.importers import Drawing, Tracing, import_map
+from semnav_env.scripts.outputs import check_distinct
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,11 @@ class Arguments:
             raise ValueError(f"--out is the map itself, {self.source}; give another file")
         if self.picture:
             check_suffix(self.picture)
+        outputs = {"--out": self.out, "--picture": self.picture}
+        check_distinct(outputs)
         plan, report = import_map(self.source, self.resolution, self.tracing, self.drawing)
+        for read in report.source:  # a .yaml file names its image
+            check_distinct({"the map": Path(read), **outputs})
         save_floor_plan(plan, self.out)
         if self.picture:
             from semnav_env.maps.draw import save_picture

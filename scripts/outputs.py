@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 
@@ -20,6 +21,24 @@ def check_file(path: Path | None, option: str) -> None:
     if path.is_dir():
         raise ValueError(f"{option}: '{path}' is a folder; give a file")
     check_folder(path.parent, option)
+
+
+def check_distinct(paths: Mapping[str, Path | None]) -> None:
+    """Refuse one file for two things: the later would overwrite the earlier.
+
+    Args:
+        paths: of files, by the option that gave each, or by what it is; None is no file.
+
+    Raises:
+        ValueError: two are the same file; names both.
+    """
+    taken: dict[Path, str] = {}
+    for name, path in paths.items():
+        if path is None:
+            continue
+        other = taken.setdefault(path.resolve(), name)
+        if other != name:
+            raise ValueError(f"{name}: '{path}' is {other}, too; give another file")
 
 
 def check_folder(path: Path | None, option: str) -> None:

@@ -1,6 +1,7 @@
 import json
 
 import pytest
+from PIL import Image
 
 from semnav_env.maps import load_floor_plan
 from semnav_env.routes.describe import describe
@@ -8,6 +9,7 @@ from semnav_env.routes.route import RouteError
 from semnav_env.routes.route_to import route_to
 from semnav_env.scripts import main as cli
 from semnav_env.scripts.outputs import check_file, check_folder, counted
+from tests.support.drawn_maps import DOORS, two_rooms, write_map
 
 
 @pytest.fixture
@@ -57,6 +59,43 @@ def test_folders_that_are_missing_can_be_made(here):
     check_folder(here / "new" / "one", "--pictures")
     check_folder(here / "folder", "--pictures")
     assert sorted(path.name for path in here.iterdir()) == ["afile", "folder"]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            ("extract", "a.log", "--out", "a.png", "--plot", "a.png"),
+            "--plot: 'a.png' is --out, too",
+        ),
+        (("extract", "a.png", "--plot", "a.png"), "--plot: 'a.png' is the log, too"),
+        (
+            ("map", "build", "a.log", "--out", "a.svg", "--picture", "folder/../a.svg"),
+            "--picture: 'folder/../a.svg' is --out, too; give another file",
+        ),
+        (
+            ("map", "import", "floor.yaml", "--out", "a.svg", "--picture", "a.svg"),
+            "--picture: 'a.svg' is --out, too",
+        ),
+        (
+            ("map", "import", "floor.yaml", "--out", "a.geojson", "--picture", "floor.png"),
+            "--picture: 'floor.png' is the map, too",
+        ),
+        (
+            ("map", "import", "floor.yaml", "--out", "doors.yaml"),
+            "--out: 'doors.yaml' is the map, too",
+        ),
+    ],
+)
+def test_no_file_is_written_that_is_read_or_written_already(capsys, here, words, message):
+    """The picture replaced the scenes of a log, and the image of an occupancy map."""
+    path = write_map(here, two_rooms())
+    path.write_text(path.read_text().replace("floor.pgm", "floor.png"))
+    (here / "doors.yaml").write_text(DOORS)
+    Image.open(here / "floor.pgm").save(here / "floor.png")
+    before = {file: file.read_bytes() for file in here.iterdir() if file.is_file()}
+    assert message in refusal(capsys, *words)
+    assert before == {file: file.read_bytes() for file in here.iterdir() if file.is_file()}
 
 
 def test_one_thing_is_singular():
