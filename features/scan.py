@@ -13,10 +13,10 @@ from semnav_env.features.frames import FloatArray
 _MAX_FIRST_ANGLE = 8.0 * math.pi
 """A first direction beyond this is in degrees, not a heading that was not wrapped; radians."""
 
-_MAX_RANGE = 1000.0
+MAX_RANGE = 1000.0
 """Longest range that any lidar of a robot has, metres."""
 
-_NO_LENGTH = 1000.0 * _MAX_RANGE
+_NO_LENGTH = 1000.0 * MAX_RANGE
 """What is as long as this means no return, in metres and in millimetres."""
 
 _MAX_SWEEP = 4.0 * math.pi
@@ -103,9 +103,9 @@ def _check_numbers(values: dict[str, float]) -> None:
             f"range_min {values['range_min']} and range_max {values['range_max']} must satisfy "
             "0 <= range_min < range_max"
         )
-    if values["range_max"] > _MAX_RANGE:
+    if values["range_max"] > MAX_RANGE:
         raise ValueError(
-            f"range_max is {values['range_max']:g}; it must be metres, at most {_MAX_RANGE:g}: "
+            f"range_max is {values['range_max']:g}; it must be metres, at most {MAX_RANGE:g}: "
             "divide ranges and limits in millimetres by 1000"
         )
 

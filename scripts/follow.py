@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
@@ -16,11 +17,12 @@ from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Pose
 from semnav_env.features.plot import check_suffix
-from semnav_env.features.readers import Geometry, LogRecord, open_log
+from semnav_env.features.readers import Geometry, LogRecord, TruncatedLogError, open_log
 from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.ground import understood
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
+from semnav_env.scripts.scene_report import bad_text
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,8 @@ class Arguments:
 
     The robot is told the command at the first scan. Each line is a moment in which its clause or
     its goal changed. The frame is that of odometry and begins at the first scan. The exit code is
-    0 if the robot believes in the end that it has carried out the whole command, and 1 if not.
+    0 if the robot believes in the end that it has carried out the whole command, and 1 if not. A
+    log that is cut short is followed up to its last whole scan; the exit code is then 2.
 
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag; see `semnav extract --help`.
@@ -67,7 +70,7 @@ class Arguments:
         check_file(self.plot, "--plot")
         if self.plot is not None:
             check_suffix(self.plot)
-        beliefs = self._follow(command, mount)
+        beliefs, damage = self._follow(command, mount)
         done = beliefs[-1].clause
         if not self.json:
             print(f"believed to be done: {done} of {len(command.clauses)} clauses")
@@ -77,22 +80,34 @@ class Arguments:
             save_beliefs(self.plot, beliefs, len(command.clauses), str(command))
             if not self.json:
                 print(f"wrote {self.plot}")
+        if damage:
+            raise damage
         return 0 if done == len(command.clauses) else 1
 
-    def _follow(self, command: Command, mount: Pose) -> list[Belief]:
-        """Print each change of mind; returns all beliefs."""
+    def _follow(
+        self, command: Command, mount: Pose
+    ) -> tuple[list[Belief], TruncatedLogError | None]:
+        """Print each change of mind; returns all beliefs, and what ended the log too early."""
         beliefs: list[Belief] = []
+        damage: TruncatedLogError | None = None
         with open_log(self.log, self.geometry, self.topic) as log:
             stop = None if self.limit is None else self.first - 1 + self.limit
             records = islice(log, self.first - 1, stop)
             followed = follow_log(records, command, mount=mount, extractor=self.settings)
-            for record, belief in tracked(followed, lambda n: f"{n} scans", lambda: log.fraction):
-                if not beliefs or _mind(belief) != _mind(beliefs[-1]):
-                    print(self._line(record, belief, command))
-                beliefs.append(belief)
+            try:
+                for record, belief in tracked(
+                    followed, lambda n: f"{n} scans", lambda: log.fraction
+                ):
+                    if not beliefs or _mind(belief) != _mind(beliefs[-1]):
+                        print(self._line(record, belief, command))
+                    beliefs.append(belief)
+            except TruncatedLogError as error:
+                damage = error
+            if log.bad:
+                print(bad_text(log), file=sys.stderr)
         if not beliefs:
-            raise ValueError(f"{self.log} has no scan {self.first}")
-        return beliefs
+            raise damage or ValueError(f"{self.log} has no scan {self.first}")
+        return beliefs, damage
 
     def _line(self, record: LogRecord, belief: Belief, command: Command) -> str:
         clauses = command.clauses

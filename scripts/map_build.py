@@ -27,6 +27,7 @@ from semnav_env.maps.line_map_plan import plan_of_scene
 from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.outputs import check_distinct, check_file
 from semnav_env.scripts.progress import tracked
+from semnav_env.scripts.scene_report import bad_text
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ class Arguments:
             except TruncatedLogError as error:
                 damage = error
         plan = plan_of_scene(line_map.scene, self.out.stem, f"mapped from {self.log.name}")
-        self._write(plan, line_map, odometry.lost)
+        self._write(plan, line_map, odometry.lost, log)
         if damage:
             raise damage
         return 0
@@ -92,7 +93,7 @@ class Arguments:
         for record, pose in tracked(placed, lambda n: f"{n} scans", lambda: log.fraction):
             line_map.add(extract(record.scan, self.settings), record.scan, pose)
 
-    def _write(self, plan: FloorPlan, line_map: LineMap, lost: int) -> None:
+    def _write(self, plan: FloorPlan, line_map: LineMap, lost: int, log: ScanLog) -> None:
         save_floor_plan(plan, self.out)
         if self.picture:
             from semnav_env.maps.draw import save_picture
@@ -102,6 +103,7 @@ class Arguments:
             "scans": line_map.scans,
             "repeated": line_map.repeated,
             "lost": lost,
+            "bad_lines": dict(log.bad.most_common()),
             "walls": len(line_map.walls),
             "doors": len(plan.doors),
             "out": str(self.out),
@@ -112,7 +114,10 @@ class Arguments:
             left_out = " ({repeated} more left out, taken where the one before was)"
             said = f"{{scans}} scans{left_out if line_map.repeated else ''}, {{walls}} walls"
             no_match = "\n{lost} scans found no match and count as moved as guessed" if lost else ""
-            print(f"{said}, {{doors}} doors{no_match}\nwrote {{out}}".format(**counts))
+            print(f"{said}, {{doors}} doors{no_match}".format(**counts))
+            if log.bad:
+                print(bad_text(log))
+            print(f"wrote {self.out}")
             if self.picture:
                 print(f"wrote {self.picture}")
 

@@ -48,6 +48,15 @@ def _door(door: Door) -> dict[str, Any]:
     }
 
 
+def bad_text(log: ScanLog) -> str:
+    """How many lines, rows or messages of a log could not be read, and by reason."""
+    reasons = [
+        f"  {count} x {reason} (first: {log.unit} {log.first_bad[reason]})"
+        for reason, count in log.bad.most_common()
+    ]
+    return "\n".join([f"{log.bad.total()} bad {log.unit}s", *reasons])
+
+
 class ExtractionTally:
     """Counts of what a run has found, and its speed.
 
@@ -83,13 +92,7 @@ class ExtractionTally:
         """The summary for people."""
         rate = f", {self.rate:.0f} scans per second" if self.rate else ""
         found = ", ".join(f"{self.found[kind]} {kind}" for kind in _KINDS)
-        unit = self._log.unit
-        lines = [f"{self.scenes} scans{rate}", found, f"{self._log.bad.total()} bad {unit}s"]
-        lines += [
-            f"  {count} x {reason} (first: {unit} {self._log.first_bad[reason]})"
-            for reason, count in self._log.bad.most_common()
-        ]
-        return "\n".join(lines)
+        return "\n".join([f"{self.scenes} scans{rate}", found, bad_text(self._log)])
 
     def as_json(self, whole: bool, written: list[Path]) -> str:
         """The summary for programs, with whether the log was whole and which files were written."""

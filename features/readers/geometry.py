@@ -9,7 +9,7 @@ from typing import Annotated, TypeAlias
 from semnav_env.features.checked_fields import Bounds, check_fields
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.readers.log import BadRecordError
-from semnav_env.features.scan import Scan
+from semnav_env.features.scan import MAX_RANGE, Scan
 
 _FARTHEST = 4.0 * math.pi
 Direction: TypeAlias = Annotated[float, Bounds(-_FARTHEST, _FARTHEST, "rad")]
@@ -42,7 +42,7 @@ class Geometry:
         ValueError: a field is no number, or out of its bounds; names it.
     """
 
-    range_max: Annotated[float, Bounds(0.01, 1e6, "m")] = 50.0
+    range_max: Annotated[float, Bounds(0.01, MAX_RANGE, "m")] = 50.0
     beam_spacing: Annotated[float | None, Bounds(1e-3, 360.0, "degrees")] = None
     angle_min: Direction | None = None
     angle_increment: Direction | None = None
