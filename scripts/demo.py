@@ -15,6 +15,7 @@ from semnav_env.agents.base import Agent, steps
 from semnav_env.agents.registry import make_agent
 from semnav_env.agents.translating.interpreter import understand
 from semnav_env.commands import SearchHouse
+from semnav_env.commands.speech.recognition import language_of_text
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.dynamics.social import for_json
 from semnav_env.env import SemNavEnv
@@ -86,7 +87,8 @@ class Arguments:
         filmed = self.save is not None or self.picture is not None
         env = self._environment(plan, agent, searches, filmed)
         frames_apart = STEPS_PER_SEARCH_FRAME if searches else STEPS_PER_FRAME
-        options: dict[str, Any] = {"command": command}
+        spoken = language_of_text(self.command, self.language)
+        options: dict[str, Any] = {"command": command, "language": spoken.code}
         if self.pose is not None:
             options["pose"] = parse_pose(self.pose)
         observation, start = env.reset(seed=self.seed, options=options)
@@ -99,9 +101,10 @@ class Arguments:
             info = step.info
             if filmed and (number % frames_apart == 0 or "is_success" in info):
                 frames.append(env.render())  # type: ignore[arg-type]
+        echo = env.judge.verifier.mission.command.say(spoken)
         env.close()
         self._save(frames, env.metadata["render_fps"] / STEPS_PER_FRAME)
-        self._report(start, info, env.seconds, for_json(env.world.social()))
+        self._report(start, echo, info, env.seconds, for_json(env.world.social()))
         return 0 if info["is_success"] else 1
 
     def _environment(
@@ -149,7 +152,12 @@ class Arguments:
             save_png(self.picture, frames[-1])
 
     def _report(
-        self, start: dict[str, Any], info: dict[str, Any], seconds: float, social: dict[str, Any]
+        self,
+        start: dict[str, Any],
+        echo: str,
+        info: dict[str, Any],
+        seconds: float,
+        social: dict[str, Any],
     ) -> None:
         outcome = {
             "command": start["command"],
@@ -176,7 +184,7 @@ class Arguments:
         if "search" in outcome and self.agent is None:
             print(KNOWS_THE_PLAN)
         print(
-            f'"{start["command"]}": {verdict} after {seconds:.1f} s and '
+            f'"{echo}": {verdict} after {seconds:.1f} s and '
             f"{info['path_length']:.1f} m, {info['collisions']} collisions"
         )
         if "search" in outcome:

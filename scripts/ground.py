@@ -11,17 +11,21 @@ from tyro.conf import Positional
 from semnav_env.commands import (
     AmbiguousCommandError,
     Approach,
+    Clause,
     Command,
     CommandError,
     GoToDoor,
     parse,
 )
+from semnav_env.commands.language import Language
+from semnav_env.commands.speech.recognition import language_of_text
+from semnav_env.grounding import GroundingError
 from semnav_env.grounding.goal import door_of
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
 from semnav_env.scripts.arguments import parse_pose
-from semnav_env.verifier import plan_goals
+from semnav_env.verifier.goals import goals_in_turn
 
 TABLE_HEADINGS = f"{'goal':<6}{'x, m':>9}{'y, m':>9}{'heading, rad':>14}  clause"
 
@@ -57,21 +61,30 @@ class Arguments:
         if error is not None:
             raise ValueError(f"pose {self.pose}: {error}")
         command = understood(self.command, self.language, floor_plan.room_names)
-        goals = plan_goals(floor_plan, command, pose)
+        spoken = language_of_text(self.command, self.language)
+        try:
+            goals = list(goals_in_turn(floor_plan, command, pose))
+        except GroundingError as refused:
+            raise refused.in_words_of(spoken) from None
         rows = [
             {
                 "kind": goal.kind.name.lower(),
-                "understood": goal.because,
+                "understood": _in_words(goal.because, command.clauses[clause], spoken),
                 "pose": [round(value, 3) for value in goal.pose],
                 "door": door.name if (door := door_of(goal)) is not None else None,
             }
-            for goal in goals
+            for clause, goal in goals
         ]
         if self.json:
             print(json.dumps(rows))
         else:
             print("\n".join([TABLE_HEADINGS, *map(_line, rows)]))
         return 0
+
+
+def _in_words(because: str, clause: Clause, spoken: Language) -> str:
+    """What was understood, in the language of the command; goals speak English alone."""
+    return because if spoken.code == "en" else clause.say(spoken)
 
 
 def _line(row: dict[str, Any]) -> str:

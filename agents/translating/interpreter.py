@@ -15,12 +15,10 @@ from semnav_env.commands.corpora.meanings import meaning_of, normal
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.interpreters import Interpretation
 from semnav_env.commands.language import Language
-from semnav_env.commands.languages import english, language_of
 from semnav_env.commands.normalise import normalise
 from semnav_env.commands.parser import check_rooms, differences, readings
-from semnav_env.commands.speech.recognition import recognised
+from semnav_env.commands.speech.recognition import language_of_text
 from semnav_env.commands.speech.understanding import QUESTION
-from semnav_env.commands.words import pieces
 
 SETTLED = (QUESTION, "a distance is")
 """How problems begin that the grammar has understood: "30 cm" is no occasion to ask about 30 m."""
@@ -200,9 +198,7 @@ class LearnedInterpreter:
         return found
 
     def _spoken(self, text: str) -> Language:
-        if self.language is not None:
-            return language_of(self.language)
-        return recognised([piece.text for piece in pieces(normalise(text, english()).text)])
+        return language_of_text(text, self.language)
 
 
 def understand(text: str, language: str | None = None, rooms: Sequence[str] = ()) -> Command:

@@ -55,9 +55,15 @@ class MissionMaker:
         start, command = self._complete(pose, command, rng)
         if request.implicit_steps and not drawn:  # a drawn one can be carried out as it is
             command = self._with_implicit_steps(command, start)
-        return plan_mission(
-            self.floor_plan, self.geodesic, command, start, request.feasible, self.rules
-        )
+        try:
+            return plan_mission(
+                self.floor_plan, self.geodesic, command, start, request.feasible, self.rules
+            )
+        except GroundingError as error:
+            from semnav_env.commands.speech.recognition import language_of_text  # only to say why
+
+            spoken = language_of_text(request.instruction, request.language)
+            raise error.in_words_of(spoken) from None
 
     def _complete(
         self, pose: Pose | None, command: Command | None, rng: np.random.Generator

@@ -32,9 +32,9 @@ def plan_goals(
         rules: distances and tolerances.
 
     Raises:
-        GroundingError: a clause cannot be carried out.
+        GroundingError: a clause cannot be carried out; of several, the message says which.
     """
-    return tuple(goals_in_turn(floor_plan, command, start, guide, rules))
+    return tuple(goal for _, goal in goals_in_turn(floor_plan, command, start, guide, rules))
 
 
 def goals_in_turn(
@@ -43,16 +43,23 @@ def goals_in_turn(
     start: Pose,
     guide: Guide | None = None,
     rules: Rules = Rules(),
-) -> Iterator[Goal]:
-    """As `plan_goals`, but the goals before the clause that cannot be carried out come first."""
+) -> Iterator[tuple[int, Goal]]:
+    """As `plan_goals`, each with the index of its clause; an error comes after the goals before."""
     guide = RoomGuide(floor_plan, command) if guide is None else guide
     follower = Follower(command, complete=True, guide=guide, rules=rules)
     scene = floor_plan.scene_by(rules.door)
-    follower.start(scene, start)
-    while not follower.done:
-        check_grounded(follower)
-        yield follower.goal
-        follower.skip_to_next(scene)
+    try:
+        follower.start(scene, start)
+        while not follower.done:
+            check_grounded(follower)
+            yield follower.active, follower.goal
+            follower.skip_to_next(scene)
+    except GroundingError as error:
+        if len(command.clauses) == 1:
+            raise
+        from semnav_env.grounding.clause_error import ClauseError  # few commands need it
+
+        raise ClauseError(command, follower.active, str(error)) from None
 
 
 def check_grounded(follower: Follower) -> None:

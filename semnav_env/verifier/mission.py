@@ -98,7 +98,7 @@ def plan_mission(
     guide = RoomGuide(floor_plan, command, geodesic)
     goals: tuple[Goal, ...] = ()
     try:
-        for goal in goals_in_turn(floor_plan, command, start, guide, rules):
+        for _, goal in goals_in_turn(floor_plan, command, start, guide, rules):
             goals += (goal,)
     except GroundingError:
         if feasible:

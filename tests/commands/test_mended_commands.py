@@ -161,3 +161,35 @@ def test_frozen_texts_with_and_then_are_read_as_their_programs(name: str) -> Non
     split, _, number = name.rpartition("-")
     episode = load_episodes(split)[int(number)]
     assert readings(episode.command, episode.language) == episode.programs
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "drive for 10 seconds",
+        "go down the hallway for 5 minutes",
+        "go straight for 3 seconds",
+        "go to the second door in 5 seconds",
+        "turn left after 5 seconds",
+        "fahr 10 Sekunden geradeaus",
+        "fahr den Flur 5 Minuten entlang",
+    ],
+)
+def test_how_long_to_drive_is_never_taken_for_a_wait(text: str) -> None:
+    with pytest.raises(CommandError) as caught:
+        parse(text)
+    assert not isinstance(caught.value, AmbiguousCommandError)
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("in 5 seconds turn left", "wait for 5 seconds and turn left"),
+        ("halte 3 Sekunden an", "stop and wait for 3 seconds"),
+        ("stop at the second door for 5 seconds", "go to the second door and wait for 5 seconds"),
+        ("go to the second door, 5 seconds", "go to the second door and wait for 5 seconds"),
+        ("give me five seconds", "wait for 5 seconds"),
+    ],
+)
+def test_a_time_that_says_how_long_to_stand_is_a_wait(text: str, meant: str) -> None:
+    assert str(parse(text)) == meant

@@ -5,8 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from semnav_env.commands.language import Language
-from semnav_env.commands.languages import languages
+from semnav_env.commands.languages import english, language_of, languages
+from semnav_env.commands.normalise import normalise
 from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of, mixed
+from semnav_env.commands.words import pieces
+
+
+def language_of_text(text: str, language: str | Language | None = None) -> Language:
+    """The language of a text: the one that is given, or the one that is recognised.
+
+    Raises:
+        CommandError: it has characters that no command has.
+        ValueError: there is no such language.
+    """
+    if language is not None:
+        return language_of(language)
+    return recognised([piece.text for piece in pieces(normalise(text, english()).text)])
 
 
 def recognised(words: Sequence[str]) -> Language:

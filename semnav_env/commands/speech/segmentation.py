@@ -129,6 +129,9 @@ class ClauseSegmentation:
         before, items = self.items[begin - 1], self.items[begin:stop]
         bare = all(item.kind in (ItemKind.SIDE, ItemKind.STRAIGHT) for item in items)
         straight = items[0].kind is ItemKind.STRAIGHT and before.kind is ItemKind.REF
+        if _is_time(items):
+            stops = before.kind is ItemKind.VERB and {"stop", "wait"} & set(before.value.split())
+            return not stops  # "drive for 5 minutes" does not say to wait
         only_noun = is_only_noun(items) and not _is_turn_noun(items[0])
         return only_noun or straight or (bare and before.kind is not ItemKind.OUT)
 
@@ -223,6 +226,12 @@ class ClauseSegmentation:
                 return None
             return on_premise(items[-1].value, inner[0]), inner[1]
         return read_clause(items)
+
+
+def _is_time(items: Sequence[Item]) -> bool:
+    """Whether a clause only says how long, or in which time."""
+    kinds = {item.kind for item in items}
+    return ItemKind.SECONDS in kinds <= {ItemKind.SECONDS, ItemKind.PARTICLE, ItemKind.IN}
 
 
 def _is_turn_noun(item: Item) -> bool:

@@ -51,6 +51,8 @@ def read_wait(frame: ClauseFrame) -> Readings | None:
         raise ValueError(f"one waits for whole seconds, not {seconds:g}")
     if frame.verbs - {"stop", "wait", "go", "continue", "make"} or frame.sides:
         raise NoMeaningError("a time and something else")
+    if frame.verbs and not frame.verbs - {"go", "continue"}:
+        raise ValueError("how long to drive is not understood: say how far, or to wait so long")
     rest = replace_items(frame, ItemKind.SECONDS)
     if any(item.value.kind == "it" and "before" in frame.roles(item) for item in rest.refs):
         raise NoMeaningError("wait in front of it")

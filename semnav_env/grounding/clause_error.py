@@ -1,0 +1,44 @@
+"""Why one clause of a command cannot be grounded."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from semnav_env.commands.command import Command
+from semnav_env.commands.language import Language
+from semnav_env.commands.languages import language_of
+from semnav_env.grounding.errors import GroundingError
+
+
+class ClauseError(GroundingError):
+    """One of the several clauses of a command cannot be carried out; the message names it.
+
+    Args:
+        command: the command.
+        clause: index of the clause.
+        reason: why it cannot be carried out.
+        language: of the words of the clause in the message.
+    """
+
+    def __init__(
+        self, command: Command, clause: int, reason: str, language: str | Language = "en"
+    ) -> None:
+        self.command, self.clause, self.reason = command, clause, reason
+        words = command.clauses[clause].say(language_of(language))
+        why = reason.removeprefix(f"{command.clauses[clause]}: ")
+        number = f"clause {clause + 1} of {len(command.clauses)}"
+        super().__init__(f'{number}, "{words}", cannot be carried out: {why}')
+
+    def in_words_of(self, language: Language) -> ClauseError:
+        """The same error with the clause in the words of a language."""
+        return ClauseError(self.command, self.clause, self.reason, language)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.command, self.clause, self.reason, str(self))
+
+
+def _restored(command: Command, clause: int, reason: str, message: str) -> ClauseError:
+    """A pickled error, with the words in which it was said."""
+    error = ClauseError(command, clause, reason)
+    error.args = (message,)
+    return error
