@@ -12,7 +12,6 @@ from semnav_env.grounding.counted_doors import CountedDoor, doors_along, doors_s
 from semnav_env.grounding.door_geometry import heading_through
 from semnav_env.grounding.errors import GroundingError, UnclearError
 from semnav_env.grounding.junctions import junctions_ahead
-from semnav_env.grounding.room_exits import room_exits
 from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation, is_behind, turned
 from semnav_env.grounding.visible_doors import doors_around, own_doorway
@@ -97,6 +96,8 @@ def find_exit(situation: Situation) -> Known[CountedDoor] | Searching:
     if door is None:
         around = doors_around(scene, begin, rules=rules)
         if not situation.complete:
+            from semnav_env.grounding.room_exits import room_exits  # few commands need it
+
             around = room_exits(around, scene, begin, rules)
         if not around and not situation.complete:
             return situation.turn_to(turned(begin)[2], "the door of the room")
