@@ -26,8 +26,8 @@ MEASURES = {
     "stay": ("C2", "clause not over, and seen so"),
 }
 
-STYLES = ("o-", "s--", "^:", "v-.", "d-")
-"""Markers and lines of the trainings of `listener`."""
+BUNDLED = "bundled"
+"""Name of the bundled training of `listener`, whose lines are thick; others have thin ones."""
 
 WHO_COLLECTS = (("C0", "scripted agent, round 0"), ("C1", "learner, round 1"))
 
@@ -55,46 +55,45 @@ def draw_cloning(ax: Axes) -> None:
 
 
 def listeners() -> dict[str, list[dict[str, Any]]]:
-    """The curves of `listener`, by their name in the legend: of the bundled one, and by seed."""
-    found = {"bundled": ModelCard.read(BUNDLED_FOLDER / "listener").curve}
+    """The curves of `listener`: of the bundled training, and by seed."""
+    found = {BUNDLED: ModelCard.read(BUNDLED_FOLDER / "listener").curve}
     return found | {f"seed {seed}": card["curve"] for seed, card in kept("listener").items()}
 
 
 def draw_listening(ax: Axes) -> None:
     """Shares of the samples held out of which `listener` says what is right, over epochs."""
-    for style, (name, curve) in zip(STYLES, listeners().items(), strict=False):
+    begin = 0
+    for name, curve in listeners().items():
         epochs = [row for row in curve if "epoch" in row]
         for measure, (colour, label) in MEASURES.items():
-            points = range(1, len(epochs) + 1), [row[measure] for row in epochs]
-            ax.plot(
-                *points, style, color=colour, linewidth=1, markersize=3, label=f"{label}, {name}"
-            )
+            points = [(k, row[measure]) for k, row in enumerate(epochs, 1)]
+            _draw_training(ax, name, points, colour, label)
         begin = sum(row["round"] == 0 for row in epochs)
     ax.axvline(begin + 0.5, color="black", linewidth=0.8, linestyle=":")
-    ax.text(begin + 0.6, 0.94, "DAgger", transform=ax.get_xaxis_transform())
+    ax.text(begin + 0.7, 0.3, "DAgger", transform=ax.get_xaxis_transform())
     ax.set(xlabel="epoch", ylabel="share that is right", title="listener, samples held out")
     ax.set_ylim(0.0, 1.08)
-    ax.legend(fontsize=7, loc="lower right")
+    ax.legend(fontsize=8, loc="lower center")
 
 
 def draw_driving(ax: Axes) -> None:
     """Success of `listener` while it collects, over chunks of episodes."""
-    for style, (name, curve) in zip(STYLES, listeners().items(), strict=False):
+    for name, curve in listeners().items():
         chunks = list(enumerate((row for row in curve if "chunk" in row), 1))
-        for number, (colour, who) in enumerate(WHO_COLLECTS):
+        for number, (colour, label) in enumerate(WHO_COLLECTS):
             points = [(k, row["success"]) for k, row in chunks if row["round"] == number]
-            label = f"{who}, {name}"
-            ax.plot(
-                *zip(*points, strict=True),
-                style,
-                color=colour,
-                linewidth=1,
-                markersize=3,
-                label=label,
-            )
+            _draw_training(ax, name, points, colour, label)
     ax.set(xlabel="chunk of 50 episodes of train", ylabel="success", title="listener, who collects")
     ax.set_ylim(0.0, 1.02)
-    ax.legend(fontsize=7, loc="lower left")
+    ax.legend(fontsize=8, loc="lower left")
+
+
+def _draw_training(
+    ax: Axes, name: str, points: list[tuple[int, float]], colour: str, label: str
+) -> None:
+    """Draw one curve of one training; the bundled one alone stands in the legend."""
+    width, shown = (2.0, label) if name == BUNDLED else (0.7, None)
+    ax.plot(*zip(*points, strict=True), ".-", color=colour, linewidth=width, label=shown)
 
 
 def main() -> None:
