@@ -20,6 +20,7 @@ from typing import Any, TypeVar, overload
 
 from numba import njit, types
 from numba.core import compiler, config, dispatcher
+from numba.core.ccallback import CFunc
 from numba.core.codegen import JITCodeLibrary
 from numba.core.cpu import CPUContext
 from numba.core.environment import Environment
@@ -122,6 +123,14 @@ class Kernel(CPUDispatcher):
         """Compile for a signature, or load what was compiled before."""
         with _no_garbage_collection():
             return super().compile(sig)
+
+
+def callback_address(function: Callable[..., Any], arguments: tuple[Any, ...], result: Any) -> int:
+    """Address of a function, compiled for these types and kept like a kernel, for C to call it."""
+    callback = CFunc(function, (arguments, result), {}, {"error_model": "numpy"})
+    callback._cache = KernelCache(function)  # type: ignore[assignment]
+    callback.compile()
+    return int(callback.address or 0)
 
 
 def _kernel_named(module: str, name: str) -> Any:

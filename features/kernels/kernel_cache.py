@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import pickle
 import zlib
 from collections.abc import Callable
@@ -12,6 +13,8 @@ from typing import Any
 
 from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
+from numba.core.environment import Environment, lookup_environment
+from numba.core.runtime import rtsys
 from numba.core.serialize import dumps
 
 from semnav_env.features.kernels.cache_folder import cache_folder
@@ -41,6 +44,27 @@ def unsealed(data: bytes) -> bytes:
     return content
 
 
+class _KernelReader(pickle.Unpickler):
+    """Reads a kept kernel without the modules of the functions in it, among them numba's own."""
+
+    def find_class(self, module: str, name: str) -> Any:
+        """What a pickle names."""
+        if (module, name) == ("numba.core.environment", "_rebuild_env"):
+            return _environment
+        return super().find_class(module, name)
+
+
+def _environment(module: str, constants: list[Any], name: str) -> Environment:
+    """A function's environment as numba makes it, but without globals: machine code uses none."""
+    found = lookup_environment(name)
+    if found is None:
+        found = Environment({"__name__": module})
+        found.consts[:] = constants
+        found.env_name = name
+        Environment._memo[name] = found
+    return found
+
+
 class KernelCache(_Cache):
     """Keeps one kernel between runs.
 
@@ -67,10 +91,10 @@ class KernelCache(_Cache):
         """The kernel compiled for a signature, or None."""
         if not self._enabled:
             return None
-        target_context.refresh()
+        rtsys.initialize(target_context)  # without what compiling needs, which takes long to import
         path, key = self._entry(sig, target_context.codegen())
         try:
-            kept, payload = pickle.loads(unsealed(path.read_bytes()))
+            kept, payload = _KernelReader(io.BytesIO(unsealed(path.read_bytes()))).load()
             return CompileResult._rebuild(target_context, *payload) if kept == key else None
         except FileNotFoundError:
             return None

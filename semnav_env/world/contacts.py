@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 import pymunk
-from numba import cfunc, types
+from numba import types
 from numba.np.numpy_support import carray
 from pymunk._chipmunk import ffi, lib
 
 from semnav_env.features.frames import MOST_CONTACTS
+from semnav_env.features.kernels.compiling import callback_address
 from semnav_env.world.chipmunk_functions import (
     ADDRESS,
     INDEX,
@@ -68,8 +69,7 @@ def note_contacts(space: pymunk.Space, record: np.ndarray, compiled: bool) -> No
 @cache
 def _compiled_callback() -> int:
     """Address of `_note`, which is compiled only where it can call Chipmunk."""
-    signature = types.void(ADDRESS, ADDRESS, types.voidptr)
-    return int(cfunc(signature, cache=True, error_model="numpy")(_note).address or 0)
+    return callback_address(_note, (ADDRESS, ADDRESS, types.voidptr), types.void)
 
 
 def _note(arbiter: int, space: int, record: Any) -> None:

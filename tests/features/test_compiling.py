@@ -123,6 +123,21 @@ def test_a_damaged_file_is_compiled_anew(tmp_path, content):
     assert outcome(use_kernels(tmp_path))[:2] == (first, 0)
 
 
+LOAD_A_KERNEL = """
+import sys
+from tests.support.small_kernels import counting
+counting(3)
+print({"numba.np.arraymath", "scipy.linalg"} & set(sys.modules))
+"""
+
+
+def test_loading_a_kept_kernel_imports_nothing_to_compile_with(tmp_path):
+    outcome(use_kernels(tmp_path))
+    environment = {**os.environ, "SEMNAV_CACHE_DIR": str(tmp_path)}
+    command = [sys.executable, "-c", LOAD_A_KERNEL]
+    assert subprocess.check_output(command, cwd=ROOT, env=environment, text=True) == "set()\n"
+
+
 def test_a_place_that_cannot_be_written_to_is_replaced(tmp_path):
     blocked = tmp_path / "file"
     blocked.touch()
