@@ -7,12 +7,15 @@ import math
 import re
 from collections.abc import Sequence
 from contextlib import redirect_stderr
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Optional, Protocol, TypeAlias, cast
 
 import tyro
 
 if TYPE_CHECKING:  # `semnav doctor` must start without the compiled kernels
     from semnav_env.features.frames import Pose
+
+OptionalText: TypeAlias = Optional[str]  # noqa: UP045 - for `str | None` tyro imports typeguard
+"""A text or None, as a command's option that saves 0.05 s of its start."""
 
 
 class Runnable(Protocol):

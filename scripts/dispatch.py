@@ -13,7 +13,7 @@ import signal
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from importlib import import_module, metadata
+from importlib import import_module
 
 from semnav_env.features.validation import clipped
 
@@ -78,6 +78,8 @@ class CommandTable:
             print(self._help())
             return 0
         if name == "--version":
+            from importlib import metadata
+
             print(f"semnav {metadata.version('semnav-env')}")
             return 0
         if name not in self.commands:

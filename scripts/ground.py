@@ -24,7 +24,7 @@ from semnav_env.grounding.goal import door_of
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import robot_spec
-from semnav_env.scripts.arguments import parse_pose
+from semnav_env.scripts.arguments import OptionalText, parse_pose
 from semnav_env.verifier.goals import goals_in_turn
 
 TABLE_HEADINGS = f"{'goal':<6}{'x, m':>9}{'y, m':>9}{'heading, rad':>14}  clause"
@@ -51,7 +51,7 @@ class Arguments:
     pose: str
     map: str = "heidelberg_hallway"
     robot: str = "wheelchair"
-    language: str | None = None
+    language: OptionalText = None
     json: bool = False
 
     def run(self) -> int:

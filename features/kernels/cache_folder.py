@@ -75,14 +75,15 @@ def forget_old_versions(base: Path) -> None:
 
 def _sources() -> Iterator[tuple[str, str]]:
     """Every module of the installed package: its place in it, without the suffix, and its text."""
-    top = Path(sys.modules[__name__.partition(".")[0]].__path__[0])
+    top = sys.modules[__name__.partition(".")[0]].__path__[0]
     for folder, folders, files in os.walk(top, followlinks=True):
         folders[:] = [f for f in folders if f != "__pycache__"]
         for file in files:
             if file.endswith(".py"):
-                path = Path(folder, file)
-                place = path.relative_to(top).with_suffix("").as_posix()
-                yield place, path.read_text(encoding="utf-8")
+                path = os.path.join(folder, file)
+                place = path[len(top) + 1 : -len(".py")].replace(os.sep, "/")
+                with open(path, "rb") as source:
+                    yield place, source.read().decode()
 
 
 def _behind_kernels(sources: Mapping[str, str]) -> set[str]:

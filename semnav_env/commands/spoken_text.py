@@ -10,7 +10,6 @@ from semnav_env.commands.errors import AmbiguousCommandError
 from semnav_env.commands.language import Language
 from semnav_env.commands.languages import english
 from semnav_env.commands.normalise import normalise
-from semnav_env.commands.refusal import refusal
 from semnav_env.commands.repeats import told_once
 from semnav_env.commands.speech.items import ItemKind
 from semnav_env.commands.speech.lexicon import (
@@ -22,7 +21,6 @@ from semnav_env.commands.speech.lexicon import (
 )
 from semnav_env.commands.speech.recognition import lexicon_for, recognised
 from semnav_env.commands.speech.room_words import name_phrases
-from semnav_env.commands.speech.typos import corrected_words
 from semnav_env.commands.speech.understanding import Understanding, understand
 from semnav_env.commands.words import TextPiece, pieces
 
@@ -49,6 +47,8 @@ def readings_of_text(
     said = with_room_names(spoken_pieces(found, lexicon), lexicon, names)
     understood = _understood(said, lexicon, names)
     if not understood.commands:
+        from semnav_env.commands.refusal import refusal  # here, as most texts are understood
+
         understood = _without_slips(said, lexicon, names, text) or understood
         _ask_without_unread(said, lexicon, names, text, understood)
         raise refusal(understood, said, normalised, lexicon, rooms, forced=language is not None)
@@ -90,6 +90,8 @@ def _without_slips(
     Raises:
         AmbiguousCommandError: it would mean something.
     """
+    from semnav_env.commands.speech.typos import corrected_words
+
     words = [piece.text for piece in said]
     if any(word in lexicon.of_class("beyond") - lexicon.words for word in words):
         return None

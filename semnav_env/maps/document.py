@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 from functools import cache
 from pathlib import Path
-from typing import Any, NoReturn, TypeAlias
-
-from jsonschema import Draft202012Validator
-from rapidfuzz import process
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 from semnav_env.features import reading
 from semnav_env.maps.rules import FloorPlanError
+
+if TYPE_CHECKING:  # bundled plans do without it
+    from jsonschema import Draft202012Validator
 
 Document: TypeAlias = dict[str, Any]
 """A floor plan file as JSON gives it."""
@@ -42,12 +42,13 @@ def read_text(path: Path) -> str:
         raise FloorPlanError(f"{path}: cannot be read: {error.strerror}") from None
 
 
-def parse_document(text: str, where: str) -> Document:
+def parse_document(text: str, where: str, *, follows_schema: bool = False) -> Document:
     """The document in `text`, checked against floor_plan.schema.json.
 
     Args:
         text: JSON; NaN and Infinity are refused.
         where: name of the text in an error, as the name of a file.
+        follows_schema: it is known to follow the schema, which is not checked then.
 
     Raises:
         FloorPlanError: not JSON, too large, or not what the schema asks for.
@@ -56,7 +57,8 @@ def parse_document(text: str, where: str) -> Document:
         document = json.loads(text, parse_constant=_refuse, parse_int=float)
         _check_sizes(document)
         _drop_nulls(document)
-        _check_schema(document)
+        if not follows_schema:
+            _check_schema(document)
     except FloorPlanError as error:
         raise FloorPlanError(f"{where}: {error}") from None
     except json.JSONDecodeError as error:
@@ -71,6 +73,8 @@ def parse_document(text: str, where: str) -> Document:
 @cache
 def validator() -> Draft202012Validator:
     """The compiled schema of floor plans."""
+    from jsonschema import Draft202012Validator
+
     return Draft202012Validator(json.loads(SCHEMA_FILE.read_text("utf-8")))
 
 
@@ -143,6 +147,8 @@ def _explain(error: Any) -> str:
         case "type":
             return f"must be of type {asked}, not {_short(given)}"
         case "enum":
+            from rapidfuzz import process
+
             near = process.extractOne(str(given)[:80], asked, score_cutoff=60)
             hint = f"; did you mean {near[0]!r}?" if near else ""
             return f"must be one of {', '.join(asked)}, not {_short(given)}{hint}"

@@ -31,27 +31,33 @@ SOLID_KINDS = frozenset(Material)
 """Kinds of features that are solid."""
 
 
-def read_plan(path: Path) -> FloorPlan:
+def read_plan(path: Path, *, follows_schema: bool = False) -> FloorPlan:
     """Read and check one file.
+
+    Args:
+        path: the file.
+        follows_schema: it is known to follow the schema, which takes long to check.
 
     Raises:
         FloorPlanError: names the file, the feature, what is wrong and what would be right.
     """
-    return parse_plan(read_text(path), str(path), path.stem)
+    text = read_text(path)
+    return parse_plan(text, str(path), path.stem, follows_schema=follows_schema)
 
 
-def parse_plan(text: str, where: str, name: str) -> FloorPlan:
+def parse_plan(text: str, where: str, name: str, *, follows_schema: bool = False) -> FloorPlan:
     """The plan in a GeoJSON text.
 
     Args:
         text: the document.
         where: name of the document in an error.
         name: the plan's name if the document gives none.
+        follows_schema: as for `read_plan`.
 
     Raises:
         FloorPlanError: as `read_plan`.
     """
-    document = parse_document(text, where)
+    document = parse_document(text, where, follows_schema=follows_schema)
     parts: dict[str, list[Any]] = {}
     for index, feature in enumerate(document["features"]):
         try:

@@ -5,7 +5,10 @@ from random import Random
 import pytest
 
 from semnav_env.commands import AmbiguousCommandError, CommandError, parse, readings
+from semnav_env.commands.languages import english
 from semnav_env.commands.normalise import MAX_WORDS
+from semnav_env.commands.speech.lexicon import lexicon_of
+from semnav_env.commands.speech.recognition import recognised
 
 MEANT = """
 if the door on the left is closed, take the door on the right = if you do not see the first door on the left, go through the first door on the right
@@ -169,3 +172,9 @@ def test_separable_verbs_and_compounds_are_taken_apart() -> None:
     text = "an der Gangkreuzung rechts, dann an zwei Türen vorbeischlendern"
     meant = "turn right at the first intersection and go down the hallway past the second door"
     assert str(parse(text)) == meant
+
+
+def test_a_language_that_knows_every_word_is_recognised_alone():
+    lexicon_of.cache_clear()
+    assert recognised(["go", "left", ",", "then", "right"]) == english()
+    assert lexicon_of.cache_info().currsize == 1

@@ -14,8 +14,10 @@ from shapely import LineString, Point, box
 
 from semnav_env.maps import Material, Surface, bundled_names, load_floor_plan
 from semnav_env.maps.check import check
+from semnav_env.maps.document import parse_document
 from semnav_env.maps.doorways import DoorState, door_state
 from semnav_env.maps.draw import draw_floor_plan, leave_out_overlapping, save_picture
+from semnav_env.maps.library import BUNDLED_FOLDER
 from semnav_env.robots import ROBOTS, WHEELCHAIR
 from tests.support.plan_geometry import inward, lane, reachable, solid
 
@@ -24,6 +26,12 @@ every_plan = pytest.mark.parametrize("name", bundled_names())
 
 def test_there_are_three_plans() -> None:
     assert bundled_names() == ("heidelberg_hallway", "office_cross", "villa_hall")
+
+
+@every_plan
+def test_a_bundled_plan_follows_the_schema(name: str) -> None:
+    text = (BUNDLED_FOLDER / f"{name}.geojson").read_text("utf-8")
+    assert parse_document(text, name)
 
 
 @every_plan

@@ -138,6 +138,11 @@ def test_looking_at_floor_plans_loads_no_kernel(words):
     assert not loaded_by(*words) & KERNELS
 
 
+def test_grounding_a_plain_command_loads_what_it_needs():
+    words = ("ground", "go left", "--map", "office_cross", "--pose", "3,11.5,0")
+    assert not loaded_by(*words) & {"typeguard", "jsonschema", "rapidfuzz", "asyncio"}
+
+
 def test_map_list_and_show_agree(capsys, tmp_path):
     code, out, _ = run(capsys, "map", "list", "--json")
     plans = json.loads(out)

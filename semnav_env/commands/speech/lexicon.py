@@ -7,6 +7,7 @@ around it.
 from __future__ import annotations
 
 import json
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
@@ -126,14 +127,15 @@ def compound_numbers(language: Language) -> Iterator[tuple[str, float]]:
 def _indexed(
     texts: Iterable[tuple[str, str, str]], compiler: PhraseCompiler, language: Language
 ) -> SpeechLexicon:
-    by_first: dict[str, list[tuple[Phrase, str, str]]] = {}
+    by_first: defaultdict[str, list[tuple[Phrase, str, str]]] = defaultdict(list)
     known: set[str] = set()
     for text, kind, value in texts:
         for phrase in compiler.compiled(text):
             known.update(() if kind == "beyond" else words_of(phrase))
+            entry = phrase, kind, value
             for first in first_words(phrase):
-                by_first.setdefault(first, []).append((phrase, kind, value))
-    return SpeechLexicon(by_first, frozenset(known.union(compiler.words())), language)
+                by_first[first].append(entry)
+    return SpeechLexicon(dict(by_first), frozenset(known.union(compiler.words())), language)
 
 
 @cache

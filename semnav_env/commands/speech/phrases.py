@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import product
+from itertools import chain, product
 from typing import TypeAlias
 
 from semnav_env.commands.language import Language
@@ -86,8 +86,8 @@ class PhraseCompiler:
         for token in tokens:
             if token not in self._tokens:  # most words stand in many phrases
                 self._tokens[token] = self._token(token)
-        for choice in product(*(self._tokens[token] for token in tokens)):
-            yield tuple(part for parts in choice for part in parts)
+        for choice in product(*map(self._tokens.__getitem__, tokens)):
+            yield tuple(chain.from_iterable(choice))
 
     def words(self) -> Iterator[str]:
         """The words of the sets that phrases have used."""
@@ -116,4 +116,4 @@ class PhraseCompiler:
 def plain_words(phrase: str, language: Language) -> tuple[str, ...]:
     """The words of a phrase as they stand in a normalised text."""
     folded = language.folded(phrase.casefold()).replace("ß", "ss")
-    return tuple(piece.text for piece in pieces(folded))
+    return (folded,) if folded.isalpha() else tuple(piece.text for piece in pieces(folded))
