@@ -183,9 +183,14 @@ def corridor_along(
         pose: in the same frame.
     """
     (x, y, heading), half_width, end, (left, right), rows = survey(walls, doors, named, *pose)
-    openings = [SideOpening(*row) for row in rows.tolist()]
+    openings = _openings(rows)
     frame = x, y, wrap_angle(heading)
     return Corridor(frame, left, right, half_width, end, _junctions(openings, end))
+
+
+def openings_at(scene: StillScene, pose: Pose) -> list[SideOpening]:
+    """The openings of the corridor that `corridor_at` would give, of which nothing is kept."""
+    return _openings(survey(scene.wall_ends, scene.door_ends, scene.named_doors, *pose)[-1])
 
 
 def axis_at(scene: StillScene, pose: Pose) -> CorridorAxis:
@@ -199,6 +204,10 @@ def doorway_at(scene: Scene, pose: Pose) -> Door | None:
     """The door that a robot at `pose` stands in, looking through it; None if it does not."""
     doors = zip(scene.doors, ends_of(scene.doors), strict=True)
     return next((door for door, ends in doors if stands_in(ends, *pose)), None)
+
+
+def _openings(rows: np.ndarray) -> list[SideOpening]:
+    return [SideOpening(*row) for row in rows.tolist()]
 
 
 def _junctions(openings: list[SideOpening], end: float) -> tuple[Junction, ...]:

@@ -135,6 +135,11 @@ class StillScene(Scene):
         """What was last found from a pose."""
         return {}
 
+    @cached_property
+    def known_doors(self) -> dict[Any, Any]:
+        """The doors that were last counted along a corridor, by some rules."""
+        return {}
+
 
 def _moved(item: _Item, move: Callable[[Point], Point], *points: str) -> _Item:
     """The item with these of its points moved; a point that is None stays so."""

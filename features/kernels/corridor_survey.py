@@ -114,9 +114,24 @@ def survey_axis(
         The frame of the axis; how far the corridor goes back, and where it ends; the typical
         distances of its left and its right side; and walls and doors in the frame of the axis.
     """
-    x, y, heading = pose
+    solid, heading = axis_heading(walls, doors, certain, pose)
+    return axis_along(solid, pose[0], pose[1], heading)
+
+
+@kernel(counts_references=True)
+def axis_heading(
+    walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
+) -> tuple[FloatArray, float]:
+    """The walls and doors that bound a corridor, shape (k, 4), and its axis's heading, radians."""
     solid = _solid(walls, doors, certain, pose)
-    heading = prevailing_heading(solid, len(walls), x, y, heading)
+    return solid, prevailing_heading(solid, len(walls), *pose)
+
+
+@kernel(counts_references=True)
+def axis_along(
+    solid: FloatArray, x: float, y: float, heading: float
+) -> tuple[Frame, float, float, float, float, FloatArray]:
+    """`survey_axis` along a known heading, between the walls and doors of `axis_heading`."""
     local = in_frame(solid, x, y, heading)
     offset, straight = way_ahead(local)
     shift(local, offset)

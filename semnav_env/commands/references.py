@@ -7,6 +7,7 @@ import re
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 from numbers import Integral
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -90,8 +91,22 @@ class Spoken(ABC):
         return self.say(english())
 
 
+class OrdinalReference(Spoken):
+    """Base of references that count; there are few, so what was said of them is kept."""
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        return _said_in_english(self)
+
+
+@lru_cache(maxsize=1024)
+def _said_in_english(reference: Spoken) -> str:
+    return Spoken.__str__(reference)
+
+
 @dataclass(frozen=True, slots=True)
-class DoorReference(Spoken):
+class DoorReference(OrdinalReference):
     """A door by its ordinal and side: "the second door on the right".
 
     Attributes:
@@ -114,7 +129,7 @@ class DoorReference(Spoken):
 
 
 @dataclass(frozen=True, slots=True)
-class PlaceReference(Spoken):
+class PlaceReference(OrdinalReference):
     """A place by its ordinal: "the second intersection", "the corner", "the end of the hallway".
 
     Attributes:

@@ -23,11 +23,19 @@ class ClauseError(GroundingError):
     def __init__(
         self, command: Command, clause: int, reason: str, language: str | Language = "en"
     ) -> None:
-        self.command, self.clause, self.reason = command, clause, reason
-        words = command.clauses[clause].say(language_of(language))
-        why = reason.removeprefix(f"{command.clauses[clause]}: ")
-        number = f"clause {clause + 1} of {len(command.clauses)}"
-        super().__init__(f'{number}, "{words}", cannot be carried out: {why}')
+        super().__init__(command, clause, reason, language)
+        self.command, self.clause, self.reason, self._language = command, clause, reason, language
+        self._message: str | None = None
+
+    def __str__(self) -> str:
+        """The message, worded when it is read: of commands that are drawn at random it is not."""
+        if self._message is None:
+            clause = self.command.clauses[self.clause]
+            words, why = clause.say(language_of(self._language)), self.reason
+            number = f"clause {self.clause + 1} of {len(self.command.clauses)}"
+            why = why.removeprefix(f"{clause}: ")
+            self._message = f'{number}, "{words}", cannot be carried out: {why}'
+        return self._message
 
     def in_words_of(self, language: Language) -> ClauseError:
         """The same error with the clause in the words of a language."""
@@ -40,5 +48,5 @@ class ClauseError(GroundingError):
 def _restored(command: Command, clause: int, reason: str, message: str) -> ClauseError:
     """A pickled error, with the words in which it was said."""
     error = ClauseError(command, clause, reason)
-    error.args = (message,)
+    error._message = message
     return error

@@ -95,7 +95,7 @@ def put_goal(record: np.ndarray, field: str, goal: Goal) -> None:
     flags = int(goal.kind), door is not None, bool(goal.places)
     numbers = (*goal.pose, *ends, *tolerances, width, wait_of(goal), *flags)
     fields: Any = record.dtype.fields
-    _GOAL_FORMAT.pack_into(record.view(np.uint8).data, fields[field][1], *numbers)
+    _GOAL_FORMAT.pack_into(record, fields[field][1], *numbers)
 
 
 @kernel

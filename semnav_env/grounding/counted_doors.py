@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 
 from semnav_env.commands.references import Side
-from semnav_env.features.corridor import Corridor
+from semnav_env.features.corridor import MAX_KNOWN_VIEWS, Corridor
 from semnav_env.features.frames import Point, Pose, heading_between, middle_of, to_local, wrap_angle
-from semnav_env.features.scene import Door, Scene
+from semnav_env.features.scene import Door, Scene, StillScene
 from semnav_env.grounding.door_geometry import bearing, heading_through
 from semnav_env.grounding.visible_doors import doors_around
 from semnav_env.rules import GroundingRules
@@ -61,9 +61,28 @@ def doors_along(
         side: count only the doors there.
         rules: distances.
     """
-    counted = [_counted(door, corridor, rules) for door in scene.doors]
-    ahead = [door for door in counted if door is not None and side in (None, door.side)]
-    return sorted(ahead, key=lambda door: door.along)
+    every = _known_doors_along(scene, corridor, rules)
+    return [door for door in every if side in (None, door.side)]
+
+
+def _known_doors_along(
+    scene: Scene, corridor: Corridor, rules: GroundingRules
+) -> list[CountedDoor]:
+    """The doors on all sides; in a scene that never changes they are counted once a corridor."""
+    if not isinstance(scene, StillScene):
+        return _all_doors_along(scene, corridor, rules)
+    known, key = scene.known_doors, (corridor, rules)
+    if key not in known:
+        if len(known) >= MAX_KNOWN_VIEWS:
+            known.clear()
+        known[key] = _all_doors_along(scene, corridor, rules)
+    found: list[CountedDoor] = known[key]
+    return found
+
+
+def _all_doors_along(scene: Scene, corridor: Corridor, rules: GroundingRules) -> list[CountedDoor]:
+    counted = (_counted(door, corridor, rules) for door in scene.doors)
+    return sorted((each for each in counted if each is not None), key=lambda door: door.along)
 
 
 def doors_straight_ahead(scene: Scene, pose: Pose, rules: GroundingRules) -> list[CountedDoor]:

@@ -6,12 +6,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.compiling import kernel
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.floor_plan import FloorPlan, edges_of
 
 HAS_ROOM, HAS_NO_ROOM, IS_DOUBTFUL = 0, 1, 2
 """What `box_room` answers; doubtful is what exact geometry must decide."""
@@ -39,22 +38,16 @@ class SolidEdges:
     @classmethod
     def of(cls, plan: FloorPlan) -> SolidEdges:
         """Those of a plan."""
-        rings = [plan.boundary.exterior, *plan.boundary.interiors]
-        pieces = [_edges(piece.exterior) for piece in plan.furniture.geometries]
+        pieces = [edges_of(piece) for piece in plan.furniture.geometries]
         starts = np.cumsum([0, *map(len, pieces)])
         furniture = np.vstack((np.empty((0, 4)), *pieces))
-        outline = np.vstack([*map(_edges, rings)])
+        outline = edges_of(plan.boundary)
         return cls(np.vstack((plan.segments, outline)), outline, furniture, starts)
 
     def room(self, pose: Pose, half_length: float, half_width: float) -> int:
         """Whether a rectangle has room at the pose of its centre, see `box_room`."""
         arrays = self.edges, self.outline, self.furniture, self.pieces
         return box_room(*arrays, *pose, half_length, half_width)
-
-
-def _edges(ring: shapely.LinearRing) -> FloatArray:
-    points = shapely.get_coordinates(ring)
-    return np.hstack((points[:-1], points[1:]))
 
 
 @kernel
@@ -87,10 +80,10 @@ def box_room(
     near = _meets(edges, x, y, heading, half_length, half_width)
     if near != HAS_ROOM:
         return near
-    if not _is_inside(outline, x, y):
+    if not is_inside(outline, x, y):
         return HAS_NO_ROOM
     for k in range(len(pieces) - 1):
-        if _is_inside(furniture[pieces[k] : pieces[k + 1]], x, y):
+        if is_inside(furniture[pieces[k] : pieces[k + 1]], x, y):
             return HAS_NO_ROOM
     return HAS_ROOM
 
@@ -131,7 +124,7 @@ def _meets_box(
 
 
 @kernel
-def _is_inside(edges: FloatArray, x: float, y: float) -> bool:
+def is_inside(edges: FloatArray, x: float, y: float) -> bool:
     """Whether a ray from a point to the east crosses the edges an odd number of times."""
     inside = False
     for i in range(len(edges)):

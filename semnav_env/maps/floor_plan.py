@@ -10,7 +10,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import Polygon, STRtree, linestrings
+from shapely import Polygon, STRtree, get_coordinates, get_parts, get_rings, linestrings
+from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.rules import DoorRules
@@ -104,6 +105,17 @@ class Region:
     name: str
     polygon: Polygon
     assumed: bool = False
+
+    @cached_property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Least x, least y, greatest x and greatest y, metres."""
+        west, south, east, north = self.polygon.bounds
+        return west, south, east, north
+
+    @cached_property
+    def edges(self) -> FloatArray:
+        """`edges_of` its polygon."""
+        return edges_of(self.polygon)
 
 
 NamedPart = TypeVar("NamedPart", PlanDoor, Region)
@@ -253,6 +265,12 @@ def _named(parts: tuple[NamedPart, ...], name: str, problem: str) -> NamedPart:
 
 def _pairs(surface: Surface) -> list[tuple[Point, Point]]:
     return list(zip(surface.points, surface.points[1:], strict=False))
+
+
+def edges_of(area: BaseGeometry) -> FloatArray:
+    """The edges of an area's outline and of its holes, shape (n, 4): x1, y1, x2, y2 in metres."""
+    rings = [get_coordinates(ring) for ring in get_rings(get_parts(area))]
+    return np.vstack((np.empty((0, 4)), *(np.hstack((r[:-1], r[1:])) for r in rings)))
 
 
 def _frozen(array: FloatArray) -> FloatArray:
