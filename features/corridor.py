@@ -16,7 +16,13 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
 from semnav_env.features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND
-from semnav_env.features.kernels.corridor_survey import first_gap, stands_in, survey, survey_axis
+from semnav_env.features.kernels.corridor_survey import (
+    axis_along,
+    axis_heading,
+    first_gap,
+    stands_in,
+    survey,
+)
 from semnav_env.features.scene import Door, Scene, StillScene, ends_of
 
 MIN_CONTINUATION = 1.2
@@ -195,8 +201,8 @@ def openings_at(scene: StillScene, pose: Pose) -> list[SideOpening]:
 
 def axis_at(scene: StillScene, pose: Pose) -> CorridorAxis:
     """The axis of the corridor that `corridor_at` would give; it takes half the time."""
-    walls, doors = scene.wall_ends, scene.door_ends
-    (x, y, heading), _, end, left, right, _ = survey_axis(walls, doors, scene.named_doors, pose)
+    solid, axis = axis_heading(scene.wall_ends, scene.door_ends, scene.named_doors, pose)
+    (x, y, heading), _, end, left, right, _ = axis_along(solid, *pose[:2], axis)
     return CorridorAxis((x, y, wrap_angle(heading)), 0.5 * (left + right), end)
 
 

@@ -127,8 +127,8 @@ class Kernel(CPUDispatcher):
 
 def callback_address(function: Callable[..., Any], arguments: tuple[Any, ...], result: Any) -> int:
     """Address of a function, compiled for these types and kept like a kernel, for C to call it."""
-    callback = CFunc(function, (arguments, result), {}, {"error_model": "numpy"})
-    callback._cache = KernelCache(function)  # type: ignore[assignment]
+    callback: Any = CFunc(function, (arguments, result), {}, {"error_model": "numpy"})
+    callback._cache = KernelCache(function)
     callback.compile()
     return int(callback.address or 0)
 

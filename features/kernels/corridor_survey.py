@@ -93,8 +93,8 @@ def survey(
         axis; the distance of the left and of the right side at each probe, inf where there is
         none, shape (2, PROBE_COUNT); and the openings, dtype `OPENING`.
     """
-    pose = (x, y, heading)
-    frame, back, end, left, right, local = survey_axis(walls, doors, certain, pose)
+    solid, axis = axis_heading(walls, doors, certain, (x, y, heading))
+    frame, back, end, left, right, local = axis_along(solid, x, y, axis)
     openings = np.empty(MAX_OPENINGS, OPENING)
     sides = np.empty((2, PROBE_COUNT))
     count = 0
@@ -105,24 +105,10 @@ def survey(
 
 
 @kernel(counts_references=True)
-def survey_axis(
-    walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
-) -> tuple[Frame, float, float, float, float, FloatArray]:
-    """Find the axis and the end of a corridor, see `survey`.
-
-    Returns:
-        The frame of the axis; how far the corridor goes back, and where it ends; the typical
-        distances of its left and its right side; and walls and doors in the frame of the axis.
-    """
-    solid, heading = axis_heading(walls, doors, certain, pose)
-    return axis_along(solid, pose[0], pose[1], heading)
-
-
-@kernel(counts_references=True)
 def axis_heading(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> tuple[FloatArray, float]:
-    """The walls and doors that bound a corridor, shape (k, 4), and its axis's heading, radians."""
+    """The walls and doors that bound a corridor, shape (k, 4), and the heading of its axis."""
     solid = _solid(walls, doors, certain, pose)
     return solid, prevailing_heading(solid, len(walls), *pose)
 
@@ -131,7 +117,12 @@ def axis_heading(
 def axis_along(
     solid: FloatArray, x: float, y: float, heading: float
 ) -> tuple[Frame, float, float, float, float, FloatArray]:
-    """`survey_axis` along a known heading, between the walls and doors of `axis_heading`."""
+    """Find the axis and the end of a corridor, given what `axis_heading` tells.
+
+    Returns:
+        The frame of the axis; how far the corridor goes back, and where it ends; the typical
+        distances of its left and its right side; and walls and doors in the frame of the axis.
+    """
     local = in_frame(solid, x, y, heading)
     offset, straight = way_ahead(local)
     shift(local, offset)

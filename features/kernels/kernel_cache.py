@@ -14,11 +14,10 @@ from typing import Any
 from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
 from numba.core.environment import Environment, lookup_environment
-from numba.core.runtime import rtsys
+from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 
 from semnav_env.features.kernels.cache_folder import cache_folder
-from semnav_env.features.writing import write_file
 
 CHECKSUM_BYTES = 4
 """Size of the checksum that a file begins with."""
@@ -56,7 +55,7 @@ class _KernelReader(pickle.Unpickler):
 
 def _environment(module: str, constants: list[Any], name: str) -> Environment:
     """A function's environment as numba makes it, but without globals: machine code uses none."""
-    found = lookup_environment(name)
+    found: Environment | None = lookup_environment(name)
     if found is None:
         found = Environment({"__name__": module})
         found.consts[:] = constants
@@ -107,6 +106,8 @@ class KernelCache(_Cache):
         """Keep what was compiled for a signature, if it can be kept."""
         if not self._enabled or data.lifted or data.library.has_dynamic_globals:
             return
+        from semnav_env.features.writing import write_file  # only what was compiled is written
+
         path, key = self._entry(sig, data.codegen)
         with suppress(Exception):  # a full disk, or what no pickle can hold
             write_file(path, sealed(dumps((key, data._reduce()))))

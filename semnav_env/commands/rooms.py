@@ -7,8 +7,6 @@ import unicodedata
 from collections import Counter
 from collections.abc import Sequence
 
-from semnav_env.commands.words import pieces
-
 MAX_NAME = 40
 """The longest plain name, characters."""
 
@@ -45,6 +43,8 @@ def spoken_names(names: Sequence[str]) -> dict[str, str]:
 
 
 def _in_words(name: str) -> str:
+    from semnav_env.commands.words import pieces  # plain names do without
+
     return " ".join(piece.text for piece in pieces(name))
 
 

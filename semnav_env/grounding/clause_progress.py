@@ -94,8 +94,8 @@ def put_goal(record: np.ndarray, field: str, goal: Goal) -> None:
         tolerances = goal.tolerances
     flags = int(goal.kind), door is not None, bool(goal.places)
     numbers = (*goal.pose, *ends, *tolerances, width, wait_of(goal), *flags)
-    fields: Any = record.dtype.fields
-    _GOAL_FORMAT.pack_into(record, fields[field][1], *numbers)
+    buffer: Any = record
+    _GOAL_FORMAT.pack_into(buffer, buffer.dtype.fields[field][1], *numbers)
 
 
 @kernel

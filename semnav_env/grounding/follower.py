@@ -31,7 +31,6 @@ from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.grounding.goals import search_goal
 from semnav_env.grounding.ground import goal_of
-from semnav_env.grounding.known_way import next_on_way
 from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation, is_behind, turned
 from semnav_env.grounding.ways import Guide, KnownWays, Trail, Way
@@ -122,6 +121,10 @@ class Follower:
 
     def target(self, pose: Pose) -> Goal:
         """What a robot at a pose should head for now: the goal, or the next place on the way."""
+        if not self.goal.places:
+            return self.goal
+        from semnav_env.grounding.known_way import next_on_way  # few goals lie on a known way
+
         return next_on_way(self.goal, pose, self.rules.grounding)
 
     def look(self, scene: Scene, pose: Pose) -> None:

@@ -1,30 +1,26 @@
-"""A floor plan file as a checked JSON document: sizes first, then syntax, then the schema."""
+"""A floor plan file as a JSON document of a bearable size; `schema` checks what it holds."""
 
 from __future__ import annotations
 
 import json
-from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
 from semnav_env.features import reading
 from semnav_env.maps.rules import FloorPlanError
 
-if TYPE_CHECKING:  # bundled plans do without it
-    from jsonschema import Draft202012Validator
-
 Document: TypeAlias = dict[str, Any]
 """A floor plan file as JSON gives it."""
 
-
-SCHEMA_FILE = Path(__file__).with_name("floor_plan.schema.json")
-"""The JSON Schema of floor plan files."""
 
 MAX_FEATURES = 10_000
 """Largest number of features in a file; checking a plan takes time that grows with it."""
 
 MAX_NUMBERS = 100_000
 """Largest number of coordinates in a file, two for each position."""
+
+TOO_DEEP = "nested too deeply; a plan needs eight levels"
+"""What is wrong with a document that Python cannot read for its depth."""
 
 
 def read_text(path: Path) -> str:
@@ -42,40 +38,29 @@ def read_text(path: Path) -> str:
         raise FloorPlanError(f"{path}: cannot be read: {error.strerror}") from None
 
 
-def parse_document(text: str, where: str, *, follows_schema: bool = False) -> Document:
-    """The document in `text`, checked against floor_plan.schema.json.
+def parse_document(text: str, where: str) -> Document:
+    """The document in `text`, without null attributes; `check_schema` checks it further.
 
     Args:
         text: JSON; NaN and Infinity are refused.
         where: name of the text in an error, as the name of a file.
-        follows_schema: it is known to follow the schema, which is not checked then.
 
     Raises:
-        FloorPlanError: not JSON, too large, or not what the schema asks for.
+        FloorPlanError: not JSON, or too large.
     """
     try:
         document = json.loads(text, parse_constant=_refuse, parse_int=float)
         _check_sizes(document)
         _drop_nulls(document)
-        if not follows_schema:
-            _check_schema(document)
     except FloorPlanError as error:
         raise FloorPlanError(f"{where}: {error}") from None
     except json.JSONDecodeError as error:
         place = f"line {error.lineno}, column {error.colno}"
         raise FloorPlanError(f"{where}: not JSON: {error.msg} at {place}") from None
     except RecursionError:
-        raise FloorPlanError(f"{where}: nested too deeply; a plan needs eight levels") from None
+        raise FloorPlanError(f"{where}: {TOO_DEEP}") from None
     checked: Document = document
     return checked
-
-
-@cache
-def validator() -> Draft202012Validator:
-    """The compiled schema of floor plans."""
-    from jsonschema import Draft202012Validator
-
-    return Draft202012Validator(json.loads(SCHEMA_FILE.read_text("utf-8")))
 
 
 def label(document: Document, index: int) -> str:
@@ -120,50 +105,3 @@ def _drop_nulls(document: object) -> None:
         if isinstance(feature, dict) and isinstance(feature.get("properties"), dict):
             kept = {k: v for k, v in feature["properties"].items() if v is not None}
             feature["properties"] = kept
-
-
-def _check_schema(document: Any) -> None:
-    error = next(validator().iter_errors(document), None)
-    if error is None:
-        return
-    path = list(error.absolute_path)
-    where = ""
-    if path[:1] == ["features"] and len(path) > 1:
-        where, path = f"{label(document, int(path[1]))}: ", path[2:]
-    place = ".".join(map(str, path))
-    raise FloorPlanError(f"{where}{place}{': ' if place else ''}{_explain(error)}")
-
-
-def _explain(error: Any) -> str:
-    """Say in one line what is wrong and what would be right.
-
-    Args:
-        error: a `jsonschema.ValidationError` that has all its attributes.
-    """
-    asked, given = error.validator_value, error.instance
-    match error.validator:
-        case "const":
-            return f"must be {asked!r}, not {_short(given)}"
-        case "type":
-            return f"must be of type {asked}, not {_short(given)}"
-        case "enum":
-            from rapidfuzz import process
-
-            near = process.extractOne(str(given)[:80], asked, score_cutoff=60)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            return f"must be one of {', '.join(asked)}, not {_short(given)}{hint}"
-        case "required":
-            return f"lacks {', '.join(repr(name) for name in asked if name not in given)}"
-        case "additionalProperties":
-            known = error.schema["properties"]
-            unknown = ", ".join(_short(name) for name in given if name not in known)
-            return f"has {unknown[:80]}; only {', '.join(known)} are known"
-        case "minItems" | "minLength":
-            return f"{_short(given)} has a length of {len(given)}; at least {asked} are needed"
-        case _:
-            return f"{_short(given)} has a length of {len(given)}; at most {asked} are allowed"
-
-
-def _short(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:50]} ..."

@@ -57,7 +57,11 @@ def parse_plan(text: str, where: str, name: str, *, follows_schema: bool = False
     Raises:
         FloorPlanError: as `read_plan`.
     """
-    document = parse_document(text, where, follows_schema=follows_schema)
+    document = parse_document(text, where)
+    if not follows_schema:
+        from semnav_env.maps.schema import check_schema  # bundled plans do without it
+
+        check_schema(document, where)
     parts: dict[str, list[Any]] = {}
     for index, feature in enumerate(document["features"]):
         try:

@@ -18,6 +18,7 @@ from semnav_env.maps.document import parse_document
 from semnav_env.maps.doorways import DoorState, door_state
 from semnav_env.maps.draw import draw_floor_plan, leave_out_overlapping, save_picture
 from semnav_env.maps.library import BUNDLED_FOLDER
+from semnav_env.maps.schema import check_schema
 from semnav_env.robots import ROBOTS, WHEELCHAIR
 from tests.support.plan_geometry import inward, lane, reachable, solid
 
@@ -31,7 +32,7 @@ def test_there_are_three_plans() -> None:
 @every_plan
 def test_a_bundled_plan_follows_the_schema(name: str) -> None:
     text = (BUNDLED_FOLDER / f"{name}.geojson").read_text("utf-8")
-    assert parse_document(text, name)
+    check_schema(parse_document(text, name), name)
 
 
 @every_plan

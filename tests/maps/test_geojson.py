@@ -23,8 +23,8 @@ from semnav_env.maps import (
     load_floor_plan,
     save_floor_plan,
 )
-from semnav_env.maps.document import SCHEMA_FILE, validator
 from semnav_env.maps.reader import parse_plan
+from semnav_env.maps.schema import SCHEMA_FILE, validator
 from semnav_env.maps.writer import to_geojson
 from tests.support.plan_documents import hall, parse
 
