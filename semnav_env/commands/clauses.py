@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, TypeAlias
@@ -241,7 +241,7 @@ class IfThere(Spoken):
         return language.say("if_not" if self.absent else "if", referent=self.what)
 
 
-class OwnClause(Spoken):
+class OwnClause(Spoken, ABC):
     """Base of clauses that are defined outside this package, see docs/extending.md.
 
     `semnav_env.grounding.GroundedClause` derives from it and adds where a clause leads. The grammar
@@ -249,6 +249,10 @@ class OwnClause(Spoken):
     """
 
     __slots__ = ()
+
+    @abstractmethod
+    def say(self, language: Language) -> str:
+        """In the words of a language."""
 
     @property
     @abstractmethod

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 MAX_CLAUSES = 8
 """The most clauses of a command; it fixes the shape of its tokens."""
 
+_KINDS = get_args(Clause)
+
 
 @dataclass(frozen=True, slots=True)
 class Command:
@@ -41,8 +43,8 @@ class Command:
                 f"a command holds a tuple of clauses, not {kind}; text goes to parse()"
             )
         for clause in self.clauses:
-            if not isinstance(clause, get_args(Clause)):
-                kinds = ", ".join(kind.__name__ for kind in get_args(Clause))
+            if not isinstance(clause, _KINDS):
+                kinds = ", ".join(kind.__name__ for kind in _KINDS)
                 raise ValueError(f"a clause is one of {kinds}, not {clause!r}")
         if not 1 <= len(self.clauses) <= MAX_CLAUSES:
             raise ValueError(f"a command has 1 to {MAX_CLAUSES} clauses, not {len(self.clauses)}")

@@ -51,9 +51,10 @@ class MissionMaker:
             error = placement_error(self.floor_plan, self.robot, pose)
             if error is not None:
                 raise ValueError(f"start pose {pose}: {error}")
-        drawn = command is None
-        start, command = self._complete(pose, command, rng)
-        if request.implicit_steps and not drawn:  # a drawn one can be carried out as it is
+        if command is None:
+            return self._drawn(pose, rng)
+        start = pose or self._start_for(command, rng)
+        if request.implicit_steps:
             command = self._with_implicit_steps(command, start)
         try:
             return plan_mission(
@@ -65,31 +66,34 @@ class MissionMaker:
             spoken = language_of_text(request.instruction, request.language)
             raise error.in_words_of(spoken) from None
 
-    def _complete(
-        self, pose: Pose | None, command: Command | None, rng: np.random.Generator
-    ) -> tuple[Pose, Command]:
-        """Draw what is missing until the command can be carried out."""
-        if pose is not None and command is not None:
-            return pose, command
-        from semnav_env.tasks.sampling import sample_feasible, sample_start  # only to draw
+    def _drawn(self, pose: Pose | None, rng: np.random.Generator) -> Mission:
+        """A random mission from a pose, or from a random start."""
+        from semnav_env.tasks.sampling import sample_mission, sample_start  # only to draw
+
+        for _ in range(MOST_DRAWS):
+            start = pose or sample_start(self.floor_plan, self.robot, rng, self.rules)
+            mission = sample_mission(self.floor_plan, self.geodesic, start, rng, rules=self.rules)
+            if mission is not None:
+                return mission
+        name = self.floor_plan.name
+        raise ValueError(f"no command found that can be carried out in {name} from {pose or 'it'}")
+
+    def _start_for(self, command: Command, rng: np.random.Generator) -> Pose:
+        """A random start from which a command can be carried out."""
+        from semnav_env.tasks.sampling import sample_start
 
         objections: Counter[str] = Counter()
         for _ in range(MOST_DRAWS):
-            start = pose or sample_start(self.floor_plan, self.robot, rng, self.rules)
-            drawn = command or sample_feasible(self.floor_plan, start, rng, rules=self.rules)
-            if drawn is None:
-                continue
-            objection = self._objection(drawn, start) if command is not None else ""
+            start = sample_start(self.floor_plan, self.robot, rng, self.rules)
+            objection = self._objection(command, start)
             if not objection:
-                return start, drawn
+                return start
             objections[objection] += 1
+        [(why, _)] = objections.most_common(1)
         name = self.floor_plan.name
-        if command is not None:
-            [(why, _)] = objections.most_common(1)
-            raise ValueError(
-                f'no start found in {name} from which "{command}" can be carried out: {why}'
-            )
-        raise ValueError(f"no command found that can be carried out in {name} from {pose or 'it'}")
+        raise ValueError(
+            f'no start found in {name} from which "{command}" can be carried out: {why}'
+        )
 
     def _with_implicit_steps(self, command: Command, start: Pose) -> Command:
         from semnav_env.tasks.implicit import with_implicit_steps  # only for commands that are told

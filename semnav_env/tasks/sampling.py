@@ -28,10 +28,11 @@ from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.corridor_survey import axis_along, axis_heading
 from semnav_env.grounding import Goal, GroundingError, ReachGoal
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import is_clear, placement_error, sample_pose, uniform
 from semnav_env.robots import RobotSpec
 from semnav_env.rules import Rules
-from semnav_env.verifier import plan_goals
+from semnav_env.verifier import Mission, plan_mission
 
 TRIES = 50
 """Commands drawn before a start pose is given up."""
@@ -136,13 +137,14 @@ def _is_beside_door(doors: FloatArray, x: float, y: float, heading: float) -> bo
     return False
 
 
-def sample_feasible(
+def sample_mission(
     floor_plan: FloorPlan,
+    geodesic: Geodesic,
     start: Pose,
     rng: np.random.Generator,
     most_clauses: int = 3,
     rules: Rules = Rules(),
-) -> Command | None:
+) -> Mission | None:
     """A random command of one to `most_clauses` clauses that can be carried out from `start`.
 
     Returns:
@@ -151,11 +153,11 @@ def sample_feasible(
     for _ in range(TRIES):
         command = _draw(rng, most_clauses)
         try:
-            goals = plan_goals(floor_plan, command, start, rules=rules)
+            mission = plan_mission(floor_plan, geodesic, command, start, rules=rules)
         except GroundingError:
             continue
-        if all(_has_space(floor_plan, goal) for goal in goals):
-            return command
+        if all(_has_space(floor_plan, goal) for goal in mission.goals):
+            return mission
     return None
 
 

@@ -27,7 +27,7 @@ from semnav_env.maps.placement import sample_pose
 from semnav_env.metrics import Recording
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.rules import Rules, SuccessRules
-from semnav_env.tasks.sampling import sample_feasible
+from semnav_env.tasks.sampling import sample_mission
 from semnav_env.verifier import FAILURES, Verdict, Verifier, plan_mission, verifier
 from semnav_env.verifier import recheck as second
 from semnav_env.verifier.astray import wrong_arms
@@ -53,7 +53,8 @@ def glide(name: str, seed: int) -> tuple[Verifier, Recording] | None:
 
 def judge_of_any(name: str, start: Pose, rng: np.random.Generator) -> Verifier | None:
     """The verifier of a random command, of any kind half of the time; None if not feasible."""
-    command = sample_feasible(PLANS[name], start, rng)
+    drawn = sample_mission(PLANS[name], GEODESICS[name], start, rng)
+    command = drawn and drawn.command
     kind = rng.integers(8)
     if kind < 3:
         command = sample_command(rng, 4, 3)
