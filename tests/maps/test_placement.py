@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from shapely import LineString, Point
 
 from semnav_env.maps import FloorPlan, Material, Region, Surface, bundled_names, load_floor_plan
-from semnav_env.maps.placement import footprint, placement_error, sample_pose
+from semnav_env.maps.placement import footprint, placement_error, sample_pose, uniform
 from semnav_env.robots import ROBOTS, SPOT, WHEELCHAIR
 from tests.support.small_plans import empty_hall, plan_of
 
@@ -124,3 +124,9 @@ def test_a_robot_can_be_given_by_its_name() -> None:
     assert placement_error(plan, "wheelchair", (-2.5, -0.3, 0.24)) is None
     with pytest.raises(ValueError, match="no robot named 'car'"):
         placement_error(plan, "car", (-2.5, -0.3, 0.24))
+
+
+def test_uniform_draws_what_the_generator_would() -> None:
+    plain, ours = np.random.default_rng(7), np.random.default_rng(7)
+    drawn = [(plain.uniform(-high, high), uniform(ours, -high, high)) for high in (0.2, 3.1, 40.0)]
+    assert all(there == here for there, here in drawn)
