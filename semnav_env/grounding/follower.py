@@ -29,7 +29,7 @@ from semnav_env.grounding.clause_progress import (
 )
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
-from semnav_env.grounding.goals import search_goal
+from semnav_env.grounding.goals import has_looked, search_goal
 from semnav_env.grounding.ground import goal_of
 from semnav_env.grounding.known_way import next_on_way
 from semnav_env.grounding.search import Known, Searching
@@ -78,6 +78,7 @@ class Follower:
     impossible: str | None = field(default=None, init=False)
     skipped: frozenset[int] = field(default=frozenset(), init=False)
     _beside: Door | None = field(default=None, init=False, repr=False)
+    _lookouts: tuple[Pose, ...] = field(default=(), init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
     _trail: Trail = field(default_factory=lambda: Trail(ORIGIN), init=False, repr=False)
 
@@ -147,6 +148,8 @@ class Follower:
 
     def _ground(self, scene: Scene, pose: Pose) -> Goal | Known[bool]:
         """The goal of the active clause, or whether its condition is met."""
+        if not self.complete and has_looked(self.goal, pose, self.rules.grounding):
+            self._lookouts += ((*self.goal.pose[:2], pose[2]),)
         situation = self._situation(scene, pose)
         clause = in_context(self.command.clauses, self.active)
         if not isinstance(clause, IfThere):
@@ -170,6 +173,7 @@ class Follower:
             comes_after_corridor(self.command.clauses, self.active),
             self._way,
             self._beside,
+            self._lookouts,
             rules=self.rules,
         )
 
@@ -195,7 +199,7 @@ class Follower:
         clauses = self.command.clauses
         while not self.done and is_only_a_direction(clauses, self.active):
             self.active += 1
-        self.begin = begin
+        self.begin, self._lookouts, self.goal = begin, (), StopGoal(pose)
         back = not self.done and is_behind(reference_of(clauses[self.active]))
         ahead = turned(begin) if back else begin
         self._write(ahead=ahead, is_behind=back, looked_back=False, still=0.0)
