@@ -29,7 +29,7 @@ from semnav_env.grounding.clause_progress import (
 )
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
-from semnav_env.grounding.goals import has_looked, search_goal
+from semnav_env.grounding.goals import has_looked, is_search, search_goal
 from semnav_env.grounding.ground import goal_of
 from semnav_env.grounding.known_way import next_on_way
 from semnav_env.grounding.search import Known, Searching
@@ -79,6 +79,7 @@ class Follower:
     skipped: frozenset[int] = field(default=frozenset(), init=False)
     _beside: Door | None = field(default=None, init=False, repr=False)
     _lookouts: tuple[Pose, ...] = field(default=(), init=False, repr=False)
+    _found: Goal | None = field(default=None, init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
     _trail: Trail = field(default_factory=lambda: Trail(ORIGIN), init=False, repr=False)
 
@@ -138,7 +139,13 @@ class Follower:
                 self._begin_clause(scene, self.begin, pose)
             else:
                 self._lead_to(found)
+                if not self.complete and not is_search(found):
+                    self._found = found
         except GroundingError as error:
+            if self._found is not None:
+                self.impossible = None
+                self._lead_to(self._found)
+                return
             self.impossible = str(error)
             self._lead_to(StopGoal(pose, self.impossible))
 
@@ -199,7 +206,7 @@ class Follower:
         clauses = self.command.clauses
         while not self.done and is_only_a_direction(clauses, self.active):
             self.active += 1
-        self.begin, self._lookouts, self.goal = begin, (), StopGoal(pose)
+        self.begin, self._lookouts, self.goal, self._found = begin, (), StopGoal(pose), None
         back = not self.done and is_behind(reference_of(clauses[self.active]))
         ahead = turned(begin) if back else begin
         self._write(ahead=ahead, is_behind=back, looked_back=False, still=0.0)

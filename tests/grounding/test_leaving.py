@@ -128,6 +128,37 @@ def test_a_lookout_is_clear_of_walls_and_new(frame: Pose) -> None:
     assert next_lookout(placed(Scene(cell, ()), frame), [middle]) is None
 
 
+def test_what_was_found_is_believed_in_until_something_else_is() -> None:
+    """The corner is seen; then its walls are lost, and nothing is there to be found any more."""
+    corner = (
+        Wall((0.0, 1.0), (4.0, 1.0)),
+        Wall((0.0, -1.0), (6.0, -1.0)),
+        Wall((4.0, 1.0), (4.0, 6.0)),
+        Wall((6.0, -1.0), (6.0, 6.0)),
+    )
+    follower = Follower(parse("turn left at the corner"))
+    follower.start(Scene(corner, ()), (1.0, 0.0, 0.0))
+    found = follower.goal
+    assert isinstance(found, ReachGoal)
+    shut = Scene((*corner[:2], Wall((6.0, -1.0), (6.0, 1.0)), Wall((4.0, 1.0), (6.0, 1.0))), ())
+    follower.advance(lambda: shut, (5.0, 0.0, 0.3), 0.5, 0.1)
+    follower.look(shut, (5.0, 0.0, 0.3))
+    assert follower.goal == found
+    assert follower.impossible is None
+    nothing = Follower(parse("turn left at the corner"))
+    nothing.start(shut, (4.6, 0.0, 0.0))
+    assert nothing.impossible is not None
+
+
+def test_a_judge_believes_what_is_there_now() -> None:
+    """Whoever knows everything has nothing to remember."""
+    follower = Follower(LEAVE, complete=True)
+    follower.start(Scene(ROOM, (EXIT,)), HERE)
+    assert isinstance(follower.goal, PassGoal)
+    follower.look(Scene(CLOSED, ()), HERE)
+    assert follower.impossible is not None
+
+
 @pytest.mark.parametrize("complete", [False, True])
 def test_two_doors_that_are_equally_open_are_asked_about(complete: bool) -> None:
     west = Door((0.0, 1.5), (0.0, 2.5))
