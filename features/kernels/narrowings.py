@@ -21,6 +21,10 @@ MIN_LONG_SIDES, MIN_SHORT_SIDES = 1.0, 0.5
 """Sides lead up to the opening and away from it if this length of both is there on one side of the
 opening, and that length on the other, metres."""
 
+MAX_SIDE_START = 1.0
+"""Farthest from the opening that a side which leads up to it may begin, metres: less than any
+corridor that crosses there is wide, and more than what furniture hides of it."""
+
 MIN_THROUGH_SIDE = 1.25
 """A single side runs through if this length of it is there before and behind the opening, metres:
 longer than a door leaf."""
@@ -167,7 +171,19 @@ def _runs(there: Table, length: float) -> bool:
     aside = 0.0
     for side in range(2):
         step = 0
-        while step < SETBACK_STEPS and _length(there[side], step) < length:
+        while step < SETBACK_STEPS and not _leads_up(there[side], step, length):
             step += 1
         aside += MAX_SETBACK * step / SETBACK_STEPS
     return aside < MAX_SETBACK - 1e-9
+
+
+@kernel
+def _leads_up(steps: Table, most: int, length: float) -> bool:
+    """Whether a side of a length, `most` steps outside the jamb or less, begins near the opening.
+
+    The sides of a corridor that ends beyond a crossing, or of a room beyond, do not.
+    """
+    first = 0
+    while first < len(steps) and steps[first] > most:
+        first += 1
+    return bool(first * CELL_LENGTH <= MAX_SIDE_START and _length(steps, most) >= length)

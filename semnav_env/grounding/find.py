@@ -82,7 +82,8 @@ def named_doors(reference: DoorReference, situation: Situation) -> tuple[list[Co
 def find_exit(situation: Situation) -> Known[CountedDoor] | Searching:
     """The door of "leave the room": the doorway that the robot has just come by.
 
-    A robot that has not come by one leaves by the only door in view.
+    A robot that has not come by one leaves by the only door in view. Where not everything has been
+    seen it takes the most open one, and looks for one if none is open.
 
     Raises:
         UnclearError: there is none, or there are several.
@@ -94,16 +95,18 @@ def find_exit(situation: Situation) -> Known[CountedDoor] | Searching:
         inward = compose(begin, (rules.doorway_exit, 0.0, math.pi))
         door = doorway_at(scene, inward)
     if door is None:
-        around = doors_around(scene, begin, rules=rules)
-        if not situation.complete:
-            from semnav_env.grounding.room_exits import room_exits  # few commands need it
+        if situation.complete:
+            exits = doors_around(scene, begin, rules=rules)
+        else:
+            from semnav_env.grounding.lookouts import exits_in_view  # few commands need it
 
-            around = room_exits(around, scene, begin, rules)
-        if not around and not situation.complete:
-            return situation.turn_to(turned(begin)[2], "the door of the room")
-        if len(around) != 1:
+            found = exits_in_view(situation)
+            if isinstance(found, Searching):
+                return found
+            exits = found
+        if len(exits) != 1:
             raise UnclearError("leave the room: by which door? say which, or enter the room first")
-        door = around[0]
+        door = exits[0]
         away = heading_through(door, heading_between(begin[:2], door.midpoint))
         inward = (*door.midpoint, wrap_angle(away + math.pi))
     return Known(CountedDoor(door, 0.0, Side.BEHIND, wrap_angle(inward[2] + math.pi)))

@@ -29,7 +29,7 @@ from semnav_env.grounding.clause_progress import (
 )
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
-from semnav_env.grounding.goals import search_goal
+from semnav_env.grounding.goals import has_looked, is_search, search_goal
 from semnav_env.grounding.ground import goal_of
 from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation, is_behind, turned
@@ -77,6 +77,8 @@ class Follower:
     impossible: str | None = field(default=None, init=False)
     skipped: frozenset[int] = field(default=frozenset(), init=False)
     _beside: Door | None = field(default=None, init=False, repr=False)
+    _lookouts: tuple[Pose, ...] = field(default=(), init=False, repr=False)
+    _found: Goal | None = field(default=None, init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
     _trail: Trail = field(default_factory=lambda: Trail(ORIGIN), init=False, repr=False)
 
@@ -140,7 +142,13 @@ class Follower:
                 self._begin_clause(scene, self.begin, pose)
             else:
                 self._lead_to(found)
+                if not self.complete and not is_search(found):
+                    self._found = found
         except GroundingError as error:
+            if self._found is not None:
+                self.impossible = None
+                self._lead_to(self._found)
+                return
             self.impossible = str(error)
             self._lead_to(StopGoal(pose, self.impossible))
 
@@ -150,6 +158,8 @@ class Follower:
 
     def _ground(self, scene: Scene, pose: Pose) -> Goal | Known[bool]:
         """The goal of the active clause, or whether its condition is met."""
+        if not self.complete and has_looked(self.goal, pose, self.rules.grounding):
+            self._lookouts += ((*self.goal.pose[:2], pose[2]),)
         situation = self._situation(scene, pose)
         clause = in_context(self.command.clauses, self.active)
         if not isinstance(clause, IfThere):
@@ -173,6 +183,7 @@ class Follower:
             comes_after_corridor(self.command.clauses, self.active),
             self._way,
             self._beside,
+            self._lookouts,
             rules=self.rules,
         )
 
@@ -198,7 +209,7 @@ class Follower:
         clauses = self.command.clauses
         while not self.done and is_only_a_direction(clauses, self.active):
             self.active += 1
-        self.begin = begin
+        self.begin, self._lookouts, self.goal, self._found = begin, (), StopGoal(pose), None
         back = not self.done and is_behind(reference_of(clauses[self.active]))
         ahead = turned(begin) if back else begin
         self._write(ahead=ahead, is_behind=back, looked_back=False, still=0.0)

@@ -6,14 +6,17 @@ import math
 
 from semnav_env.commands.clauses import Approach, GoBack, GoToDoor, GoToRoom
 from semnav_env.commands.references import Side
+from semnav_env.features.frames import Pose
 from semnav_env.grounding.counted_doors import CountedDoor
 from semnav_env.grounding.door_geometry import heading_through
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.find import find_door, find_exit
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
+from semnav_env.grounding.goal_check import looks_along
 from semnav_env.grounding.search import Searching
 from semnav_env.grounding.situation import Situation
 from semnav_env.grounding.ways import Way, door_near
+from semnav_env.rules import GroundingRules
 
 
 def search_goal(search: Searching) -> SeekGoal | ReachGoal:
@@ -24,6 +27,19 @@ def search_goal(search: Searching) -> SeekGoal | ReachGoal:
     if search.on_the_spot:
         return ReachGoal(search.lookout, 0.0, 0.0, f"looking for {search.what}")
     return SeekGoal(search.lookout, search.what, corridor=search.corridor)
+
+
+def is_search(goal: Goal) -> bool:
+    """Whether a goal is that of looking for something, see `search_goal`."""
+    on_the_spot = isinstance(goal, ReachGoal) and goal.distance_tolerance == 0.0
+    return on_the_spot or isinstance(goal, SeekGoal)
+
+
+def has_looked(goal: Goal, pose: Pose, rules: GroundingRules) -> bool:
+    """Whether a goal is that of looking for something, and a robot has come to look from there."""
+    if isinstance(goal, SeekGoal):
+        return math.dist(goal.pose[:2], pose[:2]) <= rules.lookout_distance
+    return is_search(goal) and looks_along(pose, goal.pose[2], rules.inspection_angle)
 
 
 def door_goal(clause: GoToDoor, situation: Situation) -> Goal:

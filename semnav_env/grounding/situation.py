@@ -29,6 +29,7 @@ class Situation:
         after_corridor: the clause before was "go down the hallway".
         way: that was pointed out or driven, for a clause that needs one.
         beside: the door that the clause before led to, and not through.
+        lookouts: poses at which the robot has looked for the referent, in the order of time.
         back: `begin` is turned around, see `towards`.
         rules: distances and tolerances.
     """
@@ -40,6 +41,7 @@ class Situation:
     after_corridor: bool = False
     way: Way | None = None
     beside: Door | None = None
+    lookouts: tuple[Pose, ...] = ()
     back: bool = False
     rules: Rules = field(default=Rules(), repr=False)
 

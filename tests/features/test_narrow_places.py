@@ -75,6 +75,22 @@ def test_a_corridor_with_one_through_side_ends_where_it_widens():
     assert not is_narrowing(OPENING, np.vstack((passage(0.1, 0.1, 3.0, 3.0), leaf)))
 
 
+def test_a_door_at_the_end_behind_a_crossing_is_a_door():
+    """Its leaf is open on one side; a wall of the room behind lies close to the other jamb."""
+    sides = np.array(
+        [
+            (-4.0, 0.6, -2.0, 0.6),  # the left side ends before the arm of the crossing
+            (-4.0, -1.0, 0.0, -1.0),
+            (0.0, 0.6, 1.1, 0.6),  # the leaf
+            (0.0, -1.0, 3.0, -1.0),
+            (0.0, 0.6, 0.0, 4.0),
+        ]
+    )
+    assert not is_narrowing(OPENING, sides)
+    sides[0, 2] = 0.0
+    assert is_narrowing(OPENING, sides)
+
+
 def test_sides_that_are_not_seen_to_run_on_leave_a_door_a_door():
     assert not is_narrowing(OPENING, passage()[:2])
     assert not is_narrowing(OPENING, passage(length=0.9))
