@@ -18,6 +18,7 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.lidar_spec import CosinesSines
 from semnav_env.lidar.culling import cell_of
+from semnav_env.lidar.larger import larger
 
 _FULL_TURN = 2.0 * math.pi
 _ANGLE_ERROR = 2e-4
@@ -158,8 +159,6 @@ def _draw(
             last -= 1
         if first <= last:
             for i in range(np.uint64(first), np.uint64(last + 1)):
-                inverse = nx * cos[i] + ny * sin[i]
-                so_far = out[i]
-                out[i] = inverse if inverse > so_far else so_far
+                out[i] = larger(nx * cos[i] + ny * sin[i], out[i])
         start -= beams_per_turn
         stop -= beams_per_turn
