@@ -7,7 +7,7 @@ import unicodedata
 from collections import Counter
 from collections.abc import Sequence
 
-from semnav_env.commands.words import pieces
+from semnav_env.commands.words import pieces, without_accents
 
 MAX_NAME = 40
 """The longest plain name, characters."""
@@ -18,14 +18,16 @@ _NUMBERED = re.compile(r"(?:room|[a-z]*)[ _-]?(\d+)[ ._-](\d+[a-z]?)")
 
 
 def plain_name(name: str) -> str:
-    """The plain name of a room: "Küche 2" becomes "kueche 2". "" if it has no letter or digit.
+    """The plain name of a room: "Küche 2" becomes "kueche 2", and "Café" becomes "cafe".
+
+    "" if it has no letter of a Latin alphabet and no digit.
 
     It has small letters a to z and digits, parted by single spaces, dots, hyphens or underscores.
     """
     folded = "".join(
         GERMAN_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold()
     )
-    kept = re.sub(r"[^a-z0-9._-]+", " ", folded)
+    kept = re.sub(r"[^a-z0-9._-]+", " ", without_accents(folded))
     single = re.sub(r"([ ._-])[ ._-]*", r"\1", kept)
     return single[:MAX_NAME].strip(" ._-")
 

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from typing import NamedTuple
 
 _PIECE = re.compile(r"\"[^\"]*\"|[^\W\d_]+(?:'[^\W\d_]+)*|\d+(?:[.,]\d+)*|\S")
 _HYPHEN = re.compile(r"(?<=[^\W\d_])-(?=[^\W\d_])")
+
+_LETTERS_WITHOUT_PARTS = {"ł": "l", "ø": "o", "đ": "d", "ð": "d", "þ": "th", "æ": "ae", "œ": "oe"}
+"""Latin letters that Unicode does not take apart."""
 
 
 class TextPiece(NamedTuple):
@@ -33,3 +37,14 @@ def pieces(text: str) -> list[TextPiece]:
     found = _PIECE.finditer(text)
     hyphens = {match.start() for match in _HYPHEN.finditer(text)}
     return [TextPiece(m.group(), m.start(), m.end()) for m in found if m.start() not in hyphens]
+
+
+def without_accents(text: str) -> str:
+    """Small Latin letters without their accents: "café" becomes "cafe". Others stay as they are."""
+    return "".join(map(_without_accent, text))
+
+
+def _without_accent(character: str) -> str:
+    base = unicodedata.normalize("NFD", character)[0]
+    base = base if base.isascii() and base.isalpha() else character
+    return _LETTERS_WITHOUT_PARTS.get(character, base)
