@@ -267,7 +267,7 @@ def test_a_refused_first_reset_can_be_followed_by_another() -> None:
 
 @pytest.mark.parametrize("steps", ["no", 0, [True]])
 def test_implicit_steps_that_are_neither_true_nor_false_are_refused(steps: object) -> None:
-    with pytest.raises(ValueError, match="implicit_steps is .*; it must be True or False"):
+    with pytest.raises(ValueError, match=r"implicit_steps is .*; it must be True or False"):
         SemNavEnv().reset(options={"implicit_steps": steps})
 
 
