@@ -19,17 +19,19 @@ def larger(a: float, b: float) -> float:
     return a if a > b else b
 
 
-@intrinsic
-def _maximum(typing_context: Any, a: Any, b: Any) -> Any:
-    """The processor's own instruction."""
+def _code(typing_context: Any, a: Any, b: Any) -> Any:
+    """Signature and code of the processor's own instruction."""
 
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         double = ir.DoubleType()
         kind = ir.FunctionType(double, (double, double))
         function = builder.module.declare_intrinsic("llvm.maxnum", (double,), kind)
         return builder.call(function, arguments, fastmath=("nnan", "nsz"))
 
-    return types.float64(types.float64, types.float64), code
+    return types.float64(types.float64, types.float64), generate
+
+
+_maximum: Any = intrinsic(_code)
 
 
 @overload(larger)
