@@ -56,7 +56,7 @@ class Columns:
         """The columns, by the first row: nothing but ranges unless it is a header.
 
         Raises:
-            LogError: a header names no ranges, or in no order, or a meaning twice.
+            LogError: a header names no ranges, or in no order, a meaning twice, or half a pose.
         """
         separator = separator_of(line)
         cells = cells_of(line, separator)
@@ -82,6 +82,11 @@ class Columns:
                 raise LogError(f"{len(matches)} columns that mean {meaning!r}; keep one")
             if matches:
                 places[meaning] = matches[0]
+        if {"x", "y"} <= places.keys() and "theta" not in places:
+            raise LogError(
+                "columns x and y without a heading make no pose; add the heading, in radians, as "
+                f"{' or '.join(_MEANINGS['theta'])}, or leave x and y out"
+            )
         return cls(separator, len(names), np.array(ranges), places)
 
     def row(self, line: bytes) -> FloatArray:

@@ -11,6 +11,7 @@ from semnav_env.commands.clauses import GoToDoor
 from semnav_env.commands.errors import CommandError, character_name
 from semnav_env.commands.language import Language
 from semnav_env.commands.references import DoorReference, Side
+from semnav_env.commands.rooms import without_accents
 
 MAX_CHARACTERS = 20_000
 """The longest text that is read, characters; it bounds the time that a parse can take."""
@@ -105,7 +106,7 @@ def _folded(original: str, language: Language) -> Iterator[tuple[int, str]]:
         _refuse_invisible(original, index)
         _refuse_superscript(original, index)
         for character in _nfkc_casefold(cluster.group()):
-            known = language.folded(character)
+            known = without_accents(language.folded(character))
             _refuse_foreign(original, index, known, language)
             yield from ((index, each) for each in known)
 
@@ -141,5 +142,6 @@ def _refuse_foreign(original: str, index: int, character: str, language: Languag
         shown = character if original[index].isascii() else original[index]
         problem = f"{character_name(shown)} is not used in {language.name.capitalize()} commands"
         letters = "".join(letter for letter in language.same_as if letter.isalpha())
-        hint = f"letters a to z{letters}, digits and {' '.join(language.punctuation)} are"
+        signs = " ".join(language.punctuation)
+        hint = f"letters a to z{letters}, also with accents, digits and {signs} are"
         raise CommandError(problem, original, index, hint=hint)

@@ -12,20 +12,37 @@ MAX_NAME = 40
 
 GERMAN_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
 """The letters of German that a plain name has not, as it spells them."""
+
+_LETTERS_WITHOUT_PARTS = {"ł": "l", "ø": "o", "đ": "d", "ð": "d", "þ": "th", "æ": "ae", "œ": "oe"}
+"""Latin letters that Unicode does not take apart."""
+
 _NUMBERED = re.compile(r"(?:room|[a-z]*)[ _-]?(\d+)[ ._-](\d+[a-z]?)")
 
 
 def plain_name(name: str) -> str:
-    """The plain name of a room: "Küche 2" becomes "kueche 2". "" if it has no letter or digit.
+    """The plain name of a room: "Küche 2" becomes "kueche 2", and "Café" becomes "cafe".
+
+    "" if it has no letter of a Latin alphabet and no digit.
 
     It has small letters a to z and digits, parted by single spaces, dots, hyphens or underscores.
     """
     folded = "".join(
         GERMAN_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold()
     )
-    kept = re.sub(r"[^a-z0-9._-]+", " ", folded)
+    kept = re.sub(r"[^a-z0-9._-]+", " ", without_accents(folded))
     single = re.sub(r"([ ._-])[ ._-]*", r"\1", kept)
     return single[:MAX_NAME].strip(" ._-")
+
+
+def without_accents(text: str) -> str:
+    """Small Latin letters without their accents: "café" becomes "cafe". Others stay as they are."""
+    return "".join(map(_without_accent, text))
+
+
+def _without_accent(character: str) -> str:
+    base = unicodedata.normalize("NFD", character)[0]
+    base = base if base.isascii() and base.isalpha() else character
+    return _LETTERS_WITHOUT_PARTS.get(character, base)
 
 
 def spoken_names(names: Sequence[str]) -> dict[str, str]:

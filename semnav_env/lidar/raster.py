@@ -4,7 +4,8 @@ Of a segment from a to b (metres, lidar frame, counter-clockwise, so that a x b 
 direction u sees the point at range r with r (u . n) = a x b, where n = (b_y - a_y, a_x - b_x).
 So 1 / r = u . (n / (a x b)) is linear in the beam's direction, and the nearest of all segments
 is the largest of the reciprocals: one multiply-add and one maximum for a beam, no division, no
-branch. Which beams meet the segment follows from the directions of a and b.
+branch. Which beams meet the segment follows from the directions of a and b. Where there are many
+segments, those behind all that is drawn so far in their sectors are left out.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.lidar_spec import CosinesSines
 from semnav_env.lidar.culling import cell_of
+from semnav_env.lidar.larger import larger
 
 _FULL_TURN = 2.0 * math.pi
 _ANGLE_ERROR = 2e-4
@@ -31,6 +33,15 @@ _NO_SPAN = -1e9
 
 _AX, _AY, _BX, _BY, _NX, _NY, _FIRST, _SPAN = range(8)
 """Rows of the table of prepared segments: a, b, n / (a x b), a's beam and the span in beams."""
+
+_DRAWN_FIRST = 32
+"""So many segments are drawn before others are looked at, whether what is drawn hides them."""
+
+_SECTOR = 32
+"""Beams in a sector, of which only the farthest is known to those that may be hidden."""
+
+_NEARER = 1.0 + 1e-9
+"""How much larger the reciprocal of a squared range may be than computed."""
 
 
 @kernel(counts_references=True)
@@ -66,9 +77,17 @@ def cast(
     guard = 1.0 + _ANGLE_ERROR / sensor[0].angle_increment
     beams_per_turn = _FULL_TURN / sensor[0].angle_increment
     out[:] = farthest
-    for k in range(table.shape[1]):
-        if table[_SPAN, k] > _NO_SPAN:
-            _draw(table, k, beams, guard, beams_per_turn, out)
+    sectors = np.empty(math.ceil(out.shape[0] / _SECTOR))
+    done, count = 0, table.shape[1]
+    while done < count:
+        begin, done = done, min(max(2 * done, _DRAWN_FIRST), count)
+        if begin > 0:
+            _note_farthest(out, sectors)
+        for k in range(begin, done):
+            if table[_SPAN, k] <= _NO_SPAN:
+                continue
+            if begin == 0 or not _is_hidden(table, k, guard, out, sectors):
+                _draw(table, k, beams, guard, beams_per_turn, out)
     for i in range(np.uint64(out.shape[0])):
         inverse = out[i]
         out[i] = 1.0 / inverse if inverse > farthest else np.inf
@@ -158,8 +177,44 @@ def _draw(
             last -= 1
         if first <= last:
             for i in range(np.uint64(first), np.uint64(last + 1)):
-                inverse = nx * cos[i] + ny * sin[i]
-                so_far = out[i]
-                out[i] = inverse if inverse > so_far else so_far
+                out[i] = larger(nx * cos[i] + ny * sin[i], out[i])
         start -= beams_per_turn
         stop -= beams_per_turn
+
+
+@kernel
+def _note_farthest(out: FloatArray, sectors: FloatArray) -> None:
+    """Write the smallest squared reciprocal range of each sector."""
+    for i in range(np.uint64(len(sectors))):
+        least = -np.inf
+        for k in range(_SECTOR * i, min(_SECTOR * (i + np.uint64(1)), np.uint64(out.shape[0]))):
+            least = larger(-out[k], least)
+        sectors[i] = least * least
+
+
+@kernel
+def _is_hidden(
+    table: FloatArray, k: int, guard: float, out: FloatArray, sectors: FloatArray
+) -> bool:
+    """Whether a segment is farther away than all that is drawn so far in its sectors."""
+    start = table[_FIRST, k] - guard
+    stop = table[_FIRST, k] + table[_SPAN, k] + guard
+    if start < 0.0 or stop >= out.shape[0]:
+        return False  # it may lie across the first beam
+    nearest = _NEARER * _nearest(table, k)
+    for i in range(np.uint64(start / _SECTOR), np.uint64(stop / _SECTOR) + np.uint64(1)):
+        if nearest >= sectors[i]:
+            return False
+    return True
+
+
+@kernel
+def _nearest(table: FloatArray, k: int) -> float:
+    """The reciprocal of the squared distance of a segment's nearest point."""
+    ax, ay, bx, by = table[_AX, k], table[_AY, k], table[_BX, k], table[_BY, k]
+    dx, dy = bx - ax, by - ay
+    if ax * dx + ay * dy > 0.0:
+        return 1.0 / (ax * ax + ay * ay)
+    if bx * dx + by * dy < 0.0:
+        return 1.0 / (bx * bx + by * by)
+    return float(table[_NX, k] ** 2 + table[_NY, k] ** 2)

@@ -11,7 +11,7 @@ from semnav_env import commands
 from semnav_env.commands import Command
 from semnav_env.features.frames import Pose
 from semnav_env.features.lidar_spec import LidarSpec
-from semnav_env.features.validation import finite_floats, shown
+from semnav_env.features.validation import finite_floats, require, shown
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 from semnav_env.simulator.odometry import OdometrySettings
@@ -61,8 +61,8 @@ class EpisodeRequest:
         """The options of `reset` as a request; None where nothing is asked for.
 
         Raises:
-            ValueError: no dictionary, an option that is unknown, or one beside an episode that has
-                its own.
+            ValueError: no dictionary, an option that is unknown, one beside an episode that has its
+                own, or implicit steps that are neither True nor False.
         """
         if not isinstance(options, dict | None):
             raise ValueError(f"options are a dict with {', '.join(OPTIONS)}, not {shown(options)}")
@@ -73,6 +73,8 @@ class EpisodeRequest:
             for part in given.keys() - {"episode"}:
                 raise ValueError(f"an episode has its own {part}; leave {part!r} out")
         asked = {name: value for name, value in given.items() if value is not None}
+        steps = asked.get("implicit_steps", True)
+        require(isinstance(steps, bool), "implicit_steps", steps, "True or False")
         return cls(**asked) if given else None
 
     @property

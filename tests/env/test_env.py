@@ -265,6 +265,12 @@ def test_a_refused_first_reset_can_be_followed_by_another() -> None:
     env.step(env.action_space.sample())
 
 
+@pytest.mark.parametrize("steps", ["no", 0, [True]])
+def test_implicit_steps_that_are_neither_true_nor_false_are_refused(steps: object) -> None:
+    with pytest.raises(ValueError, match=r"implicit_steps is .*; it must be True or False"):
+        SemNavEnv().reset(options={"implicit_steps": steps})
+
+
 def test_options_that_are_no_dict_are_refused() -> None:
     with pytest.raises(ValueError, match="options are a dict"):
         SemNavEnv().reset(options="turn left")  # type: ignore[arg-type]

@@ -122,6 +122,11 @@ def test_columns_of_ranges_may_be_numbered_in_any_equal_steps(tmp_path, names):
     assert record.scan.ranges.tolist() == [2.0, 2.0, 2.0]
 
 
+def test_places_without_a_heading_are_refused_as_half_a_pose(tmp_path):
+    with pytest.raises(LogError, match=r"x and y without a heading.*theta or yaw or heading"):
+        read(written(tmp_path, "x,y,r0,r1\n1,2,2.5,2.6\n"), FORWARD)
+
+
 def test_a_table_in_utf_16_is_refused_with_what_to_do(tmp_path):
     path = tmp_path / "log.csv"
     path.write_text(ROSTOPIC, encoding="utf-16")

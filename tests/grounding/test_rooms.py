@@ -54,7 +54,15 @@ def told(name: str, begin: Pose = WEST) -> Way:
 
 @pytest.mark.parametrize(
     ("name", "plain"),
-    [("Küche", "kueche"), (" Room 3.508 ", "room 3.508"), ("l3_508", "l3_508"), ("A & B", "a b")],
+    [
+        ("Küche", "kueche"),
+        (" Room 3.508 ", "room 3.508"),
+        ("l3_508", "l3_508"),
+        ("A & B", "a b"),
+        ("Café", "cafe"),
+        ("Cafe\u0301", "cafe"),
+        ("Sało Ærø", "salo aero"),
+    ],
 )
 def test_names_are_plain_letters_and_digits(name: str, plain: str) -> None:
     assert plain_name(name) == plain
@@ -66,6 +74,12 @@ def test_every_plain_name_is_one_that_a_command_can_hold(name: str) -> None:
     plain = plain_name(name)
     assert plain_name(plain) == plain
     assert not plain or GoToRoom(plain).name == plain
+
+
+@pytest.mark.parametrize("said", ["café", "cafe", "CAFÉ", "cafe\u0301"])
+@pytest.mark.parametrize("words", ["go to the {}", "geh zum {}"])
+def test_a_room_is_named_with_its_accents_or_without(said: str, words: str) -> None:
+    assert parse(words.format(said), rooms=("Café", "Foyer")) == Command((GoToRoom("cafe"),))
 
 
 def test_an_unknown_room_is_answered_with_known_ones() -> None:

@@ -82,6 +82,21 @@ def test_ranges_agree_with_brute_force_among_random_segments(seed: int, heading:
     np.testing.assert_allclose(ranges_of(segments, pose, AROUND), expected, rtol=0, atol=1e-9)
 
 
+@pytest.mark.parametrize("spec", [TIM561, AROUND, ROUNDABOUT], ids=lambda spec: spec.name)
+@given(st.integers(0, 2**32), headings)
+@settings(max_examples=25, deadline=None)
+def test_what_many_segments_hide_changes_no_range(
+    spec: LidarSpec, seed: int, heading: float
+) -> None:
+    """Several hundred segments around the lidar, of which it sees some dozens."""
+    rng = np.random.default_rng(seed)
+    segments = rng.uniform(-9, 9, (400, 2)).repeat(2, 0).reshape(400, 4)
+    segments[:, 2:] += rng.normal(0, rng.uniform(0.1, 3), (400, 2))
+    expected = within(brute_force_ranges((0, 0, heading), segments, spec.angles), spec.range_max)
+    found = ranges_of(segments, (0, 0, heading), spec)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9)
+
+
 @given(st.lists(st.floats(0.1, 9.9), min_size=360, max_size=360), headings)
 @settings(max_examples=25, deadline=None)
 def test_no_beam_slips_between_walls_that_share_a_corner(

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from semnav_env.commands.rooms import GERMAN_LETTERS, plain_name, spoken_names
+from semnav_env.commands.rooms import (
+    GERMAN_LETTERS,
+    plain_name,
+    spoken_names,
+    without_accents,
+)
 from semnav_env.commands.words import pieces
 
 
@@ -13,6 +18,7 @@ def name_phrases(names: Sequence[str]) -> dict[tuple[str, ...], str]:
     found: dict[tuple[str, ...], str] = {}
     for name in names:
         folded = "".join(GERMAN_LETTERS.get(c, c) for c in name.casefold()).replace("\u2019", "'")
+        folded = without_accents(folded)
         found[tuple(p.text for p in pieces(folded) if p.text != "'")] = plain_name(name)
     for said, name in spoken_names(names).items():
         words = tuple(piece.text for piece in pieces(said))
