@@ -11,6 +11,7 @@ segments, those behind all that is drawn so far in their sectors are left out.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -209,7 +210,7 @@ def _is_hidden(
 
 
 @kernel
-def _nearest(table: FloatArray, k: int) -> float:
+def _nearest(table: FloatArray, k: int) -> Any:
     """The reciprocal of the squared distance of a segment's nearest point."""
     ax, ay, bx, by = table[_AX, k], table[_AY, k], table[_BX, k], table[_BY, k]
     dx, dy = bx - ax, by - ay
@@ -217,4 +218,4 @@ def _nearest(table: FloatArray, k: int) -> float:
         return 1.0 / (ax * ax + ay * ay)
     if bx * dx + by * dy < 0.0:
         return 1.0 / (bx * bx + by * by)
-    return float(table[_NX, k] ** 2 + table[_NY, k] ** 2)
+    return table[_NX, k] ** 2 + table[_NY, k] ** 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import shapely
@@ -101,7 +102,8 @@ def uniform(rng: np.random.Generator, low: float, high: float) -> float:
 
 
 def _every_corridor(plan: FloorPlan) -> Region:
-    return Region("a corridor", shapely.union_all([each.polygon for each in plan.corridors]))
+    joined: Any = shapely.union_all([each.polygon for each in plan.corridors])
+    return Region("a corridor", joined)
 
 
 def has_room(plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float = 0.0) -> bool:
