@@ -10,10 +10,11 @@ from functools import lru_cache
 from numbers import Integral
 from typing import TYPE_CHECKING, TypeAlias
 
-from semnav_env.commands.rooms import MAX_NAME
-
 if TYPE_CHECKING:
     from semnav_env.commands.language import Language
+
+MAX_NAME = 40
+"""The longest plain name of a room, characters."""
 
 
 class Side(StrEnum):

@@ -7,8 +7,7 @@ import unicodedata
 from collections import Counter
 from collections.abc import Sequence
 
-MAX_NAME = 40
-"""The longest plain name, characters."""
+from semnav_env.commands.references import MAX_NAME
 
 GERMAN_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
 """The letters of German that a plain name has not, as it spells them."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from semnav_env.commands import Command
 from semnav_env.commands.command import room_of
-from semnav_env.commands.rooms import plain_name
 from semnav_env.features.frames import Pose
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.ways import Way
@@ -41,13 +40,14 @@ class RoomGuide:
         name = room_of(named)
         if name is None:
             return None
+        from semnav_env.commands.rooms import plain_name  # few commands name a room
+        from semnav_env.routes.way_into_room import way_into
+
         room = next((room for room in self._plan.rooms if plain_name(room.name) == name), None)
         if room is None:
             there = ", ".join(self._plan.room_names) or "no room with a name"
             raise GroundingError(f"{named}: {self._plan.name} has {there}")
         if self._geodesic is None:
             self._geodesic = self._plan.derived(Geodesic)
-        from semnav_env.routes.way_into_room import way_into  # few commands name a room
-
         self.ways[clause] = way_into(self._plan, self._geodesic, room, begin, str(named))
         return self.ways[clause]
