@@ -21,9 +21,8 @@ _NUMBERED = re.compile(r"(?:room|[a-z]*)[ _-]?(\d+)[ ._-](\d+[a-z]?)")
 def plain_name(name: str) -> str:
     """The plain name of a room: "Küche 2" becomes "kueche 2", and "Café" becomes "cafe".
 
-    "" if it has no letter of a Latin alphabet and no digit.
-
-    It has small letters a to z and digits, parted by single spaces, dots, hyphens or underscores.
+    A name without a Latin letter or a digit becomes "". A plain name has small letters a to z and
+    digits, parted by single spaces, dots, hyphens or underscores.
     """
     folded = "".join(
         GERMAN_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold()

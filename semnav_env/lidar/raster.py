@@ -36,13 +36,13 @@ _AX, _AY, _BX, _BY, _NX, _NY, _FIRST, _SPAN = range(8)
 """Rows of the table of prepared segments: a, b, n / (a x b), a's beam and the span in beams."""
 
 _DRAWN_FIRST = 32
-"""So many segments are drawn before others are looked at, whether what is drawn hides them."""
+"""Number of segments drawn before the first test of whether those that are left are hidden."""
 
 _SECTOR = 32
-"""Beams in a sector, of which only the farthest is known to those that may be hidden."""
+"""Number of beams in a sector; a segment beyond the farthest range of its sectors is hidden."""
 
 _NEARER = 1.0 + 1e-9
-"""How much larger the reciprocal of a squared range may be than computed."""
+"""Factor by which rounding may make the reciprocal of a squared range too small, at most."""
 
 
 @kernel(counts_references=True)
