@@ -30,13 +30,13 @@ from semnav_env.belief.understand import (
     join_senses,
     note_look,
     understand,
+    workbench_with,
 )
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import MOST_CONTACTS, Contact, FloatArray, Pose, Twist
 from semnav_env.features.kernels.scratch import (
     Features,
-    Scratch,
     allocate_features,
     allocate_scratch,
 )
@@ -108,7 +108,7 @@ class BeliefTracker:
         self._beams = self.lidar.directions
         self.rules, extractor = with_doors_of(rules, extractor)
         self._record = extractor.as_record()
-        self._scratch = allocate_scratch(self.lidar.beams)
+        self._workbench = workbench_with(allocate_scratch(self.lidar.beams))
         self._estimate = np.zeros(1, ESTIMATE)
         self._progress = np.zeros(1, CLAUSE_PROGRESS)
         self._told = ToldWays()
@@ -120,24 +120,20 @@ class BeliefTracker:
 
     def _join(self) -> Senses:
         self._buffer, self._contacts = self._estimate.data, self._estimate["contacts"][0]
-        sensor = self.lidar.sensor, self._beams, self._record, self._scratch, self.mount
+        sensor = self.lidar.sensor, self._beams, self._record, self._workbench, self.mount
         known: tuple[Any, Any] = self.memory.arrays, self.bumps.arrays
         mind: tuple[Any, Any, Any] = self._estimate, self._progress, self._told.arrays
         return join_senses(*sensor, self.ranges, self._features, *known, *mind)
 
     def __getstate__(self) -> dict[str, Any]:
         self._keep_last_scene()
-        left_out = ("senses", "_buffer", "_contacts", "_last_source", "_scratch")
+        left_out = ("senses", "_buffer", "_contacts", "_last_source", "_workbench")
         return {name: value for name, value in self.__dict__.items() if name not in left_out}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         self._last_source = nothing
-        self.use_scratch(allocate_scratch(self.lidar.beams))
-
-    def use_scratch(self, scratch: Scratch) -> None:
-        """Use other working memory; trackers of one thread that share it spare the cache."""
-        self._scratch = scratch
+        self._workbench = workbench_with(allocate_scratch(self.lidar.beams))
         self.senses = self._join()
 
     def read_ranges_in(self, ranges: FloatArray) -> None:
@@ -289,8 +285,9 @@ class BeliefTracker:
 
     def let_go(self) -> None:
         """Forget the last belief, before `understand`; who still has it keeps its scene."""
-        self._belief = None
-        self._keep_last_scene()
+        if self._belief is not None:
+            self._belief = None
+            self._keep_last_scene()
 
     def _keep_last_scene(self) -> None:
         """Copy what the last belief remembers, if somebody still has that belief."""

@@ -27,6 +27,30 @@ be grounded anew, as after a bump into what was not known."""
 
 
 @structref.register
+class WorkbenchType(ArraysType):
+    """How compiled code sees `Workbench`."""
+
+
+class Workbench(structref.StructRefProxy):
+    """Working memory of the extractor, for one scan at a time.
+
+    Attributes:
+        scratch: `Scratch`.
+    """
+
+    scratch: Any
+
+
+structref.define_proxy(Workbench, WorkbenchType, list(Workbench.__annotations__))
+
+
+@kernel(counts_references=True)
+def workbench_with(scratch: Any) -> Workbench:
+    """A workbench with this `Scratch`."""
+    return Workbench(scratch)
+
+
+@structref.register
 class SensesType(ArraysType):
     """How compiled code sees `Senses`."""
 
@@ -38,7 +62,7 @@ class Senses(structref.StructRefProxy):
         limits: `LidarSpec.sensor`: directions and limits of the ranges, shape (1,).
         beams: unit vector of each beam, lidar frame, shape (n, 2).
         record: `ExtractorSettings.as_record()`.
-        scratch: working memory of the extractor.
+        workbench: of the extractor; threads put their own in its place.
         mount: pose of the lidar in the robot frame.
         ranges: of the last scan, metres, shape (n,).
         features: of the last scan, lidar frame; written at every scan.
@@ -52,7 +76,7 @@ class Senses(structref.StructRefProxy):
     limits: np.ndarray
     beams: FloatArray
     record: np.ndarray
-    scratch: Any
+    workbench: Workbench
     mount: Pose
     ranges: FloatArray
     features: Any
@@ -71,7 +95,7 @@ def join_senses(
     limits: np.ndarray,
     beams: FloatArray,
     record: np.ndarray,
-    scratch: Any,
+    workbench: Workbench,
     mount: Pose,
     ranges: FloatArray,
     features: Any,
@@ -86,7 +110,7 @@ def join_senses(
         limits,
         beams,
         record,
-        scratch,
+        workbench,
         mount,
         ranges,
         features,
@@ -196,7 +220,7 @@ def extract_features(senses: Senses, all_of_them: bool) -> None:
         limits.range_min,
         limits.range_max,
         senses.record,
-        senses.scratch,
+        senses.workbench.scratch,
         features.walls,
         features.doors,
         features.corners[:room],

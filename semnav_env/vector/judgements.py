@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,21 +47,24 @@ class Judgements:
         return Judgement(float(self.progress[index]), *flags)
 
 
-def judge(envs: Sequence[SemNavEnv], periods: np.ndarray, driven: Mask) -> Judgements:
-    """Let minds and judges think where something happened, and say what became of all robots.
+def judge(
+    envs: Sequence[SemNavEnv],
+    periods: np.ndarray,
+    driven: Mask,
+    judgements: Mapping[int, Judgement],
+) -> Judgements:
+    """Say what became of all robots.
 
     Args:
         envs: of the robots.
         periods: what the compiled calls said, dtype `PERIOD`, shape (n,).
         driven: which robots were driven.
+        judgements: of those in which something happened.
     """
     progress = np.where(driven, periods["progress"], 0.0)
-    clause, success, failure, terminated = np.zeros((4, len(envs)), dtype=bool)
-    events = periods["understood"] | periods["judged"]
-    carries = np.array([env.payload is not None for env in envs])
-    thought = driven & ((events != 0) | carries)
-    for k in np.flatnonzero(thought).tolist():
-        judgement = envs[k].think(int(periods["understood"][k]), int(periods["judged"][k]))
+    thought, clause, success, failure, terminated = np.zeros((5, len(envs)), dtype=bool)
+    for k, judgement in judgements.items():
+        thought[k] = True
         progress[k], clause[k], success[k], failure[k] = judgement
         terminated[k] = envs[k].judge.verifier.over
     latest = np.array([env.max_steps for env in envs])

@@ -19,26 +19,33 @@ class TeamObservations(Protocol):
     def renew(self, index: int, env: SemNavEnv) -> None:
         """Take in a robot that has been reset."""
 
+    def prepare(self, team: Team) -> None:
+        """Say what is to be written while robots are driven for a control period."""
+
     def observe(self, team: Team) -> Any:
         """Fresh observations of all robots."""
         ...
 
 
 class EntryRows:
-    """The entries of a mode: all robots' rows are written in one compiled call."""
+    """The entries of a mode: all robots' rows are written by compiled calls."""
 
     def __init__(self, envs: Sequence[SemNavEnv], kind: EntryObservation) -> None:
-        self._kind, self._count = kind, len(envs)
+        self._kind = kind
         self._tokens = np.stack([env.tokens.ravel() for env in envs]).astype(np.int16)
 
     def renew(self, index: int, env: SemNavEnv) -> None:
         """Take in the command of a robot that has been reset."""
         self._tokens[index] = env.tokens.ravel()
 
+    def prepare(self, team: Team) -> None:
+        """The rows; with what is remembered they are written afterwards, in a call of their own."""
+        if not self._kind.remembers:
+            team.prepare_rows(self._kind.row_size)
+
     def observe(self, team: Team) -> dict[str, Any]:
         """Entries of shape (n, size)."""
-        rows = np.empty((self._count, self._kind.row_size), np.float32)
-        team.write_rows(rows, self._kind.remembers)
+        rows = (team.command_rows if self._kind.remembers else team.rows)(self._kind.row_size)
         entries: dict[str, Any] = {
             name: rows[:, place] for name, place in self._kind.places.items()
         }
@@ -53,6 +60,9 @@ class EachObservation:
 
     def renew(self, index: int, env: SemNavEnv) -> None:
         """Nothing is kept."""
+
+    def prepare(self, team: Team) -> None:
+        """Nothing is written while robots are driven."""
 
     def observe(self, team: Team) -> Any:
         """As Gymnasium stacks them."""

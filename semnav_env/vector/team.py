@@ -11,22 +11,42 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.belief.understand import Workbench, workbench_with
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.scratch import Scratch, allocate_scratch
+from semnav_env.features.kernels.scratch import allocate_scratch
 from semnav_env.robot_loop import RobotArrays, join_robot
+from semnav_env.tasks.judge import Judgement
 from semnav_env.vector.robot_list import list_of, put
-from semnav_env.vector.tick import PERIOD, tick, write_command_rows, write_rows
+from semnav_env.vector.tick import (
+    PERIOD,
+    begin_period,
+    join_team,
+    tell,
+    tick,
+    write_command_rows,
+    write_others,
+)
 
 LEAST_SHARE = 8
 """A thread is not worth starting for fewer robots."""
+
+AT_A_TIME = 8
+"""How many robots Python's thread drives before it thinks, where there are other threads."""
+
+NO_ROWS = np.empty((0, 0), np.float32)
+"""Where observations are not written while robots are driven."""
 
 LOG_LENGTH = 256
 """Control periods after which commands are handed to the worlds, which need them to be pickled."""
 
 
 class Team:
-    """Drives the robots of several environments, each thread a part of them.
+    """Drives the robots of several environments in threads, and lets them think.
+
+    Python's own thread takes robots from the first one on, the others from the end of their parts
+    down; who is done helps the others. Between its robots Python's thread thinks for those that are
+    done, which the threads that only compute need not wait for.
 
     Args:
         envs: that have been reset.
@@ -37,7 +57,7 @@ class Team:
     """
 
     def __init__(self, envs: Sequence[SemNavEnv], threads: int | None = None) -> None:
-        self._envs = envs
+        self._envs, self._count = envs, len(envs)
         count = len(envs)
         wanted = os.cpu_count() or 1 if threads is None else threads
         parts = max(1, min(wanted, count // LEAST_SHARE if threads is None else count))
@@ -45,14 +65,18 @@ class Team:
         self._parts = list(pairwise(ends))
         self._pool = ThreadPoolExecutor(parts - 1) if parts > 1 else None
         self.periods = np.zeros(count, PERIOD)
+        self._thoughtful, self._written, told = np.zeros((3, count), dtype=bool)
         self._log = np.zeros((LOG_LENGTH, count, 3))
         self._logged = np.zeros((LOG_LENGTH, count), dtype=bool)
         self._log_length = 0
-        self._beams, self._scratch = 0, list[Scratch]()
-        self._make_room(max(env.lidar_spec.beams for env in envs))
-        self._trackers = [env.tracker for env in envs]
+        self._beams, self._workbenches = 0, list[Workbench]()
         self._need_python = np.zeros(count, dtype=bool)
-        self._robots = list_of(_arrays(envs[0]), count)
+        self._trackers = [env.tracker for env in envs]
+        self._robots, self._who = list_of(_arrays(envs[0]), count), np.zeros(count, np.int64)
+        taken, done = np.zeros((2, count), np.int64)
+        flags = self._thoughtful, taken, done, told, self._written
+        self._arrays = join_team(self._robots, self.periods, *flags)
+        self._rows = NO_ROWS
         for k in range(count):
             self.renew(k)
 
@@ -60,40 +84,55 @@ class Team:
         """Take in a robot whose environment has been reset."""
         env = self._envs[index]
         self._make_room(env.lidar_spec.beams)
-        env.tracker.use_scratch(self._scratch[index])
         self._trackers[index], self._need_python[index] = env.tracker, env.world.needs_python
+        self._thoughtful[index] = env.payload is not None or env.world.needs_python
+        self._written[index] = False
         put(self._robots, index, _arrays(env))
         self.periods[index] = np.zeros(1, PERIOD)[0]
         self.periods["pose"][index] = env.world.pose
         self._logged[:, index] = False
 
-    def drive(self, twists: FloatArray, driven: NDArray[np.bool_]) -> None:
-        """Drive robots for one control period, let them understand, and judge them.
+    def drive(self, twists: FloatArray, driven: NDArray[np.bool_]) -> dict[int, Judgement]:
+        """Drive robots for one control period, let them understand, judge them, let them think.
 
         Args:
             twists: demanded velocities, shape (n, 3).
             driven: which robots take part, shape (n,).
+
+        Returns:
+            What became of the robots that thought, by their number.
         """
-        for k, tracker in enumerate(self._trackers):
-            if driven[k]:
+        for tracker, drives in zip(self._trackers, driven.tolist(), strict=True):
+            if drives:
                 tracker.let_go()
         by_python = self._need_python & driven
         for k in np.flatnonzero(by_python).tolist():
             self._envs[k].simulator.demand(tuple(twists[k].tolist()))
         self._note(twists, driven & ~by_python)
-        seconds = 1.0 / self._envs[0].setup.control_hz
-        self._in_parts(tick, twists, driven, seconds, self.periods)
-        for k in np.flatnonzero(by_python).tolist():
-            self._envs[k].world.arrive()
+        begin_period(self._arrays, driven)
+        return self._tick(twists, 1.0 / self._envs[0].setup.control_hz)
 
-    def write_rows(self, rows: NDArray[np.float32], with_memory: bool = False) -> None:
-        """Write what each robot observes, shape (n, columns), see `write_row`.
+    def prepare_rows(self, columns: int) -> None:
+        """Let the observations of the next control period be written into rows of this length."""
+        self._rows = np.empty((self._count, columns), np.float32)
+        self._written[:] = False
 
-        Args:
-            rows: to write.
-            with_memory: what is remembered and was told as well, see `write_command_row`.
-        """
-        self._in_parts(write_command_rows if with_memory else write_rows, rows)
+    def rows(self, columns: int) -> NDArray[np.float32]:
+        """What each robot observes, shape (n, columns), see `write_row`; fresh ones every time."""
+        if self._rows.shape[1] != columns:
+            self.prepare_rows(columns)
+        rows, self._rows = self._rows, NO_ROWS
+        write_others(self._arrays, rows)
+        return rows
+
+    def command_rows(self, columns: int) -> NDArray[np.float32]:
+        """As `rows`, with what is remembered and was told, see `write_command_row`."""
+        rows = np.empty((self._count, columns), np.float32)
+        parts = self._parts[1:]
+        waiting = [self._submit(write_command_rows, *part, rows) for part in parts]
+        write_command_rows(self._arrays, *self._parts[0], rows)
+        _wait_for(waiting)
+        return rows
 
     def hand_over_log(self) -> None:
         """Give the worlds the commands that were carried out without them."""
@@ -108,11 +147,10 @@ class Team:
             self._pool.shutdown()
 
     def _make_room(self, beams: int) -> None:
-        """Working memory for scans of that many beams, which the robots of a thread share."""
+        """A workbench for each thread, for scans of that many beams."""
         if beams > self._beams:
-            self._beams, self._scratch = beams, []
-            for first, last in self._parts:
-                self._scratch += [allocate_scratch(beams)] * (last - first)
+            self._beams = beams
+            self._workbenches = [workbench_with(allocate_scratch(beams)) for _ in self._parts]
 
     def _note(self, twists: FloatArray, driven: NDArray[np.bool_]) -> None:
         if self._log_length == LOG_LENGTH:
@@ -120,15 +158,42 @@ class Team:
         self._log[self._log_length], self._logged[self._log_length] = twists, driven
         self._log_length += 1
 
-    def _in_parts(self, call: Callable[..., None], *arguments: Any) -> None:
-        """Call a kernel on every part of the robots, the first part in this thread."""
-        waiting: list[Future[None]] = []
-        for first, last in self._parts[1:]:
-            assert self._pool is not None
-            waiting.append(self._pool.submit(call, self._robots, first, last, *arguments))
-        call(self._robots, *self._parts[0], *arguments)
-        for each in waiting:
-            each.result()
+    def _tick(self, twists: FloatArray, seconds: float) -> dict[int, Judgement]:
+        """Drive the robots that are ready, in all threads, and think meanwhile."""
+        work = twists, seconds, self._rows
+        benches = self._workbenches
+        waiting = [
+            self._submit(tick, bench, last - 1, -1, self._count, *work)
+            for bench, (_, last) in zip(benches[1:], self._parts[1:], strict=True)
+        ]
+        judgements: dict[int, Judgement] = {}
+        most = AT_A_TIME if waiting else self._count
+        try:
+            while tick(self._arrays, benches[0], 0, 1, most, *work):
+                self._think(judgements)
+        finally:
+            _wait_for(waiting)
+        self._think(judgements)
+        return judgements
+
+    def _think(self, judgements: dict[int, Judgement]) -> None:
+        """Let the robots think that are done and have not yet; note what became of them."""
+        for k in self._who[: tell(self._arrays, self._rows, self._who)].tolist():
+            env, period = self._envs[k], self.periods[k]
+            if self._need_python[k]:
+                env.world.arrive()
+            events = int(period["understood"]), int(period["judged"])
+            if any(events) or env.payload is not None:
+                judgements[k] = env.think(*events)
+
+    def _submit(self, call: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        assert self._pool is not None
+        return self._pool.submit(call, self._arrays, *arguments)
+
+
+def _wait_for(futures: list[Future[Any]]) -> None:
+    for each in futures:
+        each.result()
 
 
 def _arrays(env: SemNavEnv) -> RobotArrays:

@@ -1,7 +1,7 @@
 """One control period of many robots, and their observations, in compiled calls.
 
-Each robot is driven, understands and is judged by the kernels that a single environment calls, one
-robot after the other; robots share nothing, so any part of the list can run in any thread.
+Each robot is driven, understands and is judged by the kernels that a single environment calls.
+Robots share nothing, so any thread can take any of them.
 """
 
 from __future__ import annotations
@@ -9,13 +9,19 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numba.experimental import structref
 from numpy.typing import NDArray
 
+from semnav_env.belief.understand import Workbench
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.observations.memory_row import write_command_row
 from semnav_env.observations.row import write_row
 from semnav_env.robot_loop import RobotArrays, run_period
+from semnav_env.vector.marks import Marks, is_set, set_mark
+
+Flags = NDArray[np.bool_]
 
 PERIOD = np.dtype(
     [(name, "i8") for name in ("understood", "judged", "steps", "collisions")]
@@ -29,44 +35,143 @@ way to the goal got shorter; whether the body touches anything.
 """
 
 
+@structref.register
+class TeamArraysType(ArraysType):
+    """How compiled code sees `TeamArrays`."""
+
+
+class TeamArrays(structref.StructRefProxy):
+    """The arrays of many robots, and how far a control period has come.
+
+    Attributes:
+        robots: list of `RobotArrays`.
+        periods: what became of each robot, dtype `PERIOD`, shape (n,).
+        thoughtful: whose minds think in every control period, shape (n,).
+        taken: which robots a thread has taken, or are not driven in this control period; `Marks`.
+        done: which robots are done with it; `Marks`.
+        told: which of these Python knows of, shape (n,).
+        written: whose observation has been written, shape (n,).
+    """
+
+    robots: Any
+    periods: np.ndarray
+    thoughtful: Flags
+    taken: Marks
+    done: Marks
+    told: Flags
+    written: Flags
+
+
+structref.define_proxy(TeamArrays, TeamArraysType, list(TeamArrays.__annotations__))
+
+
+@kernel(counts_references=True)
+def join_team(
+    robots: Any,
+    periods: np.ndarray,
+    thoughtful: Flags,
+    taken: Marks,
+    done: Marks,
+    told: Flags,
+    written: Flags,
+) -> TeamArrays:
+    """The arrays as one structure; they are shared, not copied."""
+    return TeamArrays(robots, periods, thoughtful, taken, done, told, written)
+
+
+@kernel(counts_references=True)
+def begin_period(team: TeamArrays, driven: Flags) -> None:
+    """Make the robots that are driven ready to be taken."""
+    for k in range(len(driven)):
+        team.taken[k] = team.told[k] = not driven[k]
+        team.done[k] = 0
+
+
 @kernel(counts_references=True)
 def tick(
-    robots: Any,
+    team: TeamArrays,
+    workbench: Workbench,
     first: int,
-    last: int,
+    step: int,
+    most: int,
     twists: FloatArray,
-    driven: NDArray[np.bool_],
     seconds: float,
-    periods: np.ndarray,
-) -> None:
-    """Drive some of the robots for one control period, let them understand, and judge them.
+    rows: NDArray[np.float32],
+) -> int:
+    """Take robots that no other thread has taken, and drive them for one control period.
+
+    They understand and are judged. Where nothing calls for thinking they are observed as well.
 
     Args:
-        robots: list of `RobotArrays`.
-        first: index of the first one to drive.
-        last: index behind the last one.
+        team: the robots.
+        workbench: of this thread.
+        first: the robot to begin with.
+        step: 1 to go on with the next one, -1 with the one before, around until all are taken.
+        most: how many to take.
         twists: demanded velocities of all robots, shape (n, 3).
-        driven: which robots are to be driven at all, shape (n,).
         seconds: duration of a control period.
-        periods: dtype `PERIOD`, shape (n,); written for those that are driven.
+        rows: of the observations, see `write_row`, shape (n, columns); nothing is written without
+            columns.
+
+    Returns:
+        How many were taken.
     """
-    for k in range(first, last):
-        if driven[k]:
-            _tick_robot(robots[k], twists[k], seconds, periods[k])
+    count, taken, k = len(team.robots), 0, first
+    for _ in range(count):
+        if taken < most and set_mark(team.taken, k):
+            robot, period = team.robots[k], team.periods[k]
+            own = robot.senses.workbench
+            robot.senses.workbench = workbench
+            _tick_robot(robot, twists[k], seconds, period)
+            robot.senses.workbench = own
+            team.written[k] = rows.shape[1] > 0 and not _thinks(team, k)
+            if team.written[k]:
+                write_row(rows[k], robot.senses)
+            set_mark(team.done, k)
+            taken += 1
+        k = (k + step) % count
+    return taken
 
 
 @kernel(counts_references=True)
-def write_rows(robots: Any, first: int, last: int, rows: NDArray[np.float32]) -> None:
-    """Write the observations of some of the robots, see `write_row`; rows has one for each."""
-    for k in range(first, last):
-        write_row(rows[k], robots[k].senses)
+def tell(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) -> int:
+    """Write which robots are done and think, and were not told of before; returns how many.
+
+    Robots that were told of before have thought, and are observed.
+    """
+    count = 0
+    for k in range(len(team.robots)):
+        if team.told[k] and not team.written[k] and rows.shape[1] > 0:
+            write_row(rows[k], team.robots[k].senses)
+            team.written[k] = True
+        elif not team.told[k] and is_set(team.done, k):
+            team.told[k] = True
+            if _thinks(team, k):
+                who[count] = k
+                count += 1
+    return count
+
+
+@kernel(borrows=True)
+def _thinks(team: TeamArrays, k: int) -> bool:
+    """Whether something calls for thinking."""
+    period = team.periods[k]
+    return bool(team.thoughtful[k] or (period.understood | period.judged) != 0)
 
 
 @kernel(counts_references=True)
-def write_command_rows(robots: Any, first: int, last: int, rows: NDArray[np.float32]) -> None:
-    """As `write_rows`, with what is remembered and was told, see `write_command_row`."""
+def write_others(team: TeamArrays, rows: NDArray[np.float32]) -> None:
+    """Write the observations, see `write_row`, that have not been written."""
+    for k in range(len(team.robots)):
+        if not team.written[k]:
+            write_row(rows[k], team.robots[k].senses)
+
+
+@kernel(counts_references=True)
+def write_command_rows(team: TeamArrays, first: int, last: int, rows: NDArray[np.float32]) -> None:
+    """Write what some robots observe, remember and were told, see `write_command_row`."""
     for k in range(first, last):
-        write_command_row(rows[k], robots[k].senses)
+        write_command_row(rows[k], team.robots[k].senses)
 
 
 @kernel(borrows=True)

@@ -212,12 +212,14 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
     def _hold(self, actions: Arrays, driven: Mask) -> HeldAction:
         """Drive robots for the control periods of one action."""
         team, twists, held = self._gathered, self._actions.twists(actions), HeldAction(driven)
-        for _ in range(self._repeat):
+        for period in range(self._repeat):
             going = held.going
             if not going.any():
                 break
-            team.drive(twists, going)
-            judged = judge(self.envs, team.periods, going)
+            if period == self._repeat - 1:
+                self._observations.prepare(team)
+            judgements = team.drive(twists, going)
+            judged = judge(self.envs, team.periods, going, judgements)
             held.add(judged, self._rewards.terms(judged, actions))
             over = going & held.over
             for k in _indices(over):
