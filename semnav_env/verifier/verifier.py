@@ -16,7 +16,7 @@ from semnav_env.grounding.crossing import first_crossed
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, PassGoal, StopGoal
 from semnav_env.grounding.ways import KnownWays
-from semnav_env.maps.floor_plan import PlanDoor
+from semnav_env.maps.floor_plan import FloorPlan, PlanDoor
 from semnav_env.simulator.sensed import Motion
 from semnav_env.verifier.astray import wrong_arms
 from semnav_env.verifier.judge_record import (
@@ -70,7 +70,7 @@ class Verifier:
 
     def _join(self) -> JudgeRecord:
         self._numbers = self._state.view(np.uint8).data
-        doors = self.mission.floor_plan.door_ends.copy()  # not read-only: of one type with others
+        doors = self.mission.floor_plan.derived(_door_ends)
         progress = self.follower.progress
         return join_record(self._state, doors, self._arms, self._distances, progress)
 
@@ -184,6 +184,11 @@ class Verifier:
         done = self.follower.done
         self._arms = NO_ARMS if done else wrong_arms(clauses[self.follower.active], goal, rules)
         set_arms(self.record, self._arms)
+
+
+def _door_ends(floor_plan: FloorPlan) -> FloatArray:
+    """The jambs of all doors in an array that is not read-only, and so of one type with others."""
+    return floor_plan.door_ends.copy()
 
 
 def _may_cross(goal: Goal, crossed: PlanDoor, rules: DoorRules) -> bool:
