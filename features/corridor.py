@@ -23,7 +23,7 @@ from semnav_env.features.kernels.corridor_survey import (
     stands_in,
     survey,
 )
-from semnav_env.features.scene import Door, Scene, StillScene, ends_of
+from semnav_env.features.scene import Door, Scene, StillScene, ends_of, which_are_named
 
 MIN_CONTINUATION = 1.2
 """A corridor goes on behind a junction if it is longer than this there, metres."""
@@ -166,8 +166,8 @@ def corridor_at(scene: Scene, pose: Pose) -> Corridor:
             along which most of the wall in view runs.
     """
     if not isinstance(scene, StillScene):
-        named = np.array([door.name is not None for door in scene.doors], dtype=np.bool_)
-        return corridor_along(ends_of(scene.walls), ends_of(scene.doors), named, pose)
+        walls, doors = ends_of(scene.walls), ends_of(scene.doors)
+        return corridor_along(walls, doors, which_are_named(scene.doors), pose)
     views = scene.known_views
     if pose not in views:
         if len(views) >= MAX_KNOWN_VIEWS:

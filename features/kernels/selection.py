@@ -52,4 +52,4 @@ def value_of_rank(values: FloatArray, rank: int) -> float:
             low = i
         else:
             break
-    return values[rank]
+    return float(values[rank])
