@@ -195,7 +195,7 @@ def _moved(item: _Item, move: Callable[[Point], Point], *points: str) -> _Item:
 
 def ends_of(items: Iterable[Wall | Door]) -> FloatArray:
     """Coordinates x and y of start and end of walls or doors, shape (n, 4), metres."""
-    if isinstance(items, PlainWalls | RememberedDoors):
+    if isinstance(items, (PlainWalls, RememberedDoors)):
         return items.ends.copy()
     flat = [value for item in items for point in (item.start, item.end) for value in point]
     return np.array(flat, dtype=np.float64).reshape(-1, 4)
