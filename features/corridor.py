@@ -23,7 +23,7 @@ from semnav_env.features.kernels.corridor_survey import (
     stands_in,
     survey,
 )
-from semnav_env.features.scene import Door, Scene, StillScene, ends_of
+from semnav_env.features.scene import Door, Scene, StillScene, ends_of, which_are_named
 
 MIN_CONTINUATION = 1.2
 """A corridor goes on behind a junction if it is longer than this there, metres."""
@@ -33,8 +33,7 @@ MAX_KNOWN_VIEWS = 256
 commands are tried and judged there."""
 
 
-@dataclass(frozen=True, slots=True)
-class SideOpening:
+class SideOpening(NamedTuple):
     """Where a side of the corridor gives way to another one.
 
     Attributes:
@@ -55,8 +54,7 @@ class SideOpening:
         return (self.near + self.far) / 2
 
 
-@dataclass(frozen=True, slots=True)
-class Junction:
+class Junction(NamedTuple):
     """One or two facing openings, and whether the corridor goes on behind them.
 
     Attributes:
@@ -77,7 +75,9 @@ class Junction:
     @property
     def centre(self) -> float:
         """Its middle along the axis, metres."""
-        return sum(side.centre for side in self.openings) / len(self.openings)
+        if self.left is not None and self.right is not None:
+            return (self.left.centre + self.right.centre) / 2
+        return self.openings[0].centre
 
     @property
     def far(self) -> float:
@@ -166,8 +166,8 @@ def corridor_at(scene: Scene, pose: Pose) -> Corridor:
             along which most of the wall in view runs.
     """
     if not isinstance(scene, StillScene):
-        named = np.array([door.name is not None for door in scene.doors], dtype=np.bool_)
-        return corridor_along(ends_of(scene.walls), ends_of(scene.doors), named, pose)
+        walls, doors = ends_of(scene.walls), ends_of(scene.doors)
+        return corridor_along(walls, doors, which_are_named(scene.doors), pose)
     views = scene.known_views
     if pose not in views:
         if len(views) >= MAX_KNOWN_VIEWS:
@@ -213,11 +213,12 @@ def doorway_at(scene: Scene, pose: Pose) -> Door | None:
 
 
 def _openings(rows: np.ndarray) -> list[SideOpening]:
-    return [SideOpening(*row) for row in rows.tolist()]
+    return [SideOpening._make(row) for row in rows.tolist()]
 
 
 def _junctions(openings: list[SideOpening], end: float) -> tuple[Junction, ...]:
     """Facing openings belong to one junction."""
+    last = end - MIN_CONTINUATION
     lefts = [o for o in openings if o.left]
     rights = [o for o in openings if not o.left]
     junctions = []
@@ -225,11 +226,7 @@ def _junctions(openings: list[SideOpening], end: float) -> tuple[Junction, ...]:
         facing = next((r for r in rights if min(r.far, left.far) > max(r.near, left.near)), None)
         if facing is not None:
             rights.remove(facing)
-        junctions.append(_junction(left, facing, end))
-    junctions += [_junction(None, right, end) for right in rights]
+        far = left.far if facing is None else max(left.far, facing.far)
+        junctions.append(Junction(left, facing, far < last))
+    junctions += [Junction(None, right, right.far < last) for right in rights]
     return tuple(sorted(junctions, key=lambda junction: junction.centre))
-
-
-def _junction(left: SideOpening | None, right: SideOpening | None, end: float) -> Junction:
-    far = max(opening.far for opening in (left, right) if opening is not None)
-    return Junction(left, right, far < end - MIN_CONTINUATION)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +18,7 @@ from semnav_env.features.kernels.memory import (
     remember,
     what_counts,
 )
-from semnav_env.features.scene import Door, PlainWalls, Scene, ends_of
+from semnav_env.features.scene import PlainWalls, RememberedDoors, Scene, ends_of
 
 if TYPE_CHECKING:
     from semnav_env.features.scan import Scan
@@ -125,13 +124,5 @@ class SceneMemory:
 
     def scene(self) -> Scene:
         """The walls and doors that count, in the memory's frame, in the order first seen."""
-        walls, doors = what_counts(*self.arrays)
-        return Scene(PlainWalls(walls), tuple([_believed_door(*row) for row in doors.tolist()]))
-
-
-def _believed_door(
-    x1: float, y1: float, x2: float, y2: float, odds: float, hits: int, _: bool
-) -> Door:
-    """The door of a `REMEMBERED_DOOR` entry, its log-odds turned into a probability."""
-    confidence = 1.0 / (1.0 + math.exp(-odds))
-    return Door((x1, y1), (x2, y2), sightings=hits, confidence=confidence)
+        walls, doors, beliefs = what_counts(*self.arrays)
+        return Scene(PlainWalls(walls), RememberedDoors(doors, beliefs))

@@ -6,6 +6,7 @@ compared and the same grounding serves both.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -34,6 +35,7 @@ __all__ = [
     "Door",
     "PlainWalls",
     "Rejection",
+    "RememberedDoors",
     "Scene",
     "SceneLeaf",
     "StillScene",
@@ -76,6 +78,48 @@ class PlainWalls(Sequence[Wall]):
 
     def __hash__(self) -> int:
         return hash(tuple(self))
+
+
+class RememberedDoors(Sequence[Door]):
+    """Doors as a memory holds them; a `Door` is made when it is asked for, and kept.
+
+    Args:
+        ends: x and y of start and end, metres, shape (n, 4); not copied.
+        beliefs: log-odds that it is a door, and how often it was seen, shape (n, 2).
+    """
+
+    def __init__(self, ends: FloatArray, beliefs: FloatArray) -> None:
+        self.ends, self._beliefs = ends, beliefs
+        self._made: list[Door | None] = [None] * len(ends)
+
+    @overload
+    def __getitem__(self, index: int) -> Door: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Door, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Door | tuple[Door, ...]:
+        if isinstance(index, slice):
+            return tuple(self)[index]
+        if (door := self._made[index]) is None:
+            x1, y1, x2, y2 = self.ends[index].tolist()
+            odds, sightings = self._beliefs[index].tolist()
+            confidence = 1.0 / (1.0 + math.exp(-odds))
+            door = Door((x1, y1), (x2, y2), sightings=int(sightings), confidence=confidence)
+            self._made[index] = door
+        return door
+
+    def __len__(self) -> int:
+        return len(self._made)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and tuple(self) == tuple(other)
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
+
+    def __repr__(self) -> str:
+        return repr(tuple(self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +172,7 @@ class StillScene(Scene):
     @cached_property
     def named_doors(self) -> NDArray[np.bool_]:
         """Which doors have a name."""
-        return np.array([door.name is not None for door in self.doors], dtype=np.bool_)
+        return which_are_named(self.doors)
 
     @cached_property
     def known_views(self) -> dict[Pose, Any]:
@@ -151,7 +195,14 @@ def _moved(item: _Item, move: Callable[[Point], Point], *points: str) -> _Item:
 
 def ends_of(items: Iterable[Wall | Door]) -> FloatArray:
     """Coordinates x and y of start and end of walls or doors, shape (n, 4), metres."""
-    if isinstance(items, PlainWalls):
+    if isinstance(items, (PlainWalls, RememberedDoors)):
         return items.ends.copy()
     flat = [value for item in items for point in (item.start, item.end) for value in point]
     return np.array(flat, dtype=np.float64).reshape(-1, 4)
+
+
+def which_are_named(doors: Sequence[Door]) -> NDArray[np.bool_]:
+    """Which doors have a name, shape (n,): those of a floor plan."""
+    if isinstance(doors, RememberedDoors):
+        return np.zeros(len(doors), np.bool_)
+    return np.array([door.name is not None for door in doors], dtype=np.bool_)

@@ -12,6 +12,7 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.selection import finite_values, value_of_rank
 
 PROBE_SPACING = 0.1
 """Distance between the probes of the sides along the axis, metres."""
@@ -101,11 +102,12 @@ def probe(local: FloatArray, sign: float, back: float, count: int) -> FloatArray
     return side
 
 
-@kernel(counts_references=True)
+@kernel
 def shift(local: FloatArray, offset: float) -> None:
     """Move the axis to its left."""
-    local[:, 1] -= offset
-    local[:, 3] -= offset
+    for i in range(len(local)):
+        local[i, 1] -= offset
+        local[i, 3] -= offset
 
 
 @kernel(counts_references=True)
@@ -133,8 +135,8 @@ def _usual(side: FloatArray, room: float) -> float:
     the far walls of a junction. If the robot stands in the junction more of them do; so the
     distance is limited to little more than the `room` beside the axis in which ways go on.
     """
-    seen = np.sort(side[np.isfinite(side)])
-    usual = seen[len(seen) // 3] if len(seen) > 0 else MAX_SIDE_DISTANCE
+    seen = finite_values(side)
+    usual = value_of_rank(seen, len(seen) // 3) if len(seen) > 0 else MAX_SIDE_DISTANCE
     return room if usual > room + MAX_FURNITURE_DEPTH else usual
 
 
@@ -179,9 +181,9 @@ def _goes_on(distance: float, farthest: float) -> bool:
 @kernel(counts_references=True)
 def way_back(local: FloatArray) -> float:
     """How far any way for a body near the axis goes back, metres."""
-    turned = local.copy()
-    turned[:, 0] *= -1.0
-    turned[:, 2] *= -1.0
+    turned = np.empty_like(local)
+    for i in range(len(local)):
+        turned[i] = -local[i, 0], local[i, 1], -local[i, 2], local[i, 3]
     return farthest_way(turned, BODY_WIDTH, BODY_WIDTH)
 
 

@@ -28,6 +28,7 @@ from semnav_env.features.kernels.corridor_rays import (
 )
 from semnav_env.features.kernels.heading import prevailing_heading
 from semnav_env.features.kernels.narrowings import is_narrowing
+from semnav_env.features.kernels.selection import finite_values, value_of_rank
 
 PROBED_AHEAD = 40.0
 """How far ahead of the robot the sides are probed, metres."""
@@ -164,10 +165,8 @@ def _solid(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> FloatArray:
     """The walls, then the doors that close their gaps (see `survey`), shape (k, 4)."""
-    known = np.concatenate((walls, doors))
-    solid = np.empty((len(known), 4))
-    solid[: len(walls)] = walls
-    count = len(walls)
+    known, count = np.concatenate((walls, doors)), len(walls)
+    solid = known.copy()
     for i in range(len(doors)):
         if stands_in(doors[i], *pose):
             continue
@@ -248,9 +247,8 @@ def _recent(side: FloatArray, k: int, usual: float) -> float:
     It is the upper quartile, because furniture stands before a side and makes distances too small,
     and because the last probes before an opening may meet the wall that leads out.
     """
-    lately = side[max(0, k - round(RECENT_LENGTH / PROBE_SPACING)) : k]
-    seen = np.sort(lately[np.isfinite(lately)])
-    return seen[3 * (len(seen) - 1) // 4] if len(seen) > 0 else usual
+    seen = finite_values(side[max(0, k - round(RECENT_LENGTH / PROBE_SPACING)) : k])
+    return value_of_rank(seen, 3 * (len(seen) - 1) // 4) if len(seen) > 0 else usual
 
 
 @kernel

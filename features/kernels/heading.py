@@ -43,11 +43,14 @@ def prevailing_heading(solid: FloatArray, walls: int, x: float, y: float, headin
     angles = np.full(RAY_COUNT, np.inf)
     length = np.zeros(RAY_COUNT)
     hits, distances = _first_hits(solid, x, y, heading)
+    before, along = -1, 0.0  # neighbouring rays mostly meet the same wall
     for k in range(RAY_COUNT):
         hit = hits[k]
         if 0 <= hit < walls:
+            if hit != before:
+                along = math.atan2(solid[hit, 3] - solid[hit, 1], solid[hit, 2] - solid[hit, 0])
+                before = hit
             angle = heading + (k + 0.5) * RAY_STEP
-            along = math.atan2(solid[hit, 3] - solid[hit, 1], solid[hit, 2] - solid[hit, 0])
             angles[k] = _fold(along - heading)
             length[k] = distances[k] / max(abs(math.sin(along - angle)), 0.1)
     centre = _commonest(angles, length)

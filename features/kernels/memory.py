@@ -157,23 +157,29 @@ def how_many_count(walls: Any, doors: Any, counters: Any) -> tuple[int, int]:
 
 
 @kernel(counts_references=True)
-def what_counts(walls: Any, doors: Any, counters: Any) -> tuple[FloatArray, Any]:
+def what_counts(walls: Any, doors: Any, counters: Any) -> tuple[FloatArray, FloatArray, FloatArray]:
     """The remembered walls and doors that count.
 
     Returns:
-        Ends of the walls, shape (n, 4), metres; and the entries of the doors, shape (m,).
+        Ends of the walls, shape (n, 4), and of the doors, shape (m, 4), metres; and of each door
+        the log-odds that it is one and how often it was seen, shape (m, 2).
     """
     used = counters[0]
-    wall_ends, counting = np.empty((used.walls, 4)), np.empty(used.doors, np.bool_)
-    n = 0
+    wall_ends, door_ends = np.empty((used.walls, 4)), np.empty((used.doors, 4))
+    beliefs = np.empty((used.doors, 2))
+    n = m = 0
     for k in range(used.walls):
         if wall_counts(walls, k):
             wall = walls[k]
             wall_ends[n] = wall.start_x, wall.start_y, wall.end_x, wall.end_y
             n += 1
     for k in range(used.doors):
-        counting[k] = door_counts(doors[: used.doors], k)
-    return wall_ends[:n], doors[: used.doors][counting]
+        if door_counts(doors[: used.doors], k):
+            door = doors[k]
+            door_ends[m] = door.start_x, door.start_y, door.end_x, door.end_y
+            beliefs[m] = door.log_odds, float(door.hits)
+            m += 1
+    return wall_ends[:n], door_ends[:m], beliefs[:m]
 
 
 @kernel

@@ -18,7 +18,6 @@ from semnav_env.belief.estimate import (
     ESTIMATE,
     SENSED,
     mean_velocity,
-    pose_in,
 )
 from semnav_env.belief.scene_source import KnownScene, RememberedScene, nothing
 from semnav_env.belief.told_ways import ToldWays
@@ -231,8 +230,8 @@ class BeliefTracker:
 
     def think(self, events: int) -> None:
         """Do what the events of `understand` call for; nothing without one."""
-        estimate, follower = self._estimate[0], self.follower
-        pose = pose_in(estimate["pose"])
+        follower = self.follower
+        pose = BELIEVED.unpack_from(self._buffer, BELIEVED_OFFSET)[3:]
         looked = True
         if events & FIRST_SCAN:
             follower.start(self.scene(), pose)
@@ -244,7 +243,7 @@ class BeliefTracker:
             note_look(self.senses)
         if looked or events & ON_WAY:
             self._target = follower.target(pose)
-            estimate["clause"] = follower.active
+            self._estimate["clause"] = follower.active
             put_goal(self._estimate, "target", self._target)
 
     @property

@@ -2,7 +2,7 @@
 
 Calls go one way: a `Follower` has the active clause grounded (`ground`, `conditions`), goals are
 made (`goals`, `corridor_goals`) of what is found (`find`), and finding asks what there is in a
-situation (`counted_doors`, `junctions`, `opposite`, `visible_doors`, `room_exits`).
+situation (`counted_doors`, `behind`, `junctions`, `opposite`, `visible_doors`, `room_exits`).
 """
 
 from semnav_env.grounding.errors import GroundingError, UnclearError

@@ -73,6 +73,9 @@ Written where an event calls for it:
 _GOAL_FORMAT = Struct("=12dq2?")
 """A `GOAL_RECORD`; NumPy takes twelve times as long to write a nested entry."""
 
+_FARTHEST_FORMAT = Struct("=5d")
+"""The fields `farthest` and `ahead` of a `CLAUSE_PROGRESS`, which lie side by side."""
+
 _PASS, _REACH, _STOP = int(GoalKind.PASS), int(GoalKind.REACH), int(GoalKind.STOP)
 
 
@@ -96,6 +99,21 @@ def put_goal(record: np.ndarray, field: str, goal: Goal) -> None:
     numbers = (*goal.pose, *ends, *tolerances, width, wait_of(goal), *flags)
     buffer: Any = record
     _GOAL_FORMAT.pack_into(buffer, buffer.dtype.fields[field][1], *numbers)
+
+
+def farthest_view(progress: np.ndarray, heading: float) -> Pose:
+    """The farthest place that a robot has come to in the clause under way, and where it looks.
+
+    What was looked at stays so on coming back.
+
+    Args:
+        progress: dtype `CLAUSE_PROGRESS`, shape (1,).
+        heading: of the robot now, radians; the one of `ahead` counts if it has looked there.
+    """
+    buffer: Any = progress
+    offset = buffer.dtype.fields["farthest"][1]
+    x, y, _, _, ahead = _FARTHEST_FORMAT.unpack_from(buffer, offset)
+    return x, y, ahead if progress["looked_back"][0] else heading
 
 
 @kernel

@@ -17,7 +17,6 @@ from semnav_env.grounding.goals import search_goal
 from semnav_env.grounding.junctions import QUARTER_TURNS, mouth_of
 from semnav_env.grounding.search import Searching
 from semnav_env.grounding.situation import Situation, turned
-from semnav_env.grounding.visible_doors import own_doorway
 
 END_OF_HALLWAY = "the end of the hallway"
 
@@ -95,8 +94,11 @@ def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) 
     if isinstance(found, Searching):
         return search_goal(found)
     door, rules = found.value, situation.rules.grounding
-    if situation.back and door.door == own_doorway(situation.scene, turned(situation.begin), rules):
-        raise UnclearError(f"{clause}: one stands in that doorway; say to go through it")
+    if situation.back:
+        from semnav_env.grounding.visible_doors import own_doorway  # few commands need it
+
+        if door.door == own_doorway(situation.scene, turned(situation.begin), rules):
+            raise UnclearError(f"{clause}: one stands in that doorway; say to go through it")
     shift = rules.behind_referent if clause.past else -rules.before_door
     along = min(door.along + shift, situation.last_stop)
     return _go_on(situation, along, _where(clause), door.door)

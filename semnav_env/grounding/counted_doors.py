@@ -7,15 +7,13 @@ from dataclasses import dataclass
 
 from semnav_env.commands.references import Side
 from semnav_env.features.corridor import MAX_KNOWN_VIEWS, Corridor
-from semnav_env.features.frames import Point, Pose, heading_between, middle_of, to_local, wrap_angle
-from semnav_env.features.scene import Door, Scene, StillScene
-from semnav_env.grounding.door_geometry import bearing, heading_through
-from semnav_env.grounding.visible_doors import doors_around
+from semnav_env.features.frames import Pose
+from semnav_env.features.kernels.door_counting import count_doors
+from semnav_env.features.scene import Door, Scene, StillScene, ends_of
 from semnav_env.rules import GroundingRules
 
-SIDE_SAMPLES = (0.15, 0.5, 0.85)
-"""Places in an opening that are tested for lying on the side of a corridor, as shares of its width;
-one of them is enough, for a wall may end in the opening."""
+SIDES = (Side.LEFT, Side.RIGHT, Side.AHEAD)
+"""Sides by the numbers that the kernel gives them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,53 +79,18 @@ def _known_doors_along(
 
 
 def _all_doors_along(scene: Scene, corridor: Corridor, rules: GroundingRules) -> list[CountedDoor]:
-    counted = (_counted(door, corridor, rules) for door in scene.doors)
-    return sorted((each for each in counted if each is not None), key=lambda door: door.along)
-
-
-def doors_straight_ahead(scene: Scene, pose: Pose, rules: GroundingRules) -> list[CountedDoor]:
-    """The doors in view that lie more ahead of a turned pose than beside it: those behind a robot.
-
-    They are ordered not along a corridor but by their angle off straight ahead.
-    """
-    seen = ((bearing(pose, door), door) for door in doors_around(scene, pose, rules=rules))
+    doors = scene.doors
+    rows = count_doors(
+        scene.door_ends if isinstance(scene, StillScene) else ends_of(doors),
+        corridor.frame,
+        corridor.half_width,
+        corridor.end,
+        corridor.left,
+        corridor.right,
+        rules.door_offset,
+        rules.end_door_offset,
+    )
     return [
-        CountedDoor(door, ahead, Side.BEHIND, heading_through(door, heading), off)
-        for off, door in sorted(seen, key=lambda each: each[0])
-        if off < math.pi / 4
-        for heading in [heading_between(pose[:2], door.midpoint)]
-        for ahead in [to_local(pose, door.midpoint)[0]]
+        CountedDoor(doors[k], along, SIDES[side], outward)
+        for along, k, side, outward in sorted(rows.tolist())
     ]
-
-
-def _counted(door: Door, corridor: Corridor, rules: GroundingRules) -> CountedDoor | None:
-    """The door as the corridor counts it; None if it does not."""
-    start, end = to_local(corridor.frame, door.start), to_local(corridor.frame, door.end)
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    along, offset = middle_of(start, end)
-    if along < 0.0:
-        return None
-    if abs(dx) < abs(dy):
-        near_end = abs(along - corridor.end) <= rules.end_door_offset
-        at_end = near_end and abs(offset) <= corridor.half_width
-        side, towards = Side.AHEAD if at_end else None, 0.0
-    else:
-        beside = Side.LEFT if offset > 0 else Side.RIGHT
-        side = beside if _is_on_the_side(start, end, corridor, rules) else None
-        towards = math.copysign(math.pi / 2, offset)
-    if side is None:
-        return None
-    normal = math.atan2(dx, -dy)
-    if math.cos(normal - towards) < 0:
-        normal += math.pi
-    return CountedDoor(door, along, side, wrap_angle(corridor.frame[2] + normal))
-
-
-def _is_on_the_side(start: Point, end: Point, corridor: Corridor, rules: GroundingRules) -> bool:
-    """Whether a ray from the axis to the side meets the door first, somewhere along it."""
-    for share in SIDE_SAMPLES:
-        along = start[0] + share * (end[0] - start[0])
-        offset = start[1] + share * (end[1] - start[1])
-        if abs(corridor.side_at(offset > 0, along) - abs(offset)) < rules.door_offset:
-            return True
-    return False

@@ -6,15 +6,13 @@ import math
 
 from semnav_env.commands.clauses import Turning
 from semnav_env.commands.references import OTHER, DoorReference, PlaceReference, Side
-from semnav_env.features.corridor import Junction, doorway_at
-from semnav_env.features.frames import compose, heading_between, wrap_angle
-from semnav_env.grounding.counted_doors import CountedDoor, doors_along, doors_straight_ahead
+from semnav_env.features.corridor import Junction
+from semnav_env.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.grounding.door_geometry import heading_through
 from semnav_env.grounding.errors import GroundingError, UnclearError
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.search import Known, Searching
-from semnav_env.grounding.situation import Situation, is_behind, turned
-from semnav_env.grounding.visible_doors import doors_around, own_doorway
+from semnav_env.grounding.situation import Situation, is_behind
 
 
 def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
@@ -53,63 +51,16 @@ def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDo
 def named_doors(reference: DoorReference, situation: Situation) -> tuple[list[CountedDoor], bool]:
     """The doors that a reference may name, in order, and whether there may be more farther on.
 
-    Behind a robot that stands in a doorway is only that door. In a room, which is wider than any
-    corridor, those in view are meant that lie more behind than beside, the one most nearly straight
-    behind first; elsewhere those that the robot would come by on turning around, if there are any.
-
     Args:
         reference: to a door on any side but opposite.
         situation: of a robot that looks towards it.
     """
-    scene, begin, corridor = situation.scene, situation.begin, situation.corridor
-    rules = situation.rules.grounding
     if not situation.back:
-        return doors_along(scene, corridor, reference.side, rules), True
-    doorway = own_doorway(scene, turned(begin), rules)
-    if doorway is not None:
-        outward = heading_through(doorway, begin[2])
-        return [CountedDoor(doorway, 0.0, Side.BEHIND, outward)], False
-    if corridor.half_width <= rules.corridor_width / 2:
-        doors = doors_along(scene, corridor, rules=rules)
-        if doors or not situation.seen_to_end:
-            return doors, True
-    elif not situation.complete and not situation.looks_along(begin[2]):
-        return [], True
-    straight = doors_straight_ahead(scene, (*begin[:2], corridor.frame[2]), rules)
-    return straight, not straight
+        rules = situation.rules.grounding
+        return doors_along(situation.scene, situation.corridor, reference.side, rules), True
+    from semnav_env.grounding.behind import doors_behind  # few commands need it
 
-
-def find_exit(situation: Situation) -> Known[CountedDoor] | Searching:
-    """The door of "leave the room": the doorway that the robot has just come by.
-
-    A robot that has not come by one leaves by the only door in view. Where not everything has been
-    seen it takes the most open one, and looks for one if none is open.
-
-    Raises:
-        UnclearError: there is none, or there are several.
-    """
-    scene, begin, rules = situation.scene, situation.begin, situation.rules.grounding
-    inward = begin
-    door = doorway_at(scene, inward)
-    if door is None:  # the robot may have turned around behind it
-        inward = compose(begin, (rules.doorway_exit, 0.0, math.pi))
-        door = doorway_at(scene, inward)
-    if door is None:
-        if situation.complete:
-            exits = doors_around(scene, begin, rules=rules)
-        else:
-            from semnav_env.grounding.lookouts import exits_in_view  # few commands need it
-
-            found = exits_in_view(situation)
-            if isinstance(found, Searching):
-                return found
-            exits = found
-        if len(exits) != 1:
-            raise UnclearError("leave the room: by which door? say which, or enter the room first")
-        door = exits[0]
-        away = heading_through(door, heading_between(begin[:2], door.midpoint))
-        inward = (*door.midpoint, wrap_angle(away + math.pi))
-    return Known(CountedDoor(door, 0.0, Side.BEHIND, wrap_angle(inward[2] + math.pi)))
+    return doors_behind(situation)
 
 
 def find_junction(

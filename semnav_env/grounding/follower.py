@@ -24,6 +24,7 @@ from semnav_env.grounding.clause_progress import (
     CLAUSE_DONE,
     CLAUSE_PROGRESS,
     TRAIL_DUE,
+    farthest_view,
     note_pose,
     put_goal,
 )
@@ -170,11 +171,9 @@ class Follower:
         return search_goal(found) if isinstance(found, Searching) else found
 
     def _situation(self, scene: Scene, pose: Pose) -> Situation:
-        progress = self.progress[0]
-        x, y = progress["farthest"].tolist()  # what was looked at stays so on coming back
+        x, y, heading = farthest_view(self.progress, pose[2])
         if self._way:
             x, y = pose[:2]
-        heading = float(progress["ahead"][2]) if progress["looked_back"] else pose[2]
         return Situation(
             scene,
             self.begin,
@@ -226,7 +225,7 @@ class Follower:
         self.goal = goal
         is_open = not self.done and self.impossible is None
         put_goal(self.progress, "goal", goal)
-        self._write(is_open=is_open)
+        self.progress["is_open"] = is_open
 
     def _write(self, **values: object) -> None:
         """Set fields of the record."""

@@ -10,7 +10,7 @@ from semnav_env.features.frames import Pose
 from semnav_env.grounding.counted_doors import CountedDoor
 from semnav_env.grounding.door_geometry import heading_through
 from semnav_env.grounding.errors import GroundingError
-from semnav_env.grounding.find import find_door, find_exit
+from semnav_env.grounding.find import find_door
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
 from semnav_env.grounding.goal_check import looks_along
 from semnav_env.grounding.search import Searching
@@ -67,6 +67,8 @@ def door_goal(clause: GoToDoor, situation: Situation) -> Goal:
 
 def leave_goal(situation: Situation) -> Goal:
     """The goal of "leave the room"."""
+    from semnav_env.grounding.behind import find_exit  # few commands need it
+
     found = find_exit(situation)
     if isinstance(found, Searching):
         return search_goal(found)

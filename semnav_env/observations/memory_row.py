@@ -50,7 +50,7 @@ def write_command_row(row: NDArray[np.float32], senses: Senses) -> None:
     pose, memory = (believed[0], believed[1], believed[2]), row[split:]
     memory[:] = 0.0
     known_walls, known_doors, counters = senses.remembered
-    walls, doors = what_counts(known_walls, known_doors, counters)
+    walls, doors, _ = what_counts(known_walls, known_doors, counters)
     pieces, used = senses.bumps
     _write_walls(memory, walls, pose)
     _write_corridor(memory, np.concatenate((walls, pieces[: used[0]])), doors, pose)
@@ -84,15 +84,11 @@ def _distance(wall: FloatArray, x: float, y: float) -> float:
 
 @kernel(counts_references=True)
 def _write_corridor(
-    memory: NDArray[np.float32], walls: FloatArray, doors: np.ndarray, pose: Pose
+    memory: NDArray[np.float32], walls: FloatArray, doors: FloatArray, pose: Pose
 ) -> None:
     """Write the axis of the corridor that the robot looks along, and the arms that leave it."""
-    ends = np.empty((len(doors), 4))
-    for i in range(len(doors)):
-        door = doors[i]
-        ends[i] = door.start_x, door.start_y, door.end_x, door.end_y
     doubtful = np.zeros(len(doors), np.bool_)
-    frame, half_width, end, _, openings = survey(walls, ends, doubtful, pose[0], pose[1], pose[2])
+    frame, half_width, end, _, openings = survey(walls, doors, doubtful, pose[0], pose[1], pose[2])
     c, s = math.cos(pose[2]), math.sin(pose[2])
     turned = frame[2] - pose[2]
     memory[_HALLWAY], memory[_HALLWAY + 1] = to_robot(frame[0], frame[1], pose, c, s)

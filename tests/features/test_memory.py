@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from semnav_env.features.frames import Pose
 from semnav_env.features.memory import SceneMemory
+from semnav_env.features.scene import ends_of
 from tests.support.remembering import DOOR_A, DOOR_B, WALL_A, Ends, see
 
 poses = st.tuples(st.floats(-9, 9), st.floats(-9, 9), st.floats(-math.pi, math.pi))
@@ -148,3 +149,14 @@ def test_a_cleared_memory_is_empty() -> None:
     memory.clear()
     assert memory.size == (0, 0)
     assert memory.scene().walls == ()
+
+
+def test_a_remembered_door_is_one_object_however_it_is_asked_for() -> None:
+    memory = SceneMemory()
+    see(memory, doors=[DOOR_A, DOOR_B], scans=3)
+    doors = memory.scene().doors
+    assert doors[-1] is doors[1] is tuple(doors)[1] is doors[1:][0]
+    assert doors == tuple(doors)
+    assert hash(doors) == hash(tuple(doors))
+    assert repr(doors) == repr(tuple(doors))
+    np.testing.assert_array_equal(ends_of(doors), ends_of(tuple(doors)))
