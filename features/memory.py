@@ -9,15 +9,14 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.door_memory import REMEMBERED_DOOR
-from semnav_env.features.kernels.drift import without_drift
 from semnav_env.features.kernels.layout import COUNTS_SIZE, DOOR, DOORS, WALL, WALLS
 from semnav_env.features.kernels.memory import (
     COUNTERS,
-    REMEMBERED_WALL,
     how_many_count,
     remember,
     what_counts,
 )
+from semnav_env.features.kernels.remembered import WALL_ROWS
 from semnav_env.features.scene import PlainWalls, RememberedDoors, Scene, ends_of
 
 if TYPE_CHECKING:
@@ -39,15 +38,16 @@ class SceneMemory:
     """
 
     def __init__(self) -> None:
-        self._walls = np.zeros(MAX_WALLS, dtype=REMEMBERED_WALL)
+        self._walls = np.zeros((WALL_ROWS, MAX_WALLS))
         self._doors = np.zeros(MAX_DOORS, dtype=REMEMBERED_DOOR)
         self._counters = np.zeros(1, dtype=COUNTERS)
 
     @property
-    def arrays(self) -> tuple[NDArray[np.void], NDArray[np.void], NDArray[np.void]]:
+    def arrays(self) -> tuple[FloatArray, NDArray[np.void], NDArray[np.void]]:
         """(walls, doors, counters) for a kernel that updates them in place.
 
-        Their dtypes are `REMEMBERED_WALL`, `REMEMBERED_DOOR` and `COUNTERS` (`kernels.memory`).
+        The walls have the rows that `kernels.remembered` names, shape (`WALL_ROWS`, room); the
+        dtypes of the others are `REMEMBERED_DOOR` and `COUNTERS`.
         """
         return self._walls, self._doors, self._counters
 
@@ -60,7 +60,7 @@ class SceneMemory:
         copy = object.__new__(SceneMemory)
         copy._counters = self._counters.copy()
         walls, doors, _ = self._counters[0].tolist()
-        copy._walls, copy._doors = self._walls[:walls].copy(), self._doors[:doors].copy()
+        copy._walls, copy._doors = self._walls[:, :walls].copy(), self._doors[:doors].copy()
         return copy
 
     def update(
@@ -114,8 +114,10 @@ class SceneMemory:
             scene: what was extracted from a scan, lidar frame.
             lidar_pose: of the lidar by odometry since the last scan, in the memory's frame.
         """
+        from semnav_env.features.kernels.scene_drift import without_drift
+
         walls = ends_of(scene.placed(lidar_pose).walls)
-        return without_drift(walls, self._walls[: self._counters["walls"][0]], lidar_pose)
+        return without_drift(walls, self._walls, self._counters["walls"][0], lidar_pose)
 
     @property
     def size(self) -> tuple[int, int]:

@@ -117,7 +117,7 @@ def remember_door(door: Ends, confidence: float, memory: Any, used: int) -> int:
         if min(same, other) < nearest:
             best, nearest, swapped = k, min(same, other), other < same
     if best < 0:
-        best, used = place_for_new(memory, used)
+        best, used = place_for_new(memory.hits, used)
         _set(memory[best], door, log_odds)
     else:
         _fuse(memory[best], turned if swapped else door, log_odds)

@@ -7,12 +7,14 @@ remembered wall is such a landmark.
 from __future__ import annotations
 
 import math
-from typing import Any, TypeAlias
+from typing import TypeAlias
+
+import numpy as np
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.normal_equations import solve_step
-from semnav_env.features.kernels.remembered import Ends
+from semnav_env.features.kernels.remembered import BLOCK, HITS, Ends, ends_of_wall, lowest_bit
 
 MIN_LANDMARK_SIGHTINGS = 5
 """A remembered wall tells where the robot is once it was seen this often."""
@@ -49,38 +51,10 @@ PRIOR: Sums = (
 
 
 @kernel
-def without_drift(walls: FloatArray, known: Any, pose: Pose) -> Pose:
-    """The pose at which the walls of a scan lie best on the remembered ones.
-
-    One Gauss-Newton step towards the least
-
-        sum w_i d_i^2 + (dx^2 + dy^2) / s^2 + dtheta^2 / t^2,
-
-    where d_i are the distances of both ends of each shared stretch from the remembered line, w_i
-    grows with its length and falls for outliers, and s and t are `DRIFT_DEVIATION` and
-    `DRIFT_ANGLE_DEVIATION`. What the walls do not determine, such as the place along a corridor
-    without doors, stays as odometry has it.
-
-    Args:
-        walls: x1, y1, x2, y2 of the scan's walls as the pose places them, metres, shape (n, 4).
-        known: `REMEMBERED_WALL`, in the same frame.
-        pose: of the lidar by odometry, in the same frame.
-
-    Returns:
-        The corrected pose.
-    """
-    sums = PRIOR
-    for i in range(len(walls)):
-        ends = (walls[i, 0], walls[i, 1], walls[i, 2], walls[i, 3])
-        sums = with_sighting(ends, known, pose, sums)
-    return corrected(pose, sums)
-
-
-@kernel
-def with_sighting(wall: Ends, known: Any, pose: Pose, sums: Sums) -> Sums:
-    """The normal equations with what a wall of a scan adds to them; see `without_drift`."""
-    like, begin, end = _nearest_like(wall, known)
-    return _added(wall, begin, end, known[like], pose, sums) if like >= 0 else sums
+def with_sighting(wall: Ends, known: FloatArray, used: int, pose: Pose, sums: Sums) -> Sums:
+    """The normal equations with what a wall of a scan adds to them; see `scene_drift`."""
+    like, begin, end = _nearest_like(wall, known, used)
+    return _added(wall, begin, end, ends_of_wall(known, like), pose, sums) if like >= 0 else sums
 
 
 @kernel
@@ -91,7 +65,7 @@ def corrected(pose: Pose, sums: Sums) -> Pose:
 
 
 @kernel
-def _nearest_like(wall: Ends, known: Any) -> tuple[int, float, float]:
+def _nearest_like(wall: Ends, known: FloatArray, used: int) -> tuple[int, float, float]:
     """The remembered wall nearest beside a wall that faces and runs as it does.
 
     Returns:
@@ -99,36 +73,61 @@ def _nearest_like(wall: Ends, known: Any) -> tuple[int, float, float]:
     """
     x1, y1, x2, y2 = wall
     ux, uy = x2 - x1, y2 - y1
-    size, reach = ux * ux + uy * uy, (1.01 * MAX_LANDMARK_OFFSET) ** 2
     nearest, like, begin, end = MAX_LANDMARK_OFFSET, -1, 0.0, 0.0
-    for k in range(len(known)):
-        old = known[k]
-        dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
-        dot, square = ux * dx + uy * dy, dx * dx + dy * dy
-        parallel = (dot >= 0.0) & (dot * dot >= MIN_PARALLEL_COSINE**2 * size * square)
-        a = (x1 - old.start_x) * dy - (y1 - old.start_y) * dx
-        b = (x2 - old.start_x) * dy - (y2 - old.start_y) * dx
-        # The middle of the shared stretch is no nearer than the nearer end: one branch for all.
-        near = (a * b <= 0.0) | (min(a * a, b * b) <= reach * square)
-        if not (parallel & near & (old.hits >= MIN_LANDMARK_SIGHTINGS)):
-            continue
-        length = math.sqrt(square)
-        first = ((x1 - old.start_x) * dx + (y1 - old.start_y) * dy) / length
-        last = ((x2 - old.start_x) * dx + (y2 - old.start_y) * dy) / length
-        low, high = max(first, 0.0), min(last, length)
-        if high - low < MIN_OVERLAP:
-            continue
-        low, high = (low - first) / (last - first), (high - first) / (last - first)
-        middle = 0.5 * (low + high)
-        x, y = x1 + middle * ux - old.start_x, y1 + middle * uy - old.start_y
-        beside = abs(y * dx - x * dy) / length
-        if beside < nearest:
-            nearest, like, begin, end = beside, k, low, high
+    for start in range(0, used, BLOCK):
+        candidates = _alike(wall, known, start, used)
+        while candidates != 0:
+            k = start + int(np.int64(lowest_bit(candidates)))
+            candidates &= candidates - np.uint64(1)
+            start_x, start_y, end_x, end_y = ends_of_wall(known, k)
+            dx, dy = end_x - start_x, end_y - start_y
+            length = math.sqrt(dx * dx + dy * dy)
+            first = ((x1 - start_x) * dx + (y1 - start_y) * dy) / length
+            last = ((x2 - start_x) * dx + (y2 - start_y) * dy) / length
+            low, high = max(first, 0.0), min(last, length)
+            if high - low < MIN_OVERLAP:
+                continue
+            low, high = (low - first) / (last - first), (high - first) / (last - first)
+            middle = 0.5 * (low + high)
+            x, y = x1 + middle * ux - start_x, y1 + middle * uy - start_y
+            beside = abs(y * dx - x * dy) / length
+            if beside < nearest:
+                nearest, like, begin, end = beside, k, low, high
     return like, begin, end
 
 
 @kernel
-def _added(wall: Ends, begin: float, end: float, old: Any, pose: Pose, sums: Sums) -> Sums:
+def _alike(wall: Ends, known: FloatArray, start: int, used: int) -> np.uint64:
+    """Which of the remembered walls from `start` on may be those that a wall is beside.
+
+    Returns:
+        Bit i is set if wall `start + i` was seen often enough, is parallel to the wall, overlaps
+        it, and has an end of the wall near its line: the middle of the stretch that both share is
+        no nearer than the nearer end.
+    """
+    x1, y1, x2, y2 = wall
+    ux, uy = x2 - x1, y2 - y1
+    size, reach = ux * ux + uy * uy, (1.01 * MAX_LANDMARK_OFFSET) ** 2
+    found, low, high = np.uint64(0), np.uint64(start), np.uint64(min(start + BLOCK, used))
+    # Unsigned indices and no branch, or it is not done for many walls at once.
+    for k in range(low, high):
+        start_x, start_y, end_x, end_y = ends_of_wall(known, k)
+        dx, dy = end_x - start_x, end_y - start_y
+        dot, square = ux * dx + uy * dy, dx * dx + dy * dy
+        parallel = (dot >= 0.0) & (dot * dot >= MIN_PARALLEL_COSINE**2 * size * square)
+        a = (x1 - start_x) * dy - (y1 - start_y) * dx
+        b = (x2 - start_x) * dy - (y2 - start_y) * dx
+        near = (a * b <= 0.0) | (min(a * a, b * b) <= reach * square)
+        first = (x1 - start_x) * dx + (y1 - start_y) * dy
+        last = (x2 - start_x) * dx + (y2 - start_y) * dy
+        overlaps = (first < square) & (last > 0.0)
+        often = known[HITS, k] >= MIN_LANDMARK_SIGHTINGS
+        found |= np.uint64(parallel & near & overlaps & often) << (k - low)
+    return found
+
+
+@kernel
+def _added(wall: Ends, begin: float, end: float, old: Ends, pose: Pose, sums: Sums) -> Sums:
     """Add both ends of a stretch of a wall beside a remembered one to the normal equations.
 
     With the unit normal n of the remembered line and d = n . (p - q), a shift moves d by n, and a
@@ -137,14 +136,15 @@ def _added(wall: Ends, begin: float, end: float, old: Any, pose: Pose, sums: Sum
     x1, y1, x2, y2 = wall
     xx, xy, yy, xr, yr, rr, bx, by, br = sums
     ux, uy = x2 - x1, y2 - y1
-    dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
+    start_x, start_y, end_x, end_y = old
+    dx, dy = end_x - start_x, end_y - start_y
     length = math.sqrt(dx * dx + dy * dy)
     nx, ny = -dy / length, dx / length
     shared = (end - begin) * math.sqrt(ux * ux + uy * uy)
     weight = 0.5 * min(shared, MAX_WEIGHING_OVERLAP) / WALL_DEVIATION**2
     for share in (begin, end):
         x, y = x1 + share * ux, y1 + share * uy
-        off = nx * (x - old.start_x) + ny * (y - old.start_y)
+        off = nx * (x - start_x) + ny * (y - start_y)
         lever = ny * (x - pose[0]) - nx * (y - pose[1])
         counts = weight / (1.0 + (off / OUTLIER_DISTANCE) ** 2)
         xx += counts * nx * nx

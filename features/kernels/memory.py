@@ -13,12 +13,15 @@ from semnav_env.features.kernels.door_memory import door_counts, doubt_unseen_do
 from semnav_env.features.kernels.drift import PRIOR, corrected, with_sighting
 from semnav_env.features.kernels.layout import DOORS, WALLS
 from semnav_env.features.kernels.pass_through import is_passed_by_beams
-from semnav_env.features.kernels.remembered import Ends, place_for_new
-
-REMEMBERED_WALL = np.dtype(
-    [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y")] + [("hits", "i8")]
+from semnav_env.features.kernels.remembered import (
+    BLOCK,
+    HITS,
+    Ends,
+    ends_of_wall,
+    lowest_bit,
+    place_for_new,
+    write_wall,
 )
-"""A remembered wall: its ends, and how often it was seen."""
 
 COUNTERS = np.dtype([("walls", "i8"), ("doors", "i8"), ("scans", "i8")])
 """How many entries of the walls and of the doors are used, and how many scans were added; an array
@@ -75,7 +78,7 @@ def remember(
         angle_min: of the scan, radians.
         angle_increment: of the scan, radians.
         pose: of the lidar in the memory's frame.
-        memory: arrays of `REMEMBERED_WALL`, `REMEMBERED_DOOR` and `COUNTERS`, changed in place.
+        memory: `SceneMemory.arrays`, changed in place.
     """
     known_walls, known_doors, counters = memory
     used, frame = counters[0], frame_of(pose)
@@ -86,13 +89,8 @@ def remember(
         used.doors = remember_door(placed(door, frame), door.confidence, known_doors, used.doors)
     doubt_unseen_doors(ranges, angle_min, angle_increment, pose, known_doors[: used.doors])
     first = used.scans % WALL_CHECK_PERIOD  # each scan looks at another eighth of the walls
-    doubt_passed_walls(
-        ranges,
-        angle_min,
-        angle_increment,
-        pose,
-        known_walls[first : used.walls : WALL_CHECK_PERIOD],
-    )
+    for k in range(first, used.walls, WALL_CHECK_PERIOD):
+        doubt_passed_wall(ranges, angle_min, angle_increment, pose, known_walls, k)
     used.scans += 1
 
 
@@ -107,57 +105,54 @@ def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) 
         memory: as in `remember`.
     """
     known, _, counters = memory
-    known, sums, frame = known[: counters[0].walls], PRIOR, frame_of(pose)
+    used, sums, frame = counters[0].walls, PRIOR, frame_of(pose)
     for i in range(counts[WALLS]):
-        sums = with_sighting(placed(walls[i], frame), known, pose, sums)
+        sums = with_sighting(placed(walls[i], frame), known, used, pose, sums)
     return corrected(pose, sums)
 
 
 @kernel
-def doubt_passed_walls(
+def doubt_passed_wall(
     ranges: FloatArray,
     angle_min: float,
     angle_increment: float,
     pose: tuple[float, float, float],
-    walls: Any,
+    walls: FloatArray,
+    k: int,
 ) -> None:
-    """Take sightings from walls that the beams of a scan pass through.
+    """Take sightings from a wall that the beams of a scan pass through.
 
-    Such walls were people who walked on, or lie where odometry has drifted since.
+    Such a wall was a person who walked on, or lies where odometry has drifted since.
 
     Args:
         ranges: of the scan, metres, shape (n,).
         angle_min: of the scan, radians.
         angle_increment: of the scan, radians.
         pose: of the lidar in the memory's frame.
-        walls: `REMEMBERED_WALL`, changed in place.
+        walls: the remembered walls, shape (`WALL_ROWS`, room), changed in place.
+        k: which of them.
     """
-    for k in range(len(walls)):
-        wall = walls[k]
-        if wall.hits > 0 and is_passed_by_beams(ranges, angle_min, angle_increment, pose, wall):
-            wall.hits = max(min(wall.hits, MAX_WEIGHING_SIGHTINGS) - PASSED_WALL_LOSS, 0)
+    hits, ends = walls[HITS, k], ends_of_wall(walls, k)
+    if hits > 0.0 and is_passed_by_beams(ranges, angle_min, angle_increment, pose, ends):
+        walls[HITS, k] = max(min(hits, MAX_WEIGHING_SIGHTINGS) - PASSED_WALL_LOSS, 0.0)
 
 
 @kernel
-def wall_counts(walls: Any, k: int) -> bool:
-    """Whether wall `k` of the remembered ones was seen often enough."""
-    return bool(walls[k].hits >= MIN_WALL_SIGHTINGS)
-
-
-@kernel
-def how_many_count(walls: Any, doors: Any, counters: Any) -> tuple[int, int]:
+def how_many_count(walls: FloatArray, doors: Any, counters: Any) -> tuple[int, int]:
     """How many of the remembered walls and doors count."""
     used = counters[0]
     wall_total, door_total = 0, 0
     for k in range(used.walls):
-        wall_total += wall_counts(walls, k)
+        wall_total += walls[HITS, k] >= MIN_WALL_SIGHTINGS
     for k in range(used.doors):
         door_total += door_counts(doors[: used.doors], k)
     return wall_total, door_total
 
 
 @kernel(counts_references=True)
-def what_counts(walls: Any, doors: Any, counters: Any) -> tuple[FloatArray, FloatArray, FloatArray]:
+def what_counts(
+    walls: FloatArray, doors: Any, counters: Any
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """The remembered walls and doors that count.
 
     Returns:
@@ -169,9 +164,8 @@ def what_counts(walls: Any, doors: Any, counters: Any) -> tuple[FloatArray, Floa
     beliefs = np.empty((used.doors, 2))
     n = m = 0
     for k in range(used.walls):
-        if wall_counts(walls, k):
-            wall = walls[k]
-            wall_ends[n] = wall.start_x, wall.start_y, wall.end_x, wall.end_y
+        if walls[HITS, k] >= MIN_WALL_SIGHTINGS:
+            wall_ends[n] = ends_of_wall(walls, k)
             n += 1
     for k in range(used.doors):
         if door_counts(doors[: used.doors], k):
@@ -197,83 +191,108 @@ def placed(item: Any, frame: Frame) -> Ends:
 
 
 @kernel
-def remember_wall(wall: Ends, memory: Any, used: int) -> int:
+def remember_wall(wall: Ends, known: FloatArray, used: int) -> int:
     """Fuse a wall with the first remembered one that it continues or repeats, or add it.
 
     Such a wall faces the same side, lies on the same line, and overlaps it or ends just beside it.
 
     Args:
         wall: in the memory's frame.
-        memory: `REMEMBERED_WALL` array, changed in place.
-        used: entries used before.
+        known: the remembered walls, shape (`WALL_ROWS`, room), changed in place.
+        used: how many of its columns were used before.
 
     Returns:
-        Entries used afterwards.
+        Columns used afterwards.
     """
     x1, y1, x2, y2 = wall
     length = math.hypot(x2 - x1, y2 - y1)
     if length < 1e-6:
         return used
-    ux, uy = (x2 - x1) / length, (y2 - y1) / length
-    for k in range(used):
-        old = memory[k]
-        dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
-        dot, square = dx * ux + dy * uy, dx * dx + dy * dy
-        aligned = (dot > 0.0) & (dot * dot > SAME_DIRECTION_COSINE**2 * square)
-        first = (x1 - old.start_x) * dy - (y1 - old.start_y) * dx
-        last = (x2 - old.start_x) * dy - (y2 - old.start_y) * dx
-        nearest = MAX_END_OFFSET**2 * square
-        beside = (first * last > 0.0) & (first * first > nearest) & (last * last > nearest)
-        # One branch, which is seldom taken: each of these tests alone would be hard to predict.
-        if (aligned & (not beside)) and _on_one_line(old, wall):
-            _fuse_wall(old, wall)
-            return used
-    place, used = place_for_new(memory, used)
-    new = memory[place]
-    new.start_x, new.start_y, new.end_x, new.end_y = wall
-    new.hits = 1
+    along = (x2 - x1) / length, (y2 - y1) / length
+    for start in range(0, used, BLOCK):
+        candidates = _nearly_in_line(wall, along, known, start, used)
+        while candidates != 0:
+            k = start + int(np.int64(lowest_bit(candidates)))
+            candidates &= candidates - np.uint64(1)
+            old = ends_of_wall(known, k)
+            if _on_one_line(old, wall):
+                write_wall(known, k, _fused(old, known[HITS, k], wall), known[HITS, k] + 1.0)
+                return used
+    place, used = place_for_new(known[HITS], used)
+    write_wall(known, place, wall, 1.0)
     return used
 
 
 @kernel
-def _on_one_line(old: Any, wall: Ends) -> bool:
+def _nearly_in_line(
+    wall: Ends, along: tuple[float, float], known: FloatArray, start: int, used: int
+) -> np.uint64:
+    """Which of the remembered walls from `start` on may be on one line with a wall.
+
+    Returns:
+        Bit i is set if wall `start + i` has nearly the direction `along`, is not too far to one
+        side of the wall, and overlaps it, or nearly so.
+    """
+    x1, y1, x2, y2 = wall
+    ux, uy = along
+    found, low, high = np.uint64(0), np.uint64(start), np.uint64(min(start + BLOCK, used))
+    # Unsigned indices and no branch, or it is not done for many walls at once.
+    for k in range(low, high):
+        start_x, start_y, end_x, end_y = ends_of_wall(known, k)
+        dx, dy = end_x - start_x, end_y - start_y
+        dot, square = dx * ux + dy * uy, dx * dx + dy * dy
+        aligned = (dot > 0.0) & (dot * dot > SAME_DIRECTION_COSINE**2 * square)
+        first = (x1 - start_x) * dy - (y1 - start_y) * dx
+        last = (x2 - start_x) * dy - (y2 - start_y) * dx
+        nearest = MAX_END_OFFSET**2 * square
+        beside = (first * last > 0.0) & (first * first > nearest) & (last * last > nearest)
+        # A gap along the line, times the length; the length is at most half of 1 + its square.
+        gap = 0.55 * SAME_LINE_GAP * (1.0 + square)
+        before = (x2 - start_x) * dx + (y2 - start_y) * dy < -gap
+        behind = (x1 - start_x) * dx + (y1 - start_y) * dy > square + gap
+        found |= np.uint64(aligned & (not (beside | before | behind))) << (k - low)
+    return found
+
+
+@kernel
+def _on_one_line(old: Ends, wall: Ends) -> bool:
     """Whether two nearly parallel walls meet, and lie on one line where they do.
 
     `first` and `last` are the ends of the new wall along the old one, and `middle` is the centre of
     what they share, or of the gap between them; there the distance across is measured.
     """
     x1, y1, x2, y2 = wall
-    dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
+    start_x, start_y, end_x, end_y = old
+    dx, dy = end_x - start_x, end_y - start_y
     length = math.hypot(dx, dy)
-    first = ((x1 - old.start_x) * dx + (y1 - old.start_y) * dy) / length
-    last = ((x2 - old.start_x) * dx + (y2 - old.start_y) * dy) / length
+    first = ((x1 - start_x) * dx + (y1 - start_y) * dy) / length
+    last = ((x2 - start_x) * dx + (y2 - start_y) * dy) / length
     if first > length + SAME_LINE_GAP or last < -SAME_LINE_GAP:
         return False
     middle = 0.5 * (max(first, 0.0) + min(last, length))
     share = (middle - first) / max(last - first, 1e-9)
     x, y = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
-    return bool(abs((x - old.start_x) * dy - (y - old.start_y) * dx) < SAME_LINE_OFFSET * length)
+    return bool(abs((x - start_x) * dy - (y - start_y) * dx) < SAME_LINE_OFFSET * length)
 
 
 @kernel
-def _fuse_wall(old: Any, wall: Ends) -> None:
-    """Fuse a wall with an old one: their mean line by length and sightings, over both extents.
+def _fused(old: Ends, sightings: float, wall: Ends) -> Ends:
+    """A wall fused with an old one: their mean line by length and sightings, over both extents.
 
     (ux, uy) is the mean direction and (x, y) the mean of the midpoints; the ends of both walls are
     projected on that line and the outermost ones kept.
     """
     x1, y1, x2, y2 = wall
-    dx, dy = old.end_x - old.start_x, old.end_y - old.start_y
-    hits = min(old.hits, MAX_WEIGHING_SIGHTINGS)
+    start_x, start_y, end_x, end_y = old
+    dx, dy = end_x - start_x, end_y - start_y
+    hits = min(sightings, MAX_WEIGHING_SIGHTINGS)
     weight = hits * math.hypot(dx, dy)
     share = weight / (weight + math.hypot(x2 - x1, y2 - y1))
     ux, uy = hits * dx + x2 - x1, hits * dy + y2 - y1
     norm = math.hypot(ux, uy)
     ux, uy = ux / norm, uy / norm
-    x = 0.5 * (share * (old.start_x + old.end_x) + (1.0 - share) * (x1 + x2))
-    y = 0.5 * (share * (old.start_y + old.end_y) + (1.0 - share) * (y1 + y2))
-    first = min((old.start_x - x) * ux + (old.start_y - y) * uy, (x1 - x) * ux + (y1 - y) * uy)
-    last = max((old.end_x - x) * ux + (old.end_y - y) * uy, (x2 - x) * ux + (y2 - y) * uy)
-    old.start_x, old.start_y = x + first * ux, y + first * uy
-    old.end_x, old.end_y = x + last * ux, y + last * uy
-    old.hits += 1
+    x = 0.5 * (share * (start_x + end_x) + (1.0 - share) * (x1 + x2))
+    y = 0.5 * (share * (start_y + end_y) + (1.0 - share) * (y1 + y2))
+    first = min((start_x - x) * ux + (start_y - y) * uy, (x1 - x) * ux + (y1 - y) * uy)
+    last = max((end_x - x) * ux + (end_y - y) * uy, (x2 - x) * ux + (y2 - y) * uy)
+    return x + first * ux, y + first * uy, x + last * ux, y + last * uy

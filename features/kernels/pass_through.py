@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.remembered import Ends
 
 SAMPLES, MIN_SAMPLES_IN_VIEW = 6, 4
 """Places along a wall at which beams are looked at, and how many of them must be in the scan."""
@@ -31,7 +31,7 @@ def is_passed_by_beams(
     angle_min: float,
     angle_increment: float,
     pose: tuple[float, float, float],
-    wall: Any,
+    wall: Ends,
 ) -> bool:
     """Whether the beams to three in four of the places in good view end behind the wall.
 
@@ -40,10 +40,11 @@ def is_passed_by_beams(
         angle_min: of the scan, radians.
         angle_increment: of the scan, radians.
         pose: of the lidar in the wall's frame.
-        wall: with its ends.
+        wall: its ends, metres.
     """
-    dx, dy = wall.end_x - wall.start_x, wall.end_y - wall.start_y
-    x, y = wall.start_x - pose[0], wall.start_y - pose[1]
+    start_x, start_y, end_x, end_y = wall
+    dx, dy = end_x - start_x, end_y - start_y
+    x, y = start_x - pose[0], start_y - pose[1]
     length = math.sqrt(dx * dx + dy * dy)
     across = abs(x * dy - y * dx) / length
     reach = min(MAX_VIEW_DISTANCE, across / MIN_INCIDENCE_SINE)

@@ -1,22 +1,53 @@
-"""Room for a new entry among remembered walls or doors."""
+"""How remembered walls are laid out, and room for a new entry among remembered walls or doors."""
 
 from __future__ import annotations
 
 from typing import Any, TypeAlias
 
+from numba.cpython.unsafe.numbers import trailing_zeros
+
+from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
 
 Ends: TypeAlias = tuple[float, float, float, float]
 """Start and end of a wall or door: x1, y1, x2, y2 in metres."""
 
+START_X, START_Y, END_X, END_Y, HITS = range(5)
+"""Rows of the array of remembered walls, shape (5, room), float64: their ends in metres, and how
+often each was seen. A wall is a column, so that many walls can be compared at once."""
+
+WALL_ROWS = HITS + 1
+
+BLOCK = 64
+"""Remembered walls that are compared with a wall at once: one for each bit of a number."""
+
+lowest_bit: Any = trailing_zeros
+"""Place of the lowest bit that is set in a number which is not 0; only kernels can call it."""
+
 
 @kernel
-def place_for_new(memory: Any, used: int) -> tuple[int, int]:
-    """Place of a new entry, and how many are used then; a full memory replaces the rarest one."""
-    if used < len(memory):
+def ends_of_wall(walls: FloatArray, k: int) -> Ends:
+    """The ends of remembered wall `k`."""
+    return walls[START_X, k], walls[START_Y, k], walls[END_X, k], walls[END_Y, k]
+
+
+@kernel
+def write_wall(walls: FloatArray, k: int, ends: Ends, hits: float) -> None:
+    """Write remembered wall `k`."""
+    walls[START_X, k], walls[START_Y, k], walls[END_X, k], walls[END_Y, k] = ends
+    walls[HITS, k] = hits
+
+
+@kernel
+def place_for_new(hits: Any, used: int) -> tuple[int, int]:
+    """Place of a new entry, and how many are used then; a full memory replaces the rarest one.
+
+    `hits` says how often each entry was seen, shape (room,).
+    """
+    if used < len(hits):
         return used, used + 1
     place = 0
     for k in range(used):
-        if memory[k].hits < memory[place].hits:
+        if hits[k] < hits[place]:
             place = k
     return place, used

@@ -17,9 +17,8 @@ from semnav_env.features.frames import FloatArray, Pose, compose, relative, to_p
 from semnav_env.features.kernels.drift import (
     MAX_LANDMARK_OFFSET,
     MIN_LANDMARK_SIGHTINGS,
-    without_drift,
 )
-from semnav_env.features.kernels.memory import REMEMBERED_WALL
+from semnav_env.features.kernels.scene_drift import without_drift
 from semnav_env.features.memory import SceneMemory
 from semnav_env.lidar import Lidar
 from semnav_env.maps import load_floor_plan
@@ -32,13 +31,14 @@ HERE: Pose = (0.5, -0.4, 0.3)
 small = st.tuples(st.floats(-0.08, 0.08), st.floats(-0.08, 0.08), st.floats(-0.03, 0.03))
 
 
-def known(walls: FloatArray, hits: int = MIN_LANDMARK_SIGHTINGS) -> np.ndarray:
-    """A memory that holds these walls."""
-    table = np.zeros(len(walls), REMEMBERED_WALL)
-    for name, column in zip(("start_x", "start_y", "end_x", "end_y"), walls.T, strict=True):
-        table[name] = column
-    table["hits"] = hits
-    return table
+def known(walls: FloatArray, hits: int = MIN_LANDMARK_SIGHTINGS) -> FloatArray:
+    """What is remembered after these walls were seen that often, shape (`WALL_ROWS`, n)."""
+    return np.vstack((walls.T, np.full(len(walls), hits)))
+
+
+def corrected(walls: FloatArray, memory: FloatArray, pose: Pose) -> Pose:
+    """The pose that a memory without free room corrects."""
+    return without_drift(walls, memory, memory.shape[1], pose)
 
 
 def placed(walls: FloatArray, true: Pose, believed: Pose) -> FloatArray:
@@ -51,7 +51,7 @@ def placed(walls: FloatArray, true: Pose, believed: Pose) -> FloatArray:
 def settled(walls: FloatArray, believed: Pose, scans: int = 200) -> Pose:
     """What is believed after that many scans from `HERE`."""
     for _ in range(scans):
-        believed = without_drift(placed(walls, HERE, believed), known(walls), believed)
+        believed = corrected(placed(walls, HERE, believed), known(walls), believed)
     return believed
 
 
@@ -76,7 +76,7 @@ def test_a_bare_corridor_corrects_all_but_the_place_along_it(error: Pose) -> Non
 def test_one_scan_corrects_a_part_and_never_more_than_the_whole(error: Pose) -> None:
     believed = HERE[0], HERE[1] + error[1], HERE[2]
     seen = placed(CORRIDOR, HERE, believed)
-    _, y, _ = without_drift(seen, known(CORRIDOR), believed)
+    _, y, _ = corrected(seen, known(CORRIDOR), believed)
     assert abs(y - HERE[1]) <= abs(error[1])
     assert (y - HERE[1]) * error[1] >= 0.0
 
@@ -93,8 +93,8 @@ def test_one_scan_corrects_a_part_and_never_more_than_the_whole(error: Pose) -> 
     ],
     ids=["none", "seldom seen", "facing away", "beside", "elsewhere", "without length"],
 )
-def test_walls_that_are_not_those_seen_do_not_move_the_robot(memory: np.ndarray) -> None:
-    assert without_drift(CORRIDOR, memory, HERE) == HERE
+def test_walls_that_are_not_those_seen_do_not_move_the_robot(memory: FloatArray) -> None:
+    assert corrected(CORRIDOR, memory, HERE) == HERE
 
 
 def test_a_memory_locates_a_lidar_by_what_it_saw_before() -> None:
