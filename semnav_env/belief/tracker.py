@@ -137,8 +137,9 @@ class BeliefTracker:
 
     def read_ranges_in(self, ranges: FloatArray) -> None:
         """Take the array that a simulator writes, shape (beams,), for `ranges`."""
-        self.ranges = ranges
-        self.senses = self._join()
+        if ranges is not self.ranges:
+            self.ranges = ranges
+            self.senses = self._join()
 
     def begin(self, command: Command, ways: Mapping[int, Way] = NO_WAYS) -> None:
         """Forget everything and begin to follow a command.
