@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.larger import larger
 
 BLOCK = 64
-"""Points of which it is asked together whether one of them is far from a chord."""
+"""Points of which the one farthest from a chord is found together."""
 
 
 @kernel
@@ -77,16 +78,14 @@ def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float
     best = limit * math.sqrt(dx * dx + dy * dy)
     found = -1
     for start in range(first + 1, last, BLOCK):
-        # Unsigned indices and a sum without a branch, or it is not done for many points at once.
-        low, high = np.uint64(start), np.uint64(min(start + BLOCK, last))
-        beyond = 0
-        for i in range(low, high):
-            beyond += abs(dx * ys[i] - dy * xs[i] - level) > best
-        if beyond > 0:
-            for i in range(low, high):
-                distance = abs(dx * ys[i] - dy * xs[i] - level)
-                if distance > best:
-                    best, found = distance, int(i)
+        most = 0.0
+        # Unsigned indices and `larger`, or it is not done for many points at once.
+        for i in range(np.uint64(start), np.uint64(min(start + BLOCK, last))):
+            most = larger(abs(dx * ys[i] - dy * xs[i] - level), most)
+        if most > best:
+            best, found = most, start
+    while found > 0 and abs(dx * ys[found] - dy * xs[found] - level) != best:
+        found += 1  # from the first point of its block to the first one that is so far away
     return found
 
 
@@ -95,7 +94,7 @@ def gather(xs: FloatArray, ys: FloatArray, first: int, last: int, piece: Any) ->
     """Mean and central second-moment sums of points first to last (inclusive)."""
     x0, y0 = xs[first], ys[first]
     sx = sy = sxx = sxy = syy = 0.0
-    for i in range(first, last + 1):
+    for i in range(np.uint64(first), np.uint64(last + 1)):
         dx, dy = xs[i] - x0, ys[i] - y0
         sx += dx
         sy += dy

@@ -71,7 +71,8 @@ def merge_neighbours(count: int, settings: Any, scratch: Any) -> int:
             fit(scratch.xs, scratch.ys, current)
         else:
             kept += 1
-            pieces[kept] = following
+            if kept < k:
+                pieces[kept] = following
     return min(kept + 1, count)
 
 
@@ -93,7 +94,8 @@ def merge_across_spikes(count: int, settings: Any, scratch: Any) -> int:
             k += 2
         else:
             kept += 1
-            pieces[kept] = pieces[k]
+            if kept < k:
+                pieces[kept] = pieces[k]
             k += 1
     return min(kept + 1, count)
 

@@ -78,6 +78,7 @@ class Scratch(NamedTuple):
             the first half turn come once more.
         ys: y of the valid points, shape (2 n,).
         beams: their beam indices, shape (2 n,).
+        joined: whether a beam's point is joined to that before it, shape (8 k,) with 8 k > n.
         group_first: first point of each connected group, shape (n + 1,).
         stack: split points still to be visited, shape (n,).
         table: rows for one group's points, whose columns `kernels.optimal_partition` or
@@ -103,6 +104,7 @@ class Scratch(NamedTuple):
     xs: FloatArray
     ys: FloatArray
     beams: NDArray[np.int64]
+    joined: NDArray[np.bool_]
     group_first: NDArray[np.int64]
     stack: NDArray[np.int64]
     table: FloatArray
@@ -151,6 +153,7 @@ def allocate_scratch(beams: int, door_candidates: int = MAX_DOOR_CANDIDATES) -> 
         xs=np.empty(2 * beams),
         ys=np.empty(2 * beams),
         beams=np.empty(2 * beams, np.int64),
+        joined=np.empty(beams + 8 - beams % 8, np.bool_),
         group_first=np.empty(beams + 1, np.int64),
         stack=np.empty(beams, np.int64),
         table=np.empty((beams + 1, 8)),

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.breakpoints import breakpoint_terms
@@ -13,6 +13,9 @@ from semnav_env.features.kernels.compiling import kernel
 
 SMALLEST_FLOAT = 5e-324
 """The smallest positive number: a range of zero is no return."""
+
+EIGHT, ALL_JOINED = np.uint64(8), np.uint64(0x0101010101010101)
+"""Number of beams that are looked at together, and eight bytes that say that all are joined."""
 
 
 @kernel
@@ -39,45 +42,89 @@ def group_points(
     Returns:
         How many points and how many groups (int64) were written to `scratch`.
     """
-    xs, ys, beams, group_first = scratch.xs, scratch.ys, scratch.beams, scratch.group_first
-    longest_step = settings.dropout_beams + 1
-    nearer, farther, previous, offset = breakpoint_terms(increment, settings)
-    plain = farther == 0.0 and previous == 0.0
-    lowest = max(range_min, SMALLEST_FLOAT)
-    points = groups = np.uint64(0)  # unsigned, or every index is tested for counting from the end
-    last_x = last_y = last_range = 0.0
-    last_beam = -longest_step - 1
-    for index in range(np.uint64(len(ranges))):
-        distance = ranges[index]
-        if not (distance >= lowest and distance < limit):
+    lowest, one = max(range_min, SMALLEST_FLOAT), np.uint64(1)
+    beams, joined, group_first = np.uint64(len(ranges)), scratch.joined, scratch.group_first
+    terms = breakpoint_terms(increment, settings)
+    join_neighbours(ranges, directions, lowest, limit, terms, joined)
+    points = groups = first = np.uint64(0)  # unsigned: no index is tested for counting from the end
+    last_beam: Any = -1
+    while first < beams:
+        if not lowest <= ranges[first] < limit:
+            first += one
             continue
-        x = distance * directions[index, 0]
-        y = distance * directions[index, 1]
-        beam = np.int64(index)
-        step = beam - last_beam
-        if step == 1:
-            reach = nearer * min(distance, last_range) + offset
-            if not plain:
-                reach += farther * max(distance, last_range) + previous * last_range
-        elif step <= longest_step:
-            reach = bridge_reach(step * increment, last_range, distance, settings)
-        else:
-            reach = math.nan  # never within it
-        if not (x - last_x) ** 2 + (y - last_y) ** 2 <= reach * reach:
+        if not is_bridged(ranges, directions, increment, settings, last_beam, first):
             group_first[groups] = points
-            groups += np.uint64(1)
-        xs[points] = last_x = x
-        ys[points] = last_y = y
-        beams[points] = last_beam = beam
-        last_range = distance
-        points += np.uint64(1)
+            groups += one
+        end = next_break(joined, first + one)
+        while end < beams and lowest <= ranges[end] < limit:
+            group_first[groups] = points + (end - first)
+            groups += one
+            end = next_break(joined, end + one)
+        write_points(ranges, directions, first, end, points, scratch)
+        points += end - first
+        last_beam, first = np.int64(end) - 1, end + one
     group_first[groups] = points
     return np.int64(points), np.int64(groups)
 
 
 @kernel
-def bridge_reach(angle: float, before: float, after: float, settings: Any) -> float:
-    """How far points on either side of a few missing returns may be apart, metres."""
-    nearer, farther, previous, offset = breakpoint_terms(angle, settings)
+def join_neighbours(
+    ranges: FloatArray, directions: FloatArray, lowest: float, limit: float, terms: Any, joined: Any
+) -> None:
+    """Write for each beam whether its point is joined to that of the beam before it.
+
+    Without a branch, so that it is done for many beams at once. Behind the last beam is a break.
+    """
+    nearer, farther, previous, offset = terms
+    flat = directions.reshape(-1)  # the compiler must know how far the rows are apart
+    one, two = np.uint64(1), np.uint64(2)
+    for i in range(one, np.uint64(len(ranges))):
+        before, after = ranges[i - one], ranges[i]
+        less = before if before < after else after
+        more = before if before > after else after
+        reach = nearer * less + offset + (farther * more + previous * before)
+        x = after * flat[i + i] - before * flat[i + i - two]
+        y = after * flat[i + i + one] - before * flat[i + i - one]
+        seen = (less >= lowest) & (more < limit)
+        joined[i] = seen & (x * x + y * y <= reach * reach)
+    joined[len(ranges)] = False
+
+
+@kernel
+def next_break(joined: NDArray[np.bool_], beam: Any) -> Any:
+    """The first beam from a beam on that is not joined to the one before it."""
+    eights = joined.view(np.uint64)
+    while joined[beam]:
+        is_whole = beam % EIGHT == 0 and eights[beam // EIGHT] == ALL_JOINED
+        beam += EIGHT if is_whole else np.uint64(1)
+    return beam
+
+
+@kernel
+def write_points(
+    ranges: FloatArray, directions: FloatArray, first: Any, end: Any, points: Any, scratch: Any
+) -> None:
+    """Write the points of the beams first to end (exclusive), the first one as number `points`."""
+    flat = directions.reshape(-1)
+    xs, ys, beams = scratch.xs, scratch.ys, scratch.beams
+    shift = points - first
+    for i in range(first, end):
+        xs[i + shift] = ranges[i] * flat[i + i]
+        ys[i + shift] = ranges[i] * flat[i + i + np.uint64(1)]
+        beams[i + shift] = np.int64(i)
+
+
+@kernel
+def is_bridged(
+    ranges: FloatArray, directions: FloatArray, increment: float, settings: Any, last: int, new: Any
+) -> Any:
+    """Whether a new beam's point is joined to that of the last beam with a return (-1: none)."""
+    step = np.int64(new) - last
+    if last < 0 or step > settings.dropout_beams + 1:
+        return False
+    before, after = ranges[last], ranges[new]
+    x = after * directions[new, 0] - before * directions[last, 0]
+    y = after * directions[new, 1] - before * directions[last, 1]
+    nearer, farther, previous, offset = breakpoint_terms(step * increment, settings)
     reach = nearer * min(before, after) + farther * max(before, after) + previous * before + offset
-    return float(min(reach, settings.merge_gap))
+    return x * x + y * y <= min(reach, settings.merge_gap) ** 2

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.larger import larger
 from semnav_env.features.lidar_spec import CosinesSines
 from semnav_env.lidar.culling import cell_of
-from semnav_env.lidar.larger import larger
 
 _FULL_TURN = 2.0 * math.pi
 _ANGLE_ERROR = 2e-4

@@ -15,7 +15,7 @@ from numba.extending import intrinsic, overload
 
 
 def larger(a: float, b: float) -> float:
-    """The larger of two numbers, neither of which is NaN, and not both of which are zero."""
+    """The larger of two numbers, neither of which is NaN; of two zeros the sign may be either."""
     return a if a > b else b
 
 
