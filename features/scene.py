@@ -46,7 +46,28 @@ __all__ = [
 _Item = TypeVar("_Item", Wall, Door, Corner, CorridorProbe, Arc, Rejection)
 
 
-class PlainWalls(Sequence[Wall]):
+_WallOrDoor = TypeVar("_WallOrDoor", bound=Wall | Door, covariant=True)
+
+
+class _MadeFromEnds(Sequence[_WallOrDoor]):
+    """Walls or doors that are made when asked for; it equals the tuple of them."""
+
+    ends: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.ends)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and tuple(self) == tuple(other)
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
+
+    def __repr__(self) -> str:
+        return repr(tuple(self))
+
+
+class PlainWalls(_MadeFromEnds[Wall]):
     """Walls of which only the ends are known; a `Wall` is made when it is asked for.
 
     A memory and a floor plan hold hundreds of walls, and grounding needs only their ends.
@@ -70,17 +91,8 @@ class PlainWalls(Sequence[Wall]):
         x1, y1, x2, y2 = self.ends[index].tolist()
         return Wall((x1, y1), (x2, y2))
 
-    def __len__(self) -> int:
-        return len(self.ends)
 
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Sequence) and tuple(self) == tuple(other)
-
-    def __hash__(self) -> int:
-        return hash(tuple(self))
-
-
-class RememberedDoors(Sequence[Door]):
+class RememberedDoors(_MadeFromEnds[Door]):
     """Doors as a memory holds them; a `Door` is made when it is asked for, and kept.
 
     Args:
@@ -108,18 +120,6 @@ class RememberedDoors(Sequence[Door]):
             door = Door((x1, y1), (x2, y2), sightings=int(sightings), confidence=confidence)
             self._made[index] = door
         return door
-
-    def __len__(self) -> int:
-        return len(self._made)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Sequence) and tuple(self) == tuple(other)
-
-    def __hash__(self) -> int:
-        return hash(tuple(self))
-
-    def __repr__(self) -> str:
-        return repr(tuple(self))
 
 
 @dataclass(frozen=True, slots=True)

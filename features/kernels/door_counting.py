@@ -1,4 +1,4 @@
-"""Tells which doors a corridor counts, on which side of it and in which order."""
+"""Tells which doors a corridor counts, and on which side of it."""
 
 from __future__ import annotations
 

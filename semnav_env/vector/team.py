@@ -22,7 +22,7 @@ from semnav_env.vector.tick import (
     PERIOD,
     begin_period,
     join_team,
-    tell,
+    report,
     tick,
     write_command_rows,
     write_others,
@@ -65,7 +65,7 @@ class Team:
         self._parts = list(pairwise(ends))
         self._pool = ThreadPoolExecutor(parts - 1) if parts > 1 else None
         self.periods = np.zeros(count, PERIOD)
-        self._thoughtful, self._written, told = np.zeros((3, count), dtype=bool)
+        self._thoughtful, self._written, reported = np.zeros((3, count), dtype=bool)
         self._log = np.zeros((LOG_LENGTH, count, 3))
         self._logged = np.zeros((LOG_LENGTH, count), dtype=bool)
         self._log_length = 0
@@ -74,7 +74,7 @@ class Team:
         self._trackers = [env.tracker for env in envs]
         self._robots, self._who = list_of(_arrays(envs[0]), count), np.zeros(count, np.int64)
         taken, done = np.zeros((2, count), np.int64)
-        flags = self._thoughtful, taken, done, told, self._written
+        flags = self._thoughtful, taken, done, reported, self._written
         self._arrays = join_team(self._robots, self.periods, *flags)
         self._rows = NO_ROWS
         for k in range(count):
@@ -178,7 +178,7 @@ class Team:
 
     def _think(self, judgements: dict[int, Judgement]) -> None:
         """Let the robots think that are done and have not yet; note what became of them."""
-        for k in self._who[: tell(self._arrays, self._rows, self._who)].tolist():
+        for k in self._who[: report(self._arrays, self._rows, self._who)].tolist():
             env, period = self._envs[k], self.periods[k]
             if self._need_python[k]:
                 env.world.arrive()

@@ -49,7 +49,7 @@ class TeamArrays(structref.StructRefProxy):
         thoughtful: whose minds think in every control period, shape (n,).
         taken: which robots a thread has taken, or are not driven in this control period; `Marks`.
         done: which robots are done with it; `Marks`.
-        told: which of these Python knows of, shape (n,).
+        reported: which of these Python knows of, shape (n,).
         written: whose observation has been written, shape (n,).
     """
 
@@ -58,7 +58,7 @@ class TeamArrays(structref.StructRefProxy):
     thoughtful: Flags
     taken: Marks
     done: Marks
-    told: Flags
+    reported: Flags
     written: Flags
 
 
@@ -72,18 +72,18 @@ def join_team(
     thoughtful: Flags,
     taken: Marks,
     done: Marks,
-    told: Flags,
+    reported: Flags,
     written: Flags,
 ) -> TeamArrays:
     """The arrays as one structure; they are shared, not copied."""
-    return TeamArrays(robots, periods, thoughtful, taken, done, told, written)
+    return TeamArrays(robots, periods, thoughtful, taken, done, reported, written)
 
 
 @kernel(counts_references=True)
 def begin_period(team: TeamArrays, driven: Flags) -> None:
     """Make the robots that are driven ready to be taken."""
     for k in range(len(driven)):
-        team.taken[k] = team.told[k] = not driven[k]
+        team.taken[k] = team.reported[k] = not driven[k]
         team.done[k] = 0
 
 
@@ -134,18 +134,18 @@ def tick(
 
 
 @kernel(counts_references=True)
-def tell(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) -> int:
-    """Write which robots are done and think, and were not told of before; returns how many.
+def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) -> int:
+    """Write which robots are done and think, and were not reported before; returns how many.
 
-    Robots that were told of before have thought, and are observed.
+    Robots that were reported before have thought, and are observed.
     """
     count = 0
     for k in range(len(team.robots)):
-        if team.told[k] and not team.written[k] and rows.shape[1] > 0:
+        if team.reported[k] and not team.written[k] and rows.shape[1] > 0:
             write_row(rows[k], team.robots[k].senses)
             team.written[k] = True
-        elif not team.told[k] and is_set(team.done, k):
-            team.told[k] = True
+        elif not team.reported[k] and is_set(team.done, k):
+            team.reported[k] = True
             if _thinks(team, k):
                 who[count] = k
                 count += 1
