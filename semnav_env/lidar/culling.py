@@ -1,16 +1,18 @@
-"""Lists, for every place in a floor plan, the few segments that a lidar there can reach."""
+"""Lists, for every place in a floor plan, the few segments that a lidar or a body can reach."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
+from weakref import WeakValueDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.maps.floor_plan import FloorPlan
 
 GRID = np.dtype([("x", "f8"), ("y", "f8"), ("cell", "f8"), ("columns", "i8"), ("rows", "i8")])
 """The lower left corner, the side of a cell in metres, and how many cells: shape (1,)."""
@@ -40,6 +42,11 @@ class Culling:
     starts: NDArray[np.int64]
     ends: FloatArray
 
+    @property
+    def arrays(self) -> tuple[np.ndarray, NDArray[np.int64], FloatArray]:
+        """The attributes, as kernels take them."""
+        return self.grid, self.starts, self.ends
+
     @classmethod
     def of(cls, segments: FloatArray, range_max: float) -> Culling:
         """Lists for these segments, shape (n, 4): x1, y1, x2, y2 in metres.
@@ -55,6 +62,32 @@ class Culling:
         grid = _grid(rows)
         starts = _list_starts(rows, grid, range_max)
         return cls(grid, starts, _listed_ends(rows, grid, range_max, starts))
+
+
+Cullings: TypeAlias = WeakValueDictionary[tuple[bool, float], Culling]
+"""Those of a floor plan by whether they hold glass, and by their range, while one uses them: they
+take megabytes."""
+
+
+def shared_culling(floor_plan: FloorPlan, range_max: float, glass: bool) -> Culling:
+    """The lists of a floor plan, one and the same for all who ask.
+
+    Args:
+        floor_plan: whose segments are listed.
+        range_max: how far one reaches, metres.
+        glass: whether glass is listed, too: it stops bodies, and no beams.
+    """
+    known = floor_plan.derived(_cullings)
+    culling = known.get((glass, range_max))
+    if culling is None:
+        segments = floor_plan.segments if glass else floor_plan.opaque_segments
+        known[glass, range_max] = culling = Culling.of(segments, range_max)
+    return culling
+
+
+def _cullings(floor_plan: FloorPlan) -> Cullings:
+    """None yet."""
+    return WeakValueDictionary()
 
 
 def _grid(segments: FloatArray) -> np.ndarray:
@@ -102,16 +135,32 @@ def _reaches(segment: FloatArray, x: float, y: float, reach: float) -> Any:
     return off_x * off_x + off_y * off_y <= reach * reach
 
 
+@kernel
+def _cells_near(segment: FloatArray, g: Any, reach: float) -> tuple[int, int, int, int]:
+    """The columns and rows (first and one behind the last) whose centres may be within reach."""
+    west, east = min(segment[0], segment[2]) - g.x, max(segment[0], segment[2]) - g.x
+    south, north = min(segment[1], segment[3]) - g.y, max(segment[1], segment[3]) - g.y
+    return (
+        max(math.floor((west - reach) / g.cell), 0),
+        min(math.ceil((east + reach) / g.cell), g.columns),
+        max(math.floor((south - reach) / g.cell), 0),
+        min(math.ceil((north + reach) / g.cell), g.rows),
+    )
+
+
 @kernel(counts_references=True)
 def _list_starts(segments: FloatArray, grid: np.ndarray, range_max: float) -> NDArray[np.int64]:
     g = grid[0]
     reach = _reach(g, range_max)
     starts = np.zeros(g.columns * g.rows + 2, np.int64)
+    for segment in segments:
+        first, last, low, high = _cells_near(segment, g, reach)
+        for row in range(low, high):
+            for cell in range(row * g.columns + first, row * g.columns + last):
+                x, y = _centre(g, cell)
+                starts[cell + 1] += _reaches(segment, x, y, reach)
     for i in range(g.columns * g.rows):
-        x, y = _centre(g, i)
-        starts[i + 1] = starts[i]
-        for segment in segments:
-            starts[i + 1] += _reaches(segment, x, y, reach)
+        starts[i + 1] += starts[i]
     starts[-1] = starts[-2] + len(segments)
     return starts
 
@@ -122,12 +171,15 @@ def _listed_ends(
 ) -> FloatArray:
     g = grid[0]
     reach = _reach(g, range_max)
-    ends = np.empty((4, starts[-1]))
-    place = 0
-    for i in range(len(starts) - 1):
-        x, y = _centre(g, i)
-        for segment in segments:
-            if i == len(starts) - 2 or _reaches(segment, x, y, reach):
-                ends[:, place] = segment
-                place += 1
+    ends, places = np.empty((4, starts[-1])), starts[:-1].copy()
+    for segment in segments:
+        first, last, low, high = _cells_near(segment, g, reach)
+        for row in range(low, high):
+            for cell in range(row * g.columns + first, row * g.columns + last):
+                x, y = _centre(g, cell)
+                if _reaches(segment, x, y, reach):
+                    ends[:, places[cell]] = segment
+                    places[cell] += 1
+        ends[:, places[-1]] = segment
+        places[-1] += 1
     return ends

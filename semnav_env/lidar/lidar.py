@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
-from weakref import WeakValueDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import ORIGIN, FloatArray, Pose, compose
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.lidar_spec import CosinesSines, LidarSpec, lidar_spec
-from semnav_env.lidar.culling import Culling
+from semnav_env.lidar.culling import shared_culling
 from semnav_env.lidar.moving import NO_MOVING_THINGS, cast_moving
 from semnav_env.lidar.noise import corrupt
 from semnav_env.lidar.raster import cast
@@ -48,23 +47,6 @@ def measure(
     corrupt(out, sensor, seed, episode, step)
 
 
-Cullings: TypeAlias = WeakValueDictionary[float, Culling]
-"""Those of a floor plan by the range of the lidar, while one uses them: they take megabytes."""
-
-
-def _cullings(floor_plan: FloorPlan) -> Cullings:
-    """None yet."""
-    return WeakValueDictionary()
-
-
-def _shared_culling(floor_plan: FloorPlan, range_max: float) -> Culling:
-    known = floor_plan.derived(_cullings)
-    culling = known.get(range_max)
-    if culling is None:
-        known[range_max] = culling = Culling.of(floor_plan.opaque_segments, range_max)
-    return culling
-
-
 class Lidar:
     """A lidar on a robot in a floor plan; glass does not stop its beams.
 
@@ -89,9 +71,9 @@ class Lidar:
     ) -> None:
         self.spec = lidar_spec(spec)
         self.mount = mount
-        self._culling = culling = _shared_culling(floor_plan, self.spec.range_max)
+        self._culling = shared_culling(floor_plan, self.spec.range_max, glass=False)
         tables = (self.spec.cosines_sines, self.spec.sensor)
-        self.arrays = (culling.grid, culling.starts, culling.ends, *tables, *moving)
+        self.arrays = (*self._culling.arrays, *tables, *moving)
 
     def ranges(self, robot_pose: Pose, key: Key, out: FloatArray | None = None) -> FloatArray:
         """What each beam measures from `robot_pose` in the world: metres, shape (beams,).

@@ -63,6 +63,7 @@ class SimulatorArrays(structref.StructRefProxy):
 
     Attributes:
         drive: `World.record`, dtype `DRIVE`.
+        solids: `World.solids`.
         odometry: `Odometry.record`, dtype `ODOMETRY`.
         sensing: dtype `SENSING`, shape (1,).
         lidar: `Lidar.arrays`.
@@ -71,6 +72,7 @@ class SimulatorArrays(structref.StructRefProxy):
     """
 
     drive: np.ndarray
+    solids: Any
     odometry: np.ndarray
     sensing: np.ndarray
     lidar: Any
@@ -84,6 +86,7 @@ structref.define_proxy(SimulatorArrays, SimulatorArraysType, list(SimulatorArray
 @kernel(counts_references=True)
 def join_simulator(
     drive: np.ndarray,
+    solids: Any,
     odometry: np.ndarray,
     sensing: np.ndarray,
     lidar: Any,
@@ -91,13 +94,13 @@ def join_simulator(
     ranges: FloatArray,
 ) -> SimulatorArrays:
     """The arrays as one structure; they are shared, not copied."""
-    return SimulatorArrays(drive, odometry, sensing, lidar, mount, ranges)
+    return SimulatorArrays(drive, solids, odometry, sensing, lidar, mount, ranges)
 
 
 @kernel(borrows=True)
 def sense(arrays: SimulatorArrays) -> int:
     """Drive a robot for one control period and sense; returns events, 0 or `TOUCHED`."""
-    drive(arrays.drive)
+    drive(arrays.drive, arrays.solids)
     pose = arrays.drive[0].pose
     advance(arrays.odometry, pose.x, pose.y, pose.heading, *lost_motion(arrays.drive))
     arrays.sensing[0].step += 1

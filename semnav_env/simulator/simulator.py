@@ -117,7 +117,7 @@ class Simulator:
         self._join()
 
     def _join(self) -> None:
-        records = self.world.record, self.odometry.record, self._record
+        records = self.world.record, self.world.solids, self.odometry.record, self._record
         x, y, heading = map(float, self.lidar.mount)
         self.arrays = join_simulator(*records, self.lidar.arrays, (x, y, heading), self.last_ranges)
         self._numbers = self._record.view(np.float64)[:NUMBERS]

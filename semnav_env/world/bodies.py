@@ -55,8 +55,7 @@ def vacant_space(segments: FloatArray, last: pymunk.Space | None) -> pymunk.Spac
 
 def robot_body(robot: RobotSpec, start: Pose) -> tuple[pymunk.Body, pymunk.Shape]:
     """A body whose origin and centre of gravity are the axle's middle, centre at `start`."""
-    inertia = robot.mass * ((robot.length**2 + robot.width**2) / 12.0 + robot.axle**2)
-    body = pymunk.Body(robot.mass, inertia)
+    body = pymunk.Body(robot.mass, _inertia(robot))
     body.position = to_parent(start, (robot.axle, 0.0))
     body.angle = start[2]
     shape = pymunk.Poly(body, [(x - robot.axle, y) for x, y in corners(robot).tolist()])
@@ -71,6 +70,22 @@ def driving_joints(
     pivot = PivotJoint(control, body, (0.0, 0.0), (0.0, 0.0))
     gear = GearJoint(control, body, 0.0, 1.0)
     pivot.max_bias = gear.max_bias = 0.0
-    pivot.max_force = GRIP * GRAVITY * robot.mass
-    gear.max_force = pivot.max_force * robot.width / 2
+    pivot.max_force, gear.max_force = _grip(robot)
     return pivot, gear
+
+
+def joint_accelerations(robot: RobotSpec) -> tuple[float, float]:
+    """For which accelerations the joints have the force: m/s^2 and rad/s^2."""
+    force, torque = _grip(robot)
+    return force / robot.mass, torque / _inertia(robot)
+
+
+def _grip(robot: RobotSpec) -> tuple[float, float]:
+    """The largest force and torque of the joints, N and N m."""
+    force = GRIP * GRAVITY * robot.mass
+    return force, force * robot.width / 2
+
+
+def _inertia(robot: RobotSpec) -> float:
+    """About the axle's middle, kg m^2."""
+    return robot.mass * ((robot.length**2 + robot.width**2) / 12.0 + robot.axle**2)

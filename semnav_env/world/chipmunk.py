@@ -27,6 +27,8 @@ KNOWN_MACHINES = ("x86_64", "amd64", "aarch64", "arm64")
 """Where C functions take and return a structure of two doubles like two doubles; not on Windows."""
 
 _step_space = simple_function("cpSpaceStep", types.void, ADDRESS, NUMBER)
+_set_position = simple_function("cpBodySetPosition", types.void, ADDRESS, NUMBER, NUMBER)
+_set_angle = simple_function("cpBodySetAngle", types.void, ADDRESS, NUMBER)
 _set_velocity = simple_function("cpBodySetVelocity", types.void, ADDRESS, NUMBER, NUMBER)
 _set_turn = simple_function("cpBodySetAngularVelocity", types.void, ADDRESS, NUMBER)
 _angle = simple_function("cpBodyGetAngle", NUMBER, ADDRESS)
@@ -42,6 +44,11 @@ def run_substeps(record: np.ndarray) -> None:
         record: dtype `DRIVE`, with the addresses of living objects.
     """
     r = record[0]
+    if r.is_ahead:
+        _set_position(r.body, r.motion.x, r.motion.y)
+        _set_angle(r.body, r.motion.angle)
+        _set_velocity(r.body, r.motion.vx, r.motion.vy)
+        _set_turn(r.body, r.motion.turn)
     _set_velocity(r.control, r.demand.vx, r.demand.vy)
     _set_turn(r.control, r.demand.turn)
     for _ in range(r.substeps):
@@ -49,17 +56,31 @@ def run_substeps(record: np.ndarray) -> None:
     r.motion.x, r.motion.y = _position(r.body)
     r.motion.vx, r.motion.vy = _velocity(r.body)
     r.motion.angle, r.motion.turn = _angle(r.body), _turn(r.body)
+    note_following(record)
 
 
 def run_substeps_by_pymunk(
     record: np.ndarray, space: pymunk.Space, control: pymunk.Body, body: pymunk.Body
 ) -> None:
     """The same as `run_substeps`, for machines on which that cannot be called."""
+    if record["is_ahead"]:
+        x, y, body.angle, *velocity, body.angular_velocity = record["motion"].item()
+        body.position, body.velocity = (x, y), tuple(velocity)
     vx, vy, control.angular_velocity = record["demand"].item()
     control.velocity = vx, vy
     for _ in range(int(record["substeps"][0])):
         space.step(float(record["dt"][0]))
     read_motion(record, body)
+    note_following(record)
+
+
+@kernel
+def note_following(record: np.ndarray) -> None:
+    """Note whether the body, whose motion has been read, moves as demanded and touches nothing."""
+    r = record[0]
+    v, w = r.motion, r.demand
+    r.follows = r.touches == 0 and v.vx == w.vx and v.vy == w.vy and v.turn == w.turn
+    r.is_ahead = 0
 
 
 def read_motion(record: np.ndarray, body: pymunk.Body) -> None:

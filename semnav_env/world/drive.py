@@ -10,24 +10,28 @@ import numpy as np
 from semnav_env.features.frames import relative, wrap_angle
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.world.chipmunk import run_substeps
+from semnav_env.world.free_motion import Solids, move_freely
 
 
 @kernel
-def drive(record: np.ndarray) -> None:
+def drive(record: np.ndarray, solids: Solids) -> None:
     """Drive a robot for one control period.
 
     Args:
-        record: dtype `DRIVE`; where its `space` is 0, the physics has been moved on already.
+        record: dtype `DRIVE`; where its `space` is 0, the robot has been moved on already.
+        solids: of `culling_around`.
     """
-    if record[0].space != 0:
-        demand_velocity(record)
+    if record[0].space != 0 and not demand_velocity(record, solids):
         run_substeps(record)
     settle(record)
 
 
 @kernel
-def demand_velocity(record: np.ndarray) -> None:
+def demand_velocity(record: np.ndarray, solids: Solids) -> bool:
     """Demand one velocity of the control body for a control period.
+
+    Returns:
+        Whether the robot has been moved with it, for it can touch nothing: `move_freely`.
 
     A substep of Chipmunk moves the body with the velocity it has and then finds the next one,
     so what is demanded now holds from the second substep to the first of the next period. It
@@ -41,6 +45,7 @@ def demand_velocity(record: np.ndarray) -> None:
     c, s = math.cos(middle), math.sin(middle)
     r.demand.vx, r.demand.vy = c * forward - s * left, s * forward + c * left
     r.demand.turn = turn
+    return move_freely(record, solids)
 
 
 @kernel

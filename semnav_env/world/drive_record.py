@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from semnav_env.features.frames import MOST_CONTACTS
 from semnav_env.robots import RobotSpec
+from semnav_env.world.bodies import joint_accelerations
 
 POSE = np.dtype([("x", "f8"), ("y", "f8"), ("heading", "f8")])
 """A `Pose` in a record: metres, radians."""
@@ -30,9 +33,17 @@ DRIVE = np.dtype(
         ("max_change", "f8"),
         ("max_turn_change", "f8"),
         ("axle", "f8"),
+        ("half_length", "f8"),
+        ("half_width", "f8"),
+        ("radius", "f8"),
+        ("longest_way", "f8"),
+        ("joint_change", "f8"),
+        ("joint_turn_change", "f8"),
         ("period", "f8"),
         ("dt", "f8"),
         ("substeps", "i8"),
+        ("follows", "i8"),
+        ("is_ahead", "i8"),
         ("command", TWIST),
         ("demand", BODY_VELOCITY),
         ("motion", BODY_MOTION),
@@ -54,6 +65,11 @@ Set when a world is made or reset:
     max_speed, max_sideways_speed, max_turn_rate: limits of the robot, m/s, rad/s.
     max_change, max_turn_change: largest change of the velocity in a control period, m/s, rad/s.
     axle: x of the axle's middle in the robot frame, metres.
+    half_length, half_width: of the footprint, metres.
+    radius: of the circle about the axle's middle that holds the footprint, metres.
+    longest_way: how far a corner can come in a control period, metres.
+    joint_change, joint_turn_change: the joints have the force for a smaller change of the velocity
+        in a substep, m/s, rad/s; 0 where more moves than the robot.
     period, dt: durations of a control period and of a substep, seconds.
     substeps: in a control period.
 
@@ -62,6 +78,8 @@ Set before each control period:
 
 Written in each control period:
     demand: velocity of the control body.
+    follows: 1 if the body moves as demanded and touches nothing.
+    is_ahead: 1 if `motion` went on without Chipmunk's body, see `move_freely`.
     motion: of the robot's body.
     axle_velocity: of the axle's middle, robot frame.
     pose: of the footprint's centre, world frame; the heading is in [-pi, pi].
@@ -74,12 +92,35 @@ Written in each control period:
 """
 
 
+ROUNDING = 1e-6
+"""Added to how far a corner may come, metres."""
+
+SURE_SHARE = 0.999
+"""Share of the joints' force up to which it suffices in spite of rounding."""
+
+
 def drive_record(robot: RobotSpec, period: float, substeps: int) -> np.ndarray:
     """A record of a robot at rest that has no body yet, dtype `DRIVE`, shape (1,)."""
     record = np.zeros(1, DRIVE)
     for name in ("max_speed", "max_sideways_speed", "max_turn_rate", "axle"):
         record[name] = getattr(robot, name)
+    record["half_length"], record["half_width"] = robot.length / 2, robot.width / 2
+    record["radius"], record["longest_way"] = radius(robot), longest_way(robot, period)
     record["max_change"] = robot.max_acceleration * period
     record["max_turn_change"] = robot.max_turn_acceleration * period
     record["period"], record["dt"], record["substeps"] = period, period / substeps, substeps
+    acceleration, turn_acceleration = joint_accelerations(robot)
+    record["joint_change"] = SURE_SHARE * acceleration * period / substeps
+    record["joint_turn_change"] = SURE_SHARE * turn_acceleration * period / substeps
     return record
+
+
+def radius(robot: RobotSpec) -> float:
+    """Distance of the footprint's farthest corner from the axle's middle, metres."""
+    return math.hypot(robot.length / 2 + abs(robot.axle), robot.width / 2)
+
+
+def longest_way(robot: RobotSpec, period: float) -> float:
+    """How far a corner of the footprint can come in a control period, metres."""
+    speed = math.hypot(robot.max_speed, robot.max_sideways_speed)
+    return ROUNDING + period * (speed + robot.max_turn_rate * radius(robot))

@@ -19,6 +19,7 @@ from semnav_env.robots import RobotSpec
 from semnav_env.world.bodies import driving_joints, robot_body, vacant_space
 from semnav_env.world.chipmunk import (
     chipmunk_can_be_called,
+    note_following,
     read_motion,
     run_substeps_by_pymunk,
 )
@@ -26,6 +27,7 @@ from semnav_env.world.chipmunk_functions import address
 from semnav_env.world.contacts import Contacts, note_contacts
 from semnav_env.world.drive import demand_velocity, drive, settle
 from semnav_env.world.drive_record import drive_record
+from semnav_env.world.free_motion import culling_around
 
 if TYPE_CHECKING:
     from semnav_env.dynamics.moving import Moving
@@ -63,6 +65,7 @@ class World:
         still: the floor plan without what can move.
         record: the robot and its motion as compiled code takes them, dtype `DRIVE`; always the
             same array.
+        solids: what a robot may touch, see `culling_around`.
     """
 
     def __init__(
@@ -92,6 +95,10 @@ class World:
 
     def _at_rest(self) -> None:
         self.record = drive_record(self.robot, self._period, self.substeps)
+        if self.moving is not None:  # somebody may be near
+            self.record["joint_change"] = 0.0
+        self._culling = culling_around(self.still, self.robot, self._period)
+        self.solids = self._culling.arrays
         self._command, self._contacts = self.record["command"], self.record["contacts"][0]
 
     def _moving(self, dynamics: Dynamics) -> Moving:
@@ -122,6 +129,8 @@ class World:
         self._start, self._seed, self._journal = start, seed, array("d")
         self._build(start)
         read_motion(self.record, self._body)
+        self.record["demand"] = 0.0, 0.0, 0.0
+        note_following(self.record)
         settle(self.record)
 
     def step(self, velocity: Twist) -> None:
@@ -132,7 +141,7 @@ class World:
             RuntimeError: before the first `reset`.
         """
         self.demand(velocity)
-        drive(self.record)
+        drive(self.record, self.solids)
         self.arrive()
 
     def demand(self, velocity: Twist) -> None:
@@ -155,8 +164,9 @@ class World:
             self.moving.step(self.pose, self.velocity)
             self._movers.go()
         if not self._compiled:
-            demand_velocity(self.record)
-            run_substeps_by_pymunk(self.record, self._space, self._control, self._body)
+            record = self.record
+            if not demand_velocity(record, self.solids):
+                run_substeps_by_pymunk(record, self._space, self._control, self._body)
 
     @property
     def needs_python(self) -> bool:
