@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Annotated, TypeAlias
 
 import numpy as np
 
 from semnav_env.features.checked_fields import Bounds, Length, Share, check_fields
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.lanes import WIDTH
 from semnav_env.features.validation import by_name, require
 
 CosinesSines: TypeAlias = tuple[FloatArray, FloatArray]
-"""Cosines and sines of the directions of beams, each of shape (beams,).
+"""Cosines and sines of the directions of beams, each of shape (beams + `WIDTH`,).
 
 Elsewhere beams are unit vectors, one to a row, shape (n, 2), as points are. The ray caster's inner
-loop takes several beams at a time and needs neighbouring cosines beside each other."""
+loop takes eight beams at a time, also of the last ones, and needs neighbouring cosines beside each
+other."""
 
 SENSOR = np.dtype(
     [
@@ -75,22 +78,45 @@ class LidarSpec:
     @property
     def angles(self) -> FloatArray:
         """Direction of each beam in the lidar frame, radians, shape (beams,)."""
-        return self.angle_min + self.angle_increment * np.arange(self.beams, dtype=np.float64)
+        return _angles(self.beams, self.angle_min, self.angle_increment)
 
     @property
     def directions(self) -> FloatArray:
         """Unit vector of each beam in the lidar frame, shape (beams, 2)."""
-        return np.stack((np.cos(self.angles), np.sin(self.angles)), axis=1)
+        return self.shared_directions.copy()
+
+    @property
+    def shared_directions(self) -> FloatArray:
+        """The `directions` in one array for all lidars with these beams; not to be written."""
+        return _tables(self.beams, self.angle_min, self.angle_increment)[0]
 
     @property
     def cosines_sines(self) -> CosinesSines:
-        """The columns of `directions`, each contiguous: what the ray caster reads."""
-        return np.cos(self.angles), np.sin(self.angles)
+        """The columns of `directions`, each contiguous and longer: what the ray caster reads."""
+        return _tables(self.beams, self.angle_min, self.angle_increment)[1]
 
     @property
     def sensor(self) -> np.ndarray:
         """The numbers that kernels need, shape (1,), dtype `SENSOR`."""
         return np.array([tuple(getattr(self, name) for name in SENSOR.names or ())], SENSOR)
+
+
+def _angles(beams: int, angle_min: float, angle_increment: float) -> FloatArray:
+    return angle_min + angle_increment * np.arange(beams, dtype=np.float64)
+
+
+@lru_cache(maxsize=16)
+def _tables(
+    beams: int, angle_min: float, angle_increment: float
+) -> tuple[FloatArray, CosinesSines]:
+    """Directions of beams by rows and by columns.
+
+    Each is larger than all else that a robot's scan reads; of many robots in one process each would
+    push those of the others out of the cache.
+    """
+    angles = _angles(beams + WIDTH, angle_min, angle_increment)
+    cosines, sines = np.cos(angles), np.sin(angles)
+    return np.stack((cosines[:beams], sines[:beams]), axis=1), (cosines, sines)
 
 
 def most_beams(angle_increment: float) -> int:

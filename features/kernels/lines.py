@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.larger import larger
+from semnav_env.features.kernels.lanes import larger
 
 BLOCK = 64
 """Points of which the one farthest from a chord is found together."""

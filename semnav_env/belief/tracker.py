@@ -104,7 +104,6 @@ class BeliefTracker:
         self.memory = SceneMemory()
         self.bumps = BumpMap(self.lidar, mount)
         self._belief: Belief | None = None
-        self._beams = self.lidar.directions
         self.rules, extractor = with_doors_of(rules, extractor)
         self._record = extractor.as_record()
         self._workbench = workbench_with(allocate_scratch(self.lidar.beams))
@@ -119,7 +118,8 @@ class BeliefTracker:
 
     def _join(self) -> Senses:
         self._buffer, self._contacts = self._estimate.data, self._estimate["contacts"][0]
-        sensor = self.lidar.sensor, self._beams, self._record, self._workbench, self.mount
+        lidar = self.lidar.sensor, self.lidar.shared_directions
+        sensor = *lidar, self._record, self._workbench, self.mount
         known: tuple[Any, Any] = self.memory.arrays, self.bumps.arrays
         mind: tuple[Any, Any, Any] = self._estimate, self._progress, self._told.arrays
         return join_senses(*sensor, self.ranges, self._features, *known, *mind)
@@ -281,7 +281,7 @@ class BeliefTracker:
         """Where the last beams ended, lidar frame, shape (n, 2); NaN without a return."""
         spec = self.lidar
         valid = (spec.range_min <= self.ranges) & (self.ranges < spec.range_max)
-        return np.where(valid, self.ranges, np.nan)[:, None] * self._beams
+        return np.where(valid, self.ranges, np.nan)[:, None] * spec.shared_directions
 
     def let_go(self) -> None:
         """Forget the last belief, before `understand`; who still has it keeps its scene."""

@@ -20,6 +20,10 @@ GRID = np.dtype([("x", "f8"), ("y", "f8"), ("cell", "f8"), ("columns", "i8"), ("
 CELL_SIZE = 2.0
 """Side of a cell, metres; larger in a plan that would need more than `MAX_CELLS` of them."""
 
+NEAR = 3.5
+"""Segments within this distance of a cell's centre, metres, come first in its list: drawn first,
+they hide many of the others."""
+
 MAX_CELLS = 10_000
 """Largest number of cells: it bounds the memory that a plan takes."""
 
@@ -172,14 +176,14 @@ def _listed_ends(
     g = grid[0]
     reach = _reach(g, range_max)
     ends, places = np.empty((4, starts[-1])), starts[:-1].copy()
-    for segment in segments:
-        first, last, low, high = _cells_near(segment, g, reach)
-        for row in range(low, high):
-            for cell in range(row * g.columns + first, row * g.columns + last):
-                x, y = _centre(g, cell)
-                if _reaches(segment, x, y, reach):
-                    ends[:, places[cell]] = segment
-                    places[cell] += 1
-        ends[:, places[-1]] = segment
-        places[-1] += 1
+    for is_near in (True, False):
+        for segment in segments:
+            first, last, low, high = _cells_near(segment, g, reach)
+            for row in range(low, high):
+                for cell in range(row * g.columns + first, row * g.columns + last):
+                    x, y = _centre(g, cell)
+                    if _reaches(segment, x, y, reach) and _reaches(segment, x, y, NEAR) == is_near:
+                        ends[:, places[cell]] = segment
+                        places[cell] += 1
+    ends[:, places[-1] :] = segments.T
     return ends

@@ -18,7 +18,16 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.larger import larger
+from semnav_env.features.kernels.lanes import (
+    WIDTH,
+    larger,
+    load,
+    select,
+    smaller,
+    smallest,
+    spread,
+    store,
+)
 from semnav_env.features.lidar_spec import CosinesSines
 from semnav_env.lidar.culling import cell_of
 
@@ -26,8 +35,8 @@ _FULL_TURN = 2.0 * math.pi
 _ANGLE_ERROR = 2e-4
 """Bound on the error of `_coarse_atan2`, radians; twice what it is."""
 
-_END_TOLERANCE = 1e-12
-"""How far a beam may pass an end of a segment and still meet it, m: closes shared vertices."""
+_END_TOLERANCE = -1e-12
+"""A beam that passes an end of a segment by less still meets it, m: closes shared vertices."""
 
 _NO_SPAN = -1e9
 """Value of the span, in beams, of a segment that no beam can meet."""
@@ -35,7 +44,7 @@ _NO_SPAN = -1e9
 _AX, _AY, _BX, _BY, _NX, _NY, _FIRST, _SPAN = range(8)
 """Rows of the table of prepared segments: a, b, n / (a x b), a's beam and the span in beams."""
 
-_DRAWN_FIRST = 32
+_DRAWN_FIRST = 12
 """Number of segments drawn before the first test of whether those that are left are hidden."""
 
 _SECTOR = 32
@@ -77,20 +86,20 @@ def cast(
     farthest = 1.0 / sensor[0].range_max
     guard = 1.0 + _ANGLE_ERROR / sensor[0].angle_increment
     beams_per_turn = _FULL_TURN / sensor[0].angle_increment
-    out[:] = farthest
-    sectors = np.empty(math.ceil(out.shape[0] / _SECTOR))
+    sectors = np.empty((out.shape[0] + _SECTOR - 1) // _SECTOR)
+    nearest = np.full(_SECTOR * len(sectors), farthest)  # with room beyond the last beam
     done, count = 0, table.shape[1]
     while done < count:
         begin, done = done, min(max(2 * done, _DRAWN_FIRST), count)
         if begin > 0:
-            _note_farthest(out, sectors)
+            _note_farthest(nearest, sectors)
         for k in range(begin, done):
             if table[_SPAN, k] <= _NO_SPAN:
                 continue
-            if begin == 0 or not _is_hidden(table, k, guard, out, sectors):
-                _draw(table, k, beams, guard, beams_per_turn, out)
+            if begin == 0 or not _is_hidden(table, k, guard, out.shape[0], sectors):
+                _draw(table, k, beams, guard, beams_per_turn, out.shape[0] - 1, nearest)
     for i in range(np.uint64(out.shape[0])):
-        inverse = out[i]
+        inverse = nearest[i]
         out[i] = 1.0 / inverse if inverse > farthest else np.inf
 
 
@@ -158,49 +167,48 @@ def _draw(
     beams: CosinesSines,
     guard: float,
     beams_per_turn: float,
-    out: FloatArray,
+    last_beam: int,
+    nearest: FloatArray,
 ) -> None:
-    """Raise the reciprocal ranges in `out` to those of one segment."""
-    (cos, sin), last_beam = beams, np.int64(out.shape[0]) - 1
+    """Raise the reciprocal ranges in `nearest` to those of one segment."""
+    cosines, sines = beams
     start = table[_FIRST, k] - guard
     stop = table[_FIRST, k] + table[_SPAN, k] + guard
     ax, ay, bx, by = table[_AX, k], table[_AY, k], table[_BX, k], table[_BY, k]
-    nx, ny = table[_NX, k], table[_NY, k]
+    nx, ny, nothing = table[_NX, k], table[_NY, k], spread(0.0)
     # All beams that meet the segment are among start to stop: `guard` covers the error of the
     # angles. A further pass, a turn lower, takes the part of a segment that lies across angle_min.
     while stop >= 0.0:
         first = math.ceil(start) if start > 0.0 else 0
         last = math.floor(stop) if stop < last_beam else last_beam
-        # Exactly, beam u meets the segment if a x u >= 0 and u x b >= 0.
-        while first <= last and ax * sin[first] - ay * cos[first] < -_END_TOLERANCE:
-            first += 1
-        while first <= last and cos[last] * by - sin[last] * bx < -_END_TOLERANCE:
-            last -= 1
-        if first <= last:
-            for i in range(np.uint64(first), np.uint64(last + 1)):
-                out[i] = larger(nx * cos[i] + ny * sin[i], out[i])
+        for i in range(first - first % WIDTH, last + 1, WIDTH):
+            # Exactly, beam u meets the segment if a x u >= 0 and u x b >= 0.
+            cos, sin = load(cosines, i), load(sines, i)
+            met = (ax * sin - ay * cos >= _END_TOLERANCE) & (cos * by - sin * bx >= _END_TOLERANCE)
+            inverse = select(met, nx * cos + ny * sin, nothing)
+            store(nearest, i, larger(inverse, load(nearest, i)))
         start -= beams_per_turn
         stop -= beams_per_turn
 
 
 @kernel
-def _note_farthest(out: FloatArray, sectors: FloatArray) -> None:
+def _note_farthest(nearest: FloatArray, sectors: FloatArray) -> None:
     """Write the smallest squared reciprocal range of each sector."""
-    for i in range(np.uint64(len(sectors))):
-        least = -np.inf
-        for k in range(_SECTOR * i, min(_SECTOR * (i + np.uint64(1)), np.uint64(out.shape[0]))):
-            least = larger(-out[k], least)
-        sectors[i] = least * least
+    for i in range(len(sectors)):
+        lanes = load(nearest, _SECTOR * i)
+        for k in range(_SECTOR * i + WIDTH, _SECTOR * (i + 1), WIDTH):
+            lanes = smaller(lanes, load(nearest, k))
+        sectors[i] = smallest(lanes) ** 2
 
 
 @kernel
 def _is_hidden(
-    table: FloatArray, k: int, guard: float, out: FloatArray, sectors: FloatArray
+    table: FloatArray, k: int, guard: float, beams: int, sectors: FloatArray
 ) -> bool:
     """Whether a segment is farther away than all that is drawn so far in its sectors."""
     start = table[_FIRST, k] - guard
     stop = table[_FIRST, k] + table[_SPAN, k] + guard
-    if start < 0.0 or stop >= out.shape[0]:
+    if start < 0.0 or stop >= beams:
         return False  # it may lie across the first beam
     nearest = _NEARER * _nearest(table, k)
     for i in range(np.uint64(start / _SECTOR), np.uint64(stop / _SECTOR) + np.uint64(1)):
