@@ -50,6 +50,11 @@ def spread(number: float) -> Lanes:
     return np.full(WIDTH, number)
 
 
+def first_lanes(count: int) -> Mask:
+    """A mask that holds in the first `count` lanes."""
+    return np.arange(WIDTH) < count
+
+
 def select(mask: Mask, lanes: Lanes, others: Lanes) -> Lanes:
     """Numbers where the mask holds, and others elsewhere."""
     return np.where(mask, lanes, others)
@@ -177,6 +182,12 @@ def _store(builder: Any, pointer: Any, lanes: Any) -> Any:
 @_compiled(spread, LANES, types.Float)
 def _spread_number(builder: Any, lanes: Any) -> Any:
     return lanes
+
+
+@_compiled(first_lanes, MASK, types.Integer)
+def _first_lanes(builder: Any, count: Any) -> Any:
+    numbers = ir.Constant(ir.VectorType(count.type.element, WIDTH), list(range(WIDTH)))
+    return builder.icmp_signed("<", numbers, count)
 
 
 @_compiled(select, LANES, MaskType, LanesType, LanesType)

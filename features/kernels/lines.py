@@ -10,10 +10,16 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.lanes import larger
-
-BLOCK = 64
-"""Points of which the one farthest from a chord is found together."""
+from semnav_env.features.kernels.lanes import (
+    WIDTH,
+    Lanes,
+    first_lanes,
+    larger,
+    largest,
+    load,
+    select,
+    spread,
+)
 
 
 @kernel
@@ -71,22 +77,40 @@ def split_further(
 
 @kernel
 def farthest(xs: FloatArray, ys: FloatArray, first: int, last: int, limit: float) -> int:
-    """The inner point farthest from the chord (Barbret (1.4)), or -1 if all are within limit."""
+    """The inner point farthest from the chord (Barbret (1.4)), or -1 if all are within limit.
+
+    The arrays must go on for `WIDTH` numbers after the last point; these may be anything.
+    """
     dx, dy = xs[last] - xs[first], ys[last] - ys[first]
-    level = dx * ys[first] - dy * xs[first]
+    chord = dx, dy, dx * ys[first] - dy * xs[first]
+    most = spread(0.0)
+    for i in range(first + 1, last, WIDTH):
+        most = larger(off_chord(xs, ys, i, last, chord), most)
     # Distances are compared before they are divided by the length of the chord, the same for all.
-    best = limit * math.sqrt(dx * dx + dy * dy)
-    found = -1
-    for start in range(first + 1, last, BLOCK):
-        most = 0.0
-        # Unsigned indices and `larger`, or it is not done for many points at once.
-        for i in range(np.uint64(start), np.uint64(min(start + BLOCK, last))):
-            most = larger(abs(dx * ys[i] - dy * xs[i] - level), most)
-        if most > best:
-            best, found = most, start
-    while found > 0 and abs(dx * ys[found] - dy * xs[found] - level) != best:
-        found += 1  # from the first point of its block to the first one that is so far away
+    best, found = largest(most), first + 1
+    if not best > limit * math.sqrt(dx * dx + dy * dy):
+        return -1
+    while largest(off_chord(xs, ys, found, last, chord)) != best:
+        found += WIDTH
+    while abs(dx * ys[found] - dy * xs[found] - chord[2]) != best:
+        found += 1
     return found
+
+
+@kernel
+def off_chord(xs: FloatArray, ys: FloatArray, first: int, last: int, chord: Any) -> Lanes:
+    """Distances of eight points from a chord, times its length; 0 from point `last` on.
+
+    Args:
+        xs: of the points, metres; eight must stand from `first` on, like ys.
+        ys: the same.
+        first: the first of the eight.
+        last: the end of the chord.
+        chord: x and y of its direction, and its level: dx y - dy x of its points.
+    """
+    dx, dy, level = chord
+    distances = abs(dx * load(ys, first) - dy * load(xs, first) - level)
+    return select(first_lanes(last - first), distances, spread(0.0))
 
 
 @kernel

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from semnav_env.features.door_scorer import default_scorer
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.evidence_layout import EVIDENCE
+from semnav_env.features.kernels.lanes import WIDTH
 from semnav_env.features.kernels.layout import (
     ARC,
     CAPACITY,
@@ -74,10 +75,12 @@ class Scratch(NamedTuple):
         window: ranges of one median in order, shape (9,).
         circle_ranges: a full circle unrolled twice over, shape (2 n,).
         circle_directions: unit vectors of its beams, shape (2 n, 2).
-        xs: x of the valid points in beam order, metres, shape (2 n,): in a full circle those of
-            the first half turn come once more.
-        ys: y of the valid points, shape (2 n,).
-        beams: their beam indices, shape (2 n,).
+        beam_xs: x of each beam's point, metres, without a return anything, shape (n + `WIDTH`,).
+        beam_ys: y of each beam's point.
+        xs: x of the valid points in beam order, metres, shape (2 n + `WIDTH`,): in a full circle
+            those of the first half turn come once more.
+        ys: y of the valid points, shape (2 n + `WIDTH`,).
+        beams: their beam indices, shape (2 n + `WIDTH`,).
         joined: whether a beam's point is joined to that before it, shape (8 k,) with 8 k > n.
         group_first: first point of each connected group, shape (n + 1,).
         stack: split points still to be visited, shape (n,).
@@ -101,6 +104,8 @@ class Scratch(NamedTuple):
     window: FloatArray
     circle_ranges: FloatArray
     circle_directions: FloatArray
+    beam_xs: FloatArray
+    beam_ys: FloatArray
     xs: FloatArray
     ys: FloatArray
     beams: NDArray[np.int64]
@@ -150,9 +155,11 @@ def allocate_scratch(beams: int, door_candidates: int = MAX_DOOR_CANDIDATES) -> 
         window=np.empty(2 * MAX_MEDIAN_BEAMS + 1),
         circle_ranges=np.empty(2 * beams),
         circle_directions=np.empty((2 * beams, 2)),
-        xs=np.empty(2 * beams),
-        ys=np.empty(2 * beams),
-        beams=np.empty(2 * beams, np.int64),
+        beam_xs=np.empty(beams + WIDTH),
+        beam_ys=np.empty(beams + WIDTH),
+        xs=np.empty(2 * beams + WIDTH),
+        ys=np.empty(2 * beams + WIDTH),
+        beams=np.empty(2 * beams + WIDTH, np.int64),
         joined=np.empty(beams + 8 - beams % 8, np.bool_),
         group_first=np.empty(beams + 1, np.int64),
         stack=np.empty(beams, np.int64),

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.breakpoints import breakpoint_terms
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.lanes import WIDTH, load, store
 
 SMALLEST_FLOAT = 5e-324
 """The smallest positive number: a range of zero is no return."""
@@ -34,7 +35,7 @@ def group_points(
     settings: Any,
     scratch: Any,
 ) -> tuple[Any, Any]:
-    """Valid points (Barbret (1.2)) and where connected groups of them begin.
+    """Valid points and where connected groups of them begin.
 
     Two neighbours are joined while they are no farther apart than the breakpoint rule allows. A
     gap of a few missing returns is bridged if, besides, nothing could pass it.
@@ -45,7 +46,8 @@ def group_points(
     lowest, one = max(range_min, SMALLEST_FLOAT), np.uint64(1)
     beams, joined, group_first = np.uint64(len(ranges)), scratch.joined, scratch.group_first
     terms = breakpoint_terms(increment, settings)
-    join_neighbours(ranges, directions, lowest, limit, terms, joined)
+    place_points(ranges, directions, scratch.beam_xs, scratch.beam_ys)
+    join_neighbours(ranges, scratch.beam_xs, scratch.beam_ys, lowest, limit, terms, joined)
     points = groups = first = np.uint64(0)  # unsigned: no index is tested for counting from the end
     last_beam: Any = -1
     while first < beams:
@@ -60,7 +62,7 @@ def group_points(
             group_first[groups] = points + (end - first)
             groups += one
             end = next_break(joined, end + one)
-        write_points(ranges, directions, first, end, points, scratch)
+        write_points(first, end, points, scratch)
         points += end - first
         last_beam, first = np.int64(end) - 1, end + one
     group_first[groups] = points
@@ -68,23 +70,37 @@ def group_points(
 
 
 @kernel
+def place_points(
+    ranges: FloatArray, directions: FloatArray, xs: FloatArray, ys: FloatArray
+) -> None:
+    """Write the point of each beam, with a return or not (Barbret (1.2))."""
+    flat = directions.reshape(-1)  # the compiler must know how far the rows are apart
+    for i in range(np.uint64(len(ranges))):
+        xs[i], ys[i] = ranges[i] * flat[i + i], ranges[i] * flat[i + i + np.uint64(1)]
+
+
+@kernel
 def join_neighbours(
-    ranges: FloatArray, directions: FloatArray, lowest: float, limit: float, terms: Any, joined: Any
+    ranges: FloatArray,
+    xs: FloatArray,
+    ys: FloatArray,
+    lowest: float,
+    limit: float,
+    terms: Any,
+    joined: Any,
 ) -> None:
     """Write for each beam whether its point is joined to that of the beam before it.
 
     Without a branch, so that it is done for many beams at once. Behind the last beam is a break.
     """
     nearer, farther, previous, offset = terms
-    flat = directions.reshape(-1)  # the compiler must know how far the rows are apart
-    one, two = np.uint64(1), np.uint64(2)
+    one = np.uint64(1)
     for i in range(one, np.uint64(len(ranges))):
         before, after = ranges[i - one], ranges[i]
         less = before if before < after else after
         more = before if before > after else after
         reach = nearer * less + offset + (farther * more + previous * before)
-        x = after * flat[i + i] - before * flat[i + i - two]
-        y = after * flat[i + i + one] - before * flat[i + i - one]
+        x, y = xs[i] - xs[i - one], ys[i] - ys[i - one]
         seen = (less >= lowest) & (more < limit)
         joined[i] = seen & (x * x + y * y <= reach * reach)
     joined[len(ranges)] = False
@@ -101,17 +117,18 @@ def next_break(joined: NDArray[np.bool_], beam: Any) -> Any:
 
 
 @kernel
-def write_points(
-    ranges: FloatArray, directions: FloatArray, first: Any, end: Any, points: Any, scratch: Any
-) -> None:
-    """Write the points of the beams first to end (exclusive), the first one as number `points`."""
-    flat = directions.reshape(-1)
+def write_points(first: Any, end: Any, points: Any, scratch: Any) -> None:
+    """Write the points of the beams first to end (exclusive), the first one as number `points`.
+
+    What is written beyond the last one, up to seven entries, the next points are written over.
+    """
     xs, ys, beams = scratch.xs, scratch.ys, scratch.beams
     shift = points - first
-    for i in range(first, end):
-        xs[i + shift] = ranges[i] * flat[i + i]
-        ys[i + shift] = ranges[i] * flat[i + i + np.uint64(1)]
-        beams[i + shift] = np.int64(i)
+    for i in range(first, end, np.uint64(WIDTH)):
+        store(xs, i + shift, load(scratch.beam_xs, i))
+        store(ys, i + shift, load(scratch.beam_ys, i))
+        for k in range(i, i + np.uint64(WIDTH)):
+            beams[k + shift] = np.int64(k)
 
 
 @kernel

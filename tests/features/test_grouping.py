@@ -13,6 +13,7 @@ from semnav_env.features import ExtractorSettings
 from semnav_env.features.extraction import beam_directions
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.breakpoints import breakpoint_terms
+from semnav_env.features.kernels.lanes import WIDTH
 from semnav_env.features.kernels.lines import farthest
 from semnav_env.features.kernels.scratch import allocate_scratch
 from semnav_env.features.kernels.segmentation import group_points
@@ -91,7 +92,9 @@ def test_the_first_of_the_farthest_points_is_cut(
     distances = np.abs(dx * ys - dy * xs - (dx * ys[0] - dy * xs[0]))[1:-1]
     is_far = len(distances) > 0 and distances.max() > limit * math.sqrt(dx * dx + dy * dy)
     expected = 1 + int(distances.argmax()) if is_far else -1
-    assert farthest(xs, ys, 0, len(xs) - 1, limit) == expected
+    beyond = np.full(WIDTH, np.nan)
+    xs, ys = np.append(xs, beyond), np.append(ys, beyond)
+    assert farthest(xs, ys, 0, len(points) - 1, limit) == expected
 
 
 @pytest.mark.parametrize("beams", [0, 1, 7, 8, 9])
