@@ -21,7 +21,7 @@ INSTALLED = {
 MAY_NEED = {
     "features/clouds": {"scipy"},
     "features/clouds/picture.py": {"matplotlib"},
-    "features/kernels/larger.py": {"llvmlite"},  # numba's own compiler
+    "features/kernels/lanes.py": {"llvmlite"},  # numba's own compiler
     "features/mapping": {"scipy"},
     "features/plot.py": {"matplotlib"},
     "features/readers": {"rosbags", "lz4"},  # lz4 comes with rosbags
@@ -257,8 +257,9 @@ def test_no_module_is_a_drawer_for_odds_and_ends():
 def test_kernels_use_neither_fastmath_nor_prange():
     """Either may change the last bits of a result from machine to machine.
 
-    `larger` is excepted: there is one larger number of two that are neither NaN nor both zero.
+    `larger` and its like are excepted: there is one larger number of two that are neither NaN nor
+    both zero.
     """
     marks = ("fastmath=", "parallel=True", "prange")
     found = [m.place for m in MODULES.values() if any(k in m.path.read_text() for k in marks)]
-    assert found == ["features/kernels/larger.py"]
+    assert found == ["features/kernels/lanes.py"]

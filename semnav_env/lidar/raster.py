@@ -202,9 +202,7 @@ def _note_farthest(nearest: FloatArray, sectors: FloatArray) -> None:
 
 
 @kernel
-def _is_hidden(
-    table: FloatArray, k: int, guard: float, beams: int, sectors: FloatArray
-) -> bool:
+def _is_hidden(table: FloatArray, k: int, guard: float, beams: int, sectors: FloatArray) -> bool:
     """Whether a segment is farther away than all that is drawn so far in its sectors."""
     start = table[_FIRST, k] - guard
     stop = table[_FIRST, k] + table[_SPAN, k] + guard

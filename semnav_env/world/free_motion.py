@@ -3,7 +3,8 @@
 Chipmunk spends most of a substep on finding out that nothing is touched. Where no wall is near,
 one look at the walls of the cell in which the robot is says so for a whole control period. Then
 the joints bring about the demanded velocity within one substep, unless it asks for more than
-their force, and the robot moves as Chipmunk would have moved it, to the last bit.
+their force, and the robot moves as Chipmunk would have moved it, to the last bit. Chipmunk's body
+is told where the robot is when the physics is asked again.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from semnav_env.world.drive_record import ROUNDING, longest_way
 
 Solids: TypeAlias = tuple[np.ndarray, NDArray[np.int64], FloatArray]
 """What is solid near a place: `Culling` as (grid, starts, ends)."""
+
 
 def culling_around(floor_plan: FloorPlan, robot: RobotSpec, period: float) -> Culling:
     """For each place of a plan, what a robot there may touch within a control period."""
