@@ -10,6 +10,8 @@ import numpy as np
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.corners import INNER, OUTER
+from semnav_env.features.kernels.lanes import WIDTH, bits, first_lanes, load
+from semnav_env.features.kernels.remembered import lowest_bit
 from semnav_env.features.kernels.segmentation import is_return
 
 NO_WALL_MET, NOT_SQUARE, TOO_NARROW, TOO_NEAR, TOO_FAR, HIDDEN, REPEATED = range(1, 8)
@@ -52,6 +54,7 @@ def find_corridors(
         a, b = corners[c], corners[nearest]
         nearest = c if a.x**2 + a.y**2 < b.x**2 + b.y**2 else nearest
     square = math.cos(settings.corridor_angle_tolerance)
+    note_middles(walls, scratch)
     for k in range(corner_count):
         c = (nearest + k) % corner_count
         corner = corners[c]
@@ -100,6 +103,16 @@ def probe_direction(
 
 
 @kernel
+def note_middles(walls: int, scratch: Any) -> None:
+    """Write the middle and half the length of each wall, so that many are read at once."""
+    for k in range(walls):
+        wall = scratch.pieces[scratch.wall_piece[k]]
+        scratch.middle_xs[k] = 0.5 * (wall.start_x + wall.end_x)
+        scratch.middle_ys[k] = 0.5 * (wall.start_y + wall.end_y)
+        scratch.half_lengths[k] = 0.5 * wall.length
+
+
+@kernel
 def find_near_walls(
     corner: Any, ending: int, starting: int, walls: int, settings: Any, scratch: Any
 ) -> int:
@@ -109,14 +122,17 @@ def find_near_walls(
     """
     reach = settings.corridor_probe + settings.corridor_wall_slack + ROUNDING_MARGIN
     near = 0
-    for k in range(walls):
-        wall = scratch.pieces[scratch.wall_piece[k]]
-        dx = 0.5 * (wall.start_x + wall.end_x) - corner.x
-        dy = 0.5 * (wall.start_y + wall.end_y) - corner.y
-        farthest = reach + 0.5 * wall.length
-        is_near = (dx * dx + dy * dy <= farthest * farthest) & (k != ending) & (k != starting)
-        scratch.near_pieces[near] = scratch.wall_piece[k]
-        near += is_near
+    for start in range(0, walls, WIDTH):
+        dx = load(scratch.middle_xs, start) - corner.x
+        dy = load(scratch.middle_ys, start) - corner.y
+        farthest = reach + load(scratch.half_lengths, start)
+        is_near = (dx * dx + dy * dy <= farthest * farthest) & first_lanes(walls - start)
+        candidates = bits(is_near)
+        while candidates != 0:
+            k = start + int(np.int64(lowest_bit(candidates)))
+            candidates &= candidates - np.uint64(1)
+            scratch.near_pieces[near] = scratch.wall_piece[k]
+            near += (k != ending) & (k != starting)
     return near
 
 

@@ -60,6 +60,11 @@ def select(mask: Mask, lanes: Lanes, others: Lanes) -> Lanes:
     return np.where(mask, lanes, others)
 
 
+def bits(mask: Mask) -> Any:
+    """A number in which bit k is set where the mask holds in lane k."""
+    return np.uint64(np.packbits(mask, bitorder="little")[0])
+
+
 def larger(one: Any, other: Any) -> Any:
     """The larger of two numbers or in each lane, never NaN; of two zeros the sign may be either.
 
@@ -245,15 +250,19 @@ def _fabs(builder: Any, lanes: Any) -> Any:
 _compiled(abs, LANES, LanesType)(_fabs)
 
 
-@_compiled(operator.and_, MASK, MaskType, MaskType)
-def _and(builder: Any, mask: Any, other: Any) -> Any:
-    return builder.and_(mask, other)
+@_compiled(bits, types.uint64, MaskType)
+def _bits(builder: Any, mask: Any) -> Any:
+    return builder.zext(builder.bitcast(mask, ir.IntType(WIDTH)), ir.IntType(64))
+
+
+for _sign, _join in ((operator.and_, ir.IRBuilder.and_), (operator.or_, ir.IRBuilder.or_)):
+    _compiled(_sign, MASK, MaskType, MaskType)(_join)
 
 
 for _kinds in ((LanesType, LanesType), (LanesType, types.Float), (types.Float, LanesType)):
     for _sign, _name in (("add", "fadd"), ("sub", "fsub"), ("mul", "fmul")):
         _compiled(getattr(operator, _sign), LANES, *_kinds)(getattr(ir.IRBuilder, _name))
-    for _sign, _name in (("ge", ">="), ("le", "<=")):
+    for _sign, _name in (("ge", ">="), ("gt", ">"), ("le", "<="), ("lt", "<")):
         _compiled(getattr(operator, _sign), MASK, *_kinds)(
             lambda builder, a, b, name=_name: builder.fcmp_ordered(name, a, b)
         )

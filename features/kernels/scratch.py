@@ -95,6 +95,9 @@ class Scratch(NamedTuple):
         scorer: table that weighs the evidence, from `door_scorer.load_scorer`.
         wall_piece: the piece of each wall, shape of the wall array.
         near_pieces: the pieces of the walls near a corner, shape of the wall array.
+        middle_xs: x of the middle of each wall, metres, with `WIDTH` more than the wall array.
+        middle_ys: the same for y.
+        half_lengths: half the length of each wall, likewise.
         joints: the corner at the end of each wall, dtype `JOINT`, shape of the wall array.
         corner_ends: the walls that end and start at each corner or -1, two columns.
     """
@@ -122,6 +125,9 @@ class Scratch(NamedTuple):
     scorer: FloatArray
     wall_piece: NDArray[np.int64]
     near_pieces: NDArray[np.int64]
+    middle_xs: FloatArray
+    middle_ys: FloatArray
+    half_lengths: FloatArray
     joints: np.ndarray
     corner_ends: NDArray[np.int64]
 
@@ -173,6 +179,9 @@ def allocate_scratch(beams: int, door_candidates: int = MAX_DOOR_CANDIDATES) -> 
         scorer=default_scorer(),
         wall_piece=np.empty(CAPACITY["walls"], np.int64),
         near_pieces=np.empty(CAPACITY["walls"], np.int64),
+        middle_xs=np.empty(CAPACITY["walls"] + WIDTH),
+        middle_ys=np.empty(CAPACITY["walls"] + WIDTH),
+        half_lengths=np.empty(CAPACITY["walls"] + WIDTH),
         joints=np.empty(CAPACITY["walls"], JOINT),
         corner_ends=np.empty((CAPACITY["corners"], 2), np.int64),
     )
