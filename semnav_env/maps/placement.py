@@ -164,6 +164,8 @@ def _touched(plan: FloorPlan, body: Polygon) -> str | None:
 
 def is_clear(plan: FloorPlan, point: Point, radius: float) -> bool:
     """Whether a point lies in no furniture and nothing solid is within `radius` metres of it."""
+    if plan.derived(SolidEdges.of).room((*point, 0.0), radius, radius) == HAS_ROOM:
+        return True  # not even the square around the circle meets anything
     place = shapely.Point(point)
     near = plan.solids.query(place, predicate="dwithin", distance=radius)
     return len(near) == 0 and len(plan.furniture.query(place, predicate="covered_by")) == 0
