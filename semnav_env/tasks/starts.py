@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.features.corridor import Corridor, corridor_at
 from semnav_env.features.frames import FloatArray, Pose, wrap_angle
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.corridor_survey import axis_along, axis_heading, survey
@@ -39,8 +40,11 @@ metres."""
 MAX_TURN = 0.2
 """Largest angle between a random start and the corridor, radians."""
 
-FIRST_DRAWS = 256
+FIRST_DRAWS = 512
 """Random numbers that are drawn at once: most starts take fewer."""
+
+NOTHING_IN_DOUBT = np.empty(0, np.bool_)
+"""Whether poses in doubt are free, where there is none."""
 
 FOUND, IS_FULL, NEEDS_DRAWS, IN_DOUBT = 0, 1, 2, 3
 """How `_find_start` ends: with a start; without any free pose; for want of random numbers; at a
@@ -61,18 +65,23 @@ def sample_start(
     where = region.edges, region.bounds, floor_plan.derived(SolidEdges.of).arrays
     counted = floor_plan.scene_by(rules.door).door_ends
     seen = scene.wall_ends, scene.door_ends, scene.named_doors, counted
-    before, free = rng.bit_generator.state, np.empty(0, np.bool_)
-    draws = rng.random(FIRST_DRAWS)
+    sizes = robot.length / 2, robot.width / 2
+    before, draws, free = rng.bit_generator.state, rng.random(FIRST_DRAWS), NOTHING_IN_DOUBT
+    used = attempts = 0
     while True:
-        ending, used, pose, margin = _find_start(
-            draws, free, *where, robot.length / 2, robot.width / 2, *seen
+        ending, pose, margin, *now = _find_start(
+            draws, free, used, attempts, *where, *sizes, *seen
         )
         if ending == NEEDS_DRAWS:
             draws = np.append(draws, rng.random(len(draws)))
         elif ending == IN_DOUBT:
             free = np.append(free, exact_room(floor_plan, robot, pose, margin))
         else:
-            break
+            (used, attempts), free = now, NOTHING_IN_DOUBT
+            if ending == IS_FULL or attempts > START_TRIES:
+                break
+            if not is_in_junction(corridor_at(scene, pose)):  # kept for the commands drawn there
+                break
     rng.bit_generator.state = before
     rng.random(used)  # as if no more had been drawn than were needed
     if ending == IS_FULL:
@@ -81,10 +90,25 @@ def sample_start(
     return start
 
 
+def is_in_junction(corridor: Corridor) -> bool:
+    """Whether a junction of a corridor lies beside a robot at its frame.
+
+    Its mouth can then be out of the lidar's sight, so that a robot counts it for nothing while who
+    knows the plan takes it for the first.
+    """
+    return any(
+        mouth.near < OUTSIDE and mouth.far > -OUTSIDE
+        for junction in corridor.junctions
+        for mouth in junction.openings
+    )
+
+
 @kernel(counts_references=True)
 def _find_start(
     draws: FloatArray,
     free: NDArray[np.bool_],
+    used: int,
+    attempts: int,
     region: FloatArray,
     bounds: tuple[float, float, float, float],
     solid: tuple[FloatArray, FloatArray, FloatArray, NDArray[np.int64]],
@@ -94,14 +118,16 @@ def _find_start(
     doors: FloatArray,
     certain: NDArray[np.bool_],
     counted: FloatArray,
-) -> tuple[int, int, Pose, float]:
-    """Find the first start among random poses.
+) -> tuple[int, Pose, float, int, int]:
+    """Find the next start among random poses; behind it a junction may still be.
 
-    A call for want of something is repeated from the beginning with more of it.
+    A call that ends for want of something is to be repeated with more of it.
 
     Args:
         draws: random numbers in [0, 1): three for each pose, and one for each that is free.
         free: whether there is room at each pose that is in doubt, in order, as far as known.
+        used: how many of the draws were taken for starts before.
+        attempts: how many free poses were looked at then.
         region: edges of the corridor, shape (n, 4), metres.
         bounds: of the region: least x, least y, greatest x and greatest y, metres.
         solid: `SolidEdges.arrays`.
@@ -113,14 +139,15 @@ def _find_start(
         counted: the doors that count, shape (k, 4), metres.
 
     Returns:
-        How it ends; how many of the draws it took; the start, or the pose in doubt; and the margin
-        to keep free around that, metres.
+        How it ends; the start, or the pose in doubt and the margin to keep free around it, metres;
+        and `used` and `attempts` by then.
     """
     west, south, east, north = bounds
-    used = doubts = attempt = misses = 0
+    doubts = misses = 0
+    nowhere = 0.0, 0.0, 0.0
     while True:
         if used + 4 > len(draws):
-            return NEEDS_DRAWS, used, (0.0, 0.0, 0.0), 0.0
+            return NEEDS_DRAWS, nowhere, 0.0, used, attempts
         x, y = _between(west, east, draws[used]), _between(south, north, draws[used + 1])
         heading = _between(-math.pi, math.pi, draws[used + 2])
         used += 3
@@ -130,32 +157,35 @@ def _find_start(
             room = box_room(*solid, x, y, heading, *sizes)
             if room == IS_DOUBTFUL:
                 if doubts == len(free):
-                    return IN_DOUBT, used, (x, y, heading), MARGIN
+                    return IN_DOUBT, (x, y, heading), MARGIN, used, attempts
                 doubts += 1
             has_room = room == HAS_ROOM or (room == IS_DOUBTFUL and free[doubts - 1])
         if not has_room:
             misses += 1
             if misses == MAX_DRAWS:
-                return IS_FULL, used, (0.0, 0.0, 0.0), 0.0
+                return IS_FULL, nowhere, 0.0, used, attempts
             continue
         turn, misses = _between(-MAX_TURN, MAX_TURN, draws[used]), 0
         used += 1
         solid_here, axis = axis_heading(walls, doors, certain, (x, y, heading))
         start = x, y, wrap_angle(wrap_angle(axis) + turn)
-        if attempt < START_TRIES:
-            attempt += 1
+        attempts += 1
+        if attempts <= START_TRIES:
             if _is_beside_door(counted, start):  # asked first, for it rejects most
                 continue
             _, _, end, left, right, _ = axis_along(solid_here, x, y, axis)
-            if not leads_on(0.5 * (left + right), end) or in_junction(walls, doors, certain, start):
+            if not leads_on(0.5 * (left + right), end):
+                continue
+            behind = x, y, start[2] + math.pi
+            if _is_in_junction(survey(walls, doors, certain, *behind)[-1]):
                 continue
         room = box_room(*solid, *start, half_length, half_width)
         if room == IS_DOUBTFUL:
             if doubts == len(free):
-                return IN_DOUBT, used, start, 0.0
+                return IN_DOUBT, start, 0.0, used, attempts
             doubts += 1
         if room == HAS_ROOM or (room == IS_DOUBTFUL and free[doubts - 1]):
-            return FOUND, used, start, 0.0
+            return FOUND, start, 0.0, used, attempts
 
 
 @kernel
@@ -170,20 +200,12 @@ def leads_on(half_width: float, end: float) -> bool:
     return end > LEAST_AHEAD and half_width < WIDEST_HALF
 
 
-@kernel(counts_references=True)
-def in_junction(
-    walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Pose
-) -> bool:
-    """Whether a junction, seen along or against the heading, lies beside a robot at a pose.
-
-    Its mouth can then be out of the lidar's sight, so that a robot counts it for nothing while who
-    knows the plan takes it for the first. The arrays are those of `survey`.
-    """
-    for turn in (0.0, math.pi):
-        openings = survey(walls, doors, certain, pose[0], pose[1], pose[2] + turn)[-1]
-        for k in range(len(openings)):
-            if openings[k].near < OUTSIDE and openings[k].far > -OUTSIDE:
-                return True
+@kernel
+def _is_in_junction(openings: np.ndarray) -> bool:
+    """As `is_in_junction`, of openings as `survey` gives them."""
+    for k in range(len(openings)):
+        if openings[k].near < OUTSIDE and openings[k].far > -OUTSIDE:
+            return True
     return False
 
 
