@@ -128,9 +128,7 @@ def has_room(plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float = 0.0)
     """Whether a robot can stand at a pose; see `placement_error`, which also says why not."""
     halves = robot.length / 2 + margin, robot.width / 2 + margin
     answer = plan.derived(SolidEdges.of).room(pose, *halves)
-    return answer == HAS_ROOM or (
-        answer == IS_DOUBTFUL and exact_room(plan, robot, pose, margin)
-    )
+    return answer == HAS_ROOM or (answer == IS_DOUBTFUL and exact_room(plan, robot, pose, margin))
 
 
 def exact_room(plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float) -> bool:

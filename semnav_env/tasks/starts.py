@@ -63,14 +63,14 @@ def sample_start(
     chosen = corridors[rng.integers(len(corridors))] if corridors else None
     region, scene = area_to_start_in(floor_plan, chosen), floor_plan.scene
     where = region.edges, region.bounds, floor_plan.derived(SolidEdges.of).arrays
-    counted = floor_plan.scene_by(rules.door).door_ends
-    seen = scene.wall_ends, scene.door_ends, scene.named_doors, counted
     sizes = robot.length / 2, robot.width / 2
+    sides = scene.wall_ends, scene.door_ends, scene.named_doors
+    counted = floor_plan.scene_by(rules.door).door_ends
     before, draws, free = rng.bit_generator.state, rng.random(FIRST_DRAWS), NOTHING_IN_DOUBT
     used = attempts = 0
     while True:
         ending, pose, margin, *now = _find_start(
-            draws, free, used, attempts, *where, *sizes, *seen
+            draws, free, used, attempts, *where, sizes, sides, counted
         )
         if ending == NEEDS_DRAWS:
             draws = np.append(draws, rng.random(len(draws)))
@@ -112,11 +112,8 @@ def _find_start(
     region: FloatArray,
     bounds: tuple[float, float, float, float],
     solid: tuple[FloatArray, FloatArray, FloatArray, NDArray[np.int64]],
-    half_length: float,
-    half_width: float,
-    walls: FloatArray,
-    doors: FloatArray,
-    certain: NDArray[np.bool_],
+    sizes: tuple[float, float],
+    sides: tuple[FloatArray, FloatArray, NDArray[np.bool_]],
     counted: FloatArray,
 ) -> tuple[int, Pose, float, int, int]:
     """Find the next start among random poses; behind it a junction may still be.
@@ -131,11 +128,8 @@ def _find_start(
         region: edges of the corridor, shape (n, 4), metres.
         bounds: of the region: least x, least y, greatest x and greatest y, metres.
         solid: `SolidEdges.arrays`.
-        half_length: half the robot's length, metres.
-        half_width: half its width, metres.
-        walls: that bound the corridor, as for `survey`, and so on.
-        doors: likewise.
-        certain: likewise.
+        sizes: half the robot's length and half its width, metres.
+        sides: what bounds corridors: walls, doors, and which of these are certain, as for `survey`.
         counted: the doors that count, shape (k, 4), metres.
 
     Returns:
@@ -153,8 +147,7 @@ def _find_start(
         used += 3
         has_room = False
         if is_inside(region, x, y):
-            sizes = half_length + MARGIN, half_width + MARGIN
-            room = box_room(*solid, x, y, heading, *sizes)
+            room = box_room(*solid, x, y, heading, sizes[0] + MARGIN, sizes[1] + MARGIN)
             if room == IS_DOUBTFUL:
                 if doubts == len(free):
                     return IN_DOUBT, (x, y, heading), MARGIN, used, attempts
@@ -167,7 +160,7 @@ def _find_start(
             continue
         turn, misses = _between(-MAX_TURN, MAX_TURN, draws[used]), 0
         used += 1
-        solid_here, axis = axis_heading(walls, doors, certain, (x, y, heading))
+        solid_here, axis = axis_heading(*sides, (x, y, heading))
         start = x, y, wrap_angle(wrap_angle(axis) + turn)
         attempts += 1
         if attempts <= START_TRIES:
@@ -176,10 +169,9 @@ def _find_start(
             _, _, end, left, right, _ = axis_along(solid_here, x, y, axis)
             if not leads_on(0.5 * (left + right), end):
                 continue
-            behind = x, y, start[2] + math.pi
-            if _is_in_junction(survey(walls, doors, certain, *behind)[-1]):
+            if _is_in_junction(survey(*sides, x, y, start[2] + math.pi)[-1]):
                 continue
-        room = box_room(*solid, *start, half_length, half_width)
+        room = box_room(*solid, *start, *sizes)
         if room == IS_DOUBTFUL:
             if doubts == len(free):
                 return IN_DOUBT, start, 0.0, used, attempts

@@ -7,7 +7,7 @@ from semnav_env.features.corridor import corridor_at
 from semnav_env.maps import load_floor_plan
 from semnav_env.robots import robot_spec
 from semnav_env.tasks import EpisodeRequest, MissionMaker
-from semnav_env.tasks.sampling import LEAST_AHEAD, WIDEST_HALF
+from semnav_env.tasks.starts import LEAST_AHEAD, WIDEST_HALF
 
 
 @pytest.mark.parametrize("plan", ["heidelberg_hallway", "office_cross"])
