@@ -76,7 +76,7 @@ def sample_mission(
     for _ in range(TRIES):
         clauses = _draw(rng, most_clauses)
         first = clauses[1] if clauses[0] is ALONG else clauses[0]
-        if _leads_nowhere(first, scene, corridor, rules.grounding):
+        if leads_nowhere(first, scene, corridor, rules.grounding):
             continue
         try:
             mission = plan_mission(floor_plan, geodesic, Command(clauses), start, rules=rules)
@@ -87,7 +87,7 @@ def sample_mission(
     return None
 
 
-def _leads_nowhere(
+def leads_nowhere(
     clause: Clause, scene: StillScene, corridor: Corridor, rules: GroundingRules
 ) -> bool:
     """Whether a corridor has too few doors or junctions for the first clause of a command.
