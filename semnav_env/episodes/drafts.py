@@ -29,7 +29,7 @@ from semnav_env.grounding.follower import Follower
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.room_guide import RoomGuide
-from semnav_env.tasks.sampling import leads_on
+from semnav_env.tasks.starts import leads_on
 from semnav_env.verifier import plan_goals
 from semnav_env.verifier.goals import check_grounded
 
@@ -212,7 +212,8 @@ class Drafter:
 
     def _faces_a_wall(self, said: tuple[Clause, ...]) -> bool:
         """Whether the robot looks across a corridor, so that nobody would count its doors."""
-        return not leads_on(axis_at(self._plan.scene, self._begin_after(said)))
+        axis = axis_at(self._plan.scene, self._begin_after(said))
+        return not leads_on(axis.half_width, axis.end)
 
 
 def _passes_corner(clause: Clause) -> bool:

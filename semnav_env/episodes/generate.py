@@ -28,7 +28,7 @@ from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import is_clear, placement_error, sample_pose
 from semnav_env.maps.reach import Reach, reach
 from semnav_env.robots import ROBOTS, WHEELCHAIR
-from semnav_env.tasks.sampling import sample_start
+from semnav_env.tasks.starts import sample_start
 from semnav_env.verifier import Verifier, place, plan_mission
 
 

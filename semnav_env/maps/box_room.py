@@ -44,10 +44,14 @@ class SolidEdges:
         outline = edges_of(plan.boundary)
         return cls(np.vstack((plan.segments, outline)), outline, furniture, starts)
 
+    @property
+    def arrays(self) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.int64]]:
+        """All of them, as kernels take them."""
+        return self.edges, self.outline, self.furniture, self.pieces
+
     def room(self, pose: Pose, half_length: float, half_width: float) -> int:
         """Whether a rectangle has room at the pose of its centre, see `box_room`."""
-        arrays = self.edges, self.outline, self.furniture, self.pieces
-        return box_room(*arrays, *pose, half_length, half_width)
+        return box_room(*self.arrays, *pose, half_length, half_width)
 
 
 @kernel

@@ -17,6 +17,9 @@ from semnav_env.robots import RobotSpec, robot_spec
 MAX_DRAWS = 2000
 """Largest number of poses drawn before a region counts as full."""
 
+MARGIN = 0.05
+"""Space that is kept free all around a random pose, metres."""
+
 
 def corners(robot: RobotSpec) -> FloatArray:
     """Of the footprint in the robot frame, counter-clockwise, shape (4, 2)."""
@@ -70,7 +73,7 @@ def sample_pose(
     robot: RobotSpec,
     rng: np.random.Generator,
     region: Region | None = None,
-    margin: float = 0.05,
+    margin: float = MARGIN,
 ) -> Pose:
     """A random pose, uniform over place and heading, where the robot can stand.
 
@@ -84,16 +87,31 @@ def sample_pose(
     Raises:
         ValueError: no free pose was found.
     """
-    area = region or plan.derived(_every_corridor)
-    if area.polygon.is_empty:
-        raise ValueError(f"{plan.name} has no corridor to start in; name a region or a pose")
+    area = area_to_start_in(plan, region)
     west, south, east, north = area.bounds
     for _ in range(MAX_DRAWS):
         x, y = uniform(rng, west, east), uniform(rng, south, north)
         pose = x, y, uniform(rng, -math.pi, math.pi)
         if is_inside(area.edges, x, y) and has_room(plan, robot, pose, margin):
             return pose
-    raise ValueError(f"a {robot.name} found no free place in {area.name} of {plan.name}")
+    raise no_free_place(plan, robot, area)
+
+
+def area_to_start_in(plan: FloorPlan, region: Region | None = None) -> Region:
+    """A region, or all corridors together.
+
+    Raises:
+        ValueError: there is no corridor.
+    """
+    area = region or plan.derived(_every_corridor)
+    if area.polygon.is_empty:
+        raise ValueError(f"{plan.name} has no corridor to start in; name a region or a pose")
+    return area
+
+
+def no_free_place(plan: FloorPlan, robot: RobotSpec, area: Region) -> ValueError:
+    """The error for an area in which no free pose was found."""
+    return ValueError(f"a {robot.name} found no free place in {area.name} of {plan.name}")
 
 
 def uniform(rng: np.random.Generator, low: float, high: float) -> float:
@@ -110,9 +128,12 @@ def has_room(plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float = 0.0)
     """Whether a robot can stand at a pose; see `placement_error`, which also says why not."""
     halves = robot.length / 2 + margin, robot.width / 2 + margin
     answer = plan.derived(SolidEdges.of).room(pose, *halves)
-    return answer == HAS_ROOM or (
-        answer == IS_DOUBTFUL and _problem(plan, robot, pose, margin) is None
-    )
+    return answer == HAS_ROOM or (answer == IS_DOUBTFUL and exact_room(plan, robot, pose, margin))
+
+
+def exact_room(plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float) -> bool:
+    """As `has_room`, by exact geometry alone, which takes far longer."""
+    return _problem(plan, robot, pose, margin) is None
 
 
 def _problem(plan: FloorPlan, robot: RobotSpec, pose: Pose, margin: float) -> str | None:
@@ -141,6 +162,8 @@ def _touched(plan: FloorPlan, body: Polygon) -> str | None:
 
 def is_clear(plan: FloorPlan, point: Point, radius: float) -> bool:
     """Whether a point lies in no furniture and nothing solid is within `radius` metres of it."""
+    if plan.derived(SolidEdges.of).room((*point, 0.0), radius, radius) == HAS_ROOM:
+        return True  # not even the square around the circle meets anything
     place = shapely.Point(point)
     near = plan.solids.query(place, predicate="dwithin", distance=radius)
     return len(near) == 0 and len(plan.furniture.query(place, predicate="covered_by")) == 0

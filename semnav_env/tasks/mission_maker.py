@@ -68,7 +68,8 @@ class MissionMaker:
 
     def _drawn(self, pose: Pose | None, rng: np.random.Generator) -> Mission:
         """A random mission from a pose, or from a random start."""
-        from semnav_env.tasks.sampling import sample_mission, sample_start  # only to draw
+        from semnav_env.tasks.sampling import sample_mission  # only to draw
+        from semnav_env.tasks.starts import sample_start
 
         for _ in range(MOST_DRAWS):
             start = pose or sample_start(self.floor_plan, self.robot, rng, self.rules)
@@ -80,7 +81,7 @@ class MissionMaker:
 
     def _start_for(self, command: Command, rng: np.random.Generator) -> Pose:
         """A random start from which a command can be carried out."""
-        from semnav_env.tasks.sampling import sample_start
+        from semnav_env.tasks.starts import sample_start
 
         objections: Counter[str] = Counter()
         for _ in range(MOST_DRAWS):

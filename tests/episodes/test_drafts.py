@@ -41,7 +41,7 @@ from semnav_env.grounding import Goal, ReachGoal
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import is_clear, placement_error
 from semnav_env.routes.room_guide import RoomGuide
-from semnav_env.tasks.sampling import LEAST_AHEAD, WIDEST_HALF, in_junction, sample_start
+from semnav_env.tasks.starts import LEAST_AHEAD, WIDEST_HALF, is_in_junction, sample_start
 from semnav_env.verifier import Verdict, Verifier, plan_goals, plan_mission
 from semnav_env.verifier.recheck import recheck
 from tests.support.erring import ghost, targets
@@ -104,8 +104,8 @@ def test_both_bodies_fit_where_turns_and_corridors_end() -> None:
 def test_in_the_middle_of_a_crossing_one_is_in_a_junction() -> None:
     plan = load_floor_plan("office_cross")
     middle = plan.region("crossing").polygon.centroid
-    assert in_junction(plan, (middle.x, middle.y, 0.0))
-    assert not in_junction(plan, WEST)
+    assert is_in_junction(corridor_at(plan.scene, (middle.x, middle.y, 0.0)))
+    assert not is_in_junction(corridor_at(plan.scene, WEST))
 
 
 def test_rooms_to_leave_have_one_exit_and_space_to_turn() -> None:
