@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.door_memory import REMEMBERED_DOOR
+from semnav_env.features.kernels.lanes import WIDTH
 from semnav_env.features.kernels.layout import COUNTS_SIZE, DOOR, DOORS, WALL, WALLS
 from semnav_env.features.kernels.memory import (
     COUNTERS,
@@ -60,7 +61,8 @@ class SceneMemory:
         copy = object.__new__(SceneMemory)
         copy._counters = self._counters.copy()
         walls, doors, _ = self._counters[0].tolist()
-        copy._walls, copy._doors = self._walls[:, :walls].copy(), self._doors[:doors].copy()
+        room = walls + -walls % WIDTH
+        copy._walls, copy._doors = self._walls[:, :room].copy(), self._doors[:doors].copy()
         return copy
 
     def update(

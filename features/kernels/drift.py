@@ -13,8 +13,15 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.lanes import WIDTH, bits, first_lanes, load, smaller
 from semnav_env.features.kernels.normal_equations import solve_step
-from semnav_env.features.kernels.remembered import BLOCK, HITS, Ends, ends_of_wall, lowest_bit
+from semnav_env.features.kernels.remembered import (
+    HITS,
+    Ends,
+    ends_of_wall,
+    ends_of_walls,
+    lowest_bit,
+)
 
 MIN_LANDMARK_SIGHTINGS = 5
 """A remembered wall tells where the robot is once it was seen this often."""
@@ -74,7 +81,7 @@ def _nearest_like(wall: Ends, known: FloatArray, used: int) -> tuple[int, float,
     x1, y1, x2, y2 = wall
     ux, uy = x2 - x1, y2 - y1
     nearest, like, begin, end = MAX_LANDMARK_OFFSET, -1, 0.0, 0.0
-    for start in range(0, used, BLOCK):
+    for start in range(0, used, WIDTH):
         candidates = _alike(wall, known, start, used)
         while candidates != 0:
             k = start + int(np.int64(lowest_bit(candidates)))
@@ -98,7 +105,7 @@ def _nearest_like(wall: Ends, known: FloatArray, used: int) -> tuple[int, float,
 
 @kernel
 def _alike(wall: Ends, known: FloatArray, start: int, used: int) -> np.uint64:
-    """Which of the remembered walls from `start` on may be those that a wall is beside.
+    """Which of the eight remembered walls from `start` on may be those that a wall is beside.
 
     Returns:
         Bit i is set if wall `start + i` was seen often enough, is parallel to the wall, overlaps
@@ -108,22 +115,18 @@ def _alike(wall: Ends, known: FloatArray, start: int, used: int) -> np.uint64:
     x1, y1, x2, y2 = wall
     ux, uy = x2 - x1, y2 - y1
     size, reach = ux * ux + uy * uy, (1.01 * MAX_LANDMARK_OFFSET) ** 2
-    found, low, high = np.uint64(0), np.uint64(start), np.uint64(min(start + BLOCK, used))
-    # Unsigned indices and no branch, or it is not done for many walls at once.
-    for k in range(low, high):
-        start_x, start_y, end_x, end_y = ends_of_wall(known, k)
-        dx, dy = end_x - start_x, end_y - start_y
-        dot, square = ux * dx + uy * dy, dx * dx + dy * dy
-        parallel = (dot >= 0.0) & (dot * dot >= MIN_PARALLEL_COSINE**2 * size * square)
-        a = (x1 - start_x) * dy - (y1 - start_y) * dx
-        b = (x2 - start_x) * dy - (y2 - start_y) * dx
-        near = (a * b <= 0.0) | (min(a * a, b * b) <= reach * square)
-        first = (x1 - start_x) * dx + (y1 - start_y) * dy
-        last = (x2 - start_x) * dx + (y2 - start_y) * dy
-        overlaps = (first < square) & (last > 0.0)
-        often = known[HITS, k] >= MIN_LANDMARK_SIGHTINGS
-        found |= np.uint64(parallel & near & overlaps & often) << (k - low)
-    return found
+    start_x, start_y, end_x, end_y = ends_of_walls(known, start)
+    dx, dy = end_x - start_x, end_y - start_y
+    dot, square = ux * dx + uy * dy, dx * dx + dy * dy
+    parallel = (dot >= 0.0) & (dot * dot >= MIN_PARALLEL_COSINE**2 * size * square)
+    a = (x1 - start_x) * dy - (y1 - start_y) * dx
+    b = (x2 - start_x) * dy - (y2 - start_y) * dx
+    near = (a * b <= 0.0) | (smaller(a * a, b * b) <= reach * square)
+    first = (x1 - start_x) * dx + (y1 - start_y) * dy
+    last = (x2 - start_x) * dx + (y2 - start_y) * dy
+    overlaps = (first < square) & (last > 0.0)
+    often = load(known[HITS], start) >= float(MIN_LANDMARK_SIGHTINGS)
+    return bits(parallel & near & overlaps & often & first_lanes(used - start))
 
 
 @kernel

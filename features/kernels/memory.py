@@ -11,13 +11,14 @@ from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.door_memory import door_counts, doubt_unseen_doors, remember_door
 from semnav_env.features.kernels.drift import PRIOR, corrected, with_sighting
+from semnav_env.features.kernels.lanes import WIDTH, bits, first_lanes
 from semnav_env.features.kernels.layout import DOORS, WALLS
 from semnav_env.features.kernels.pass_through import is_passed_by_beams
 from semnav_env.features.kernels.remembered import (
-    BLOCK,
     HITS,
     Ends,
     ends_of_wall,
+    ends_of_walls,
     lowest_bit,
     place_for_new,
     write_wall,
@@ -209,7 +210,7 @@ def remember_wall(wall: Ends, known: FloatArray, used: int) -> int:
     if length < 1e-6:
         return used
     along = (x2 - x1) / length, (y2 - y1) / length
-    for start in range(0, used, BLOCK):
+    for start in range(0, used, WIDTH):
         candidates = _nearly_in_line(wall, along, known, start, used)
         while candidates != 0:
             k = start + int(np.int64(lowest_bit(candidates)))
@@ -227,7 +228,7 @@ def remember_wall(wall: Ends, known: FloatArray, used: int) -> int:
 def _nearly_in_line(
     wall: Ends, along: tuple[float, float], known: FloatArray, start: int, used: int
 ) -> np.uint64:
-    """Which of the remembered walls from `start` on may be on one line with a wall.
+    """Which of the eight remembered walls from `start` on may be on one line with a wall.
 
     Returns:
         Bit i is set if wall `start + i` has nearly the direction `along`, is not too far to one
@@ -235,23 +236,19 @@ def _nearly_in_line(
     """
     x1, y1, x2, y2 = wall
     ux, uy = along
-    found, low, high = np.uint64(0), np.uint64(start), np.uint64(min(start + BLOCK, used))
-    # Unsigned indices and no branch, or it is not done for many walls at once.
-    for k in range(low, high):
-        start_x, start_y, end_x, end_y = ends_of_wall(known, k)
-        dx, dy = end_x - start_x, end_y - start_y
-        dot, square = dx * ux + dy * uy, dx * dx + dy * dy
-        aligned = (dot > 0.0) & (dot * dot > SAME_DIRECTION_COSINE**2 * square)
-        first = (x1 - start_x) * dy - (y1 - start_y) * dx
-        last = (x2 - start_x) * dy - (y2 - start_y) * dx
-        nearest = MAX_END_OFFSET**2 * square
-        beside = (first * last > 0.0) & (first * first > nearest) & (last * last > nearest)
-        # A gap along the line, times the length; the length is at most half of 1 + its square.
-        gap = 0.55 * SAME_LINE_GAP * (1.0 + square)
-        before = (x2 - start_x) * dx + (y2 - start_y) * dy < -gap
-        behind = (x1 - start_x) * dx + (y1 - start_y) * dy > square + gap
-        found |= np.uint64(aligned & (not (beside | before | behind))) << (k - low)
-    return found
+    start_x, start_y, end_x, end_y = ends_of_walls(known, start)
+    dx, dy = end_x - start_x, end_y - start_y
+    dot, square = dx * ux + dy * uy, dx * dx + dy * dy
+    aligned = (dot > 0.0) & (dot * dot > SAME_DIRECTION_COSINE**2 * square)
+    first = (x1 - start_x) * dy - (y1 - start_y) * dx
+    last = (x2 - start_x) * dy - (y2 - start_y) * dx
+    nearest = MAX_END_OFFSET**2 * square
+    beside = (first * last > 0.0) & (first * first > nearest) & (last * last > nearest)
+    # A gap along the line, times the length; the length is at most half of 1 + its square.
+    gap = 0.55 * SAME_LINE_GAP * (1.0 + square)
+    before = (x2 - start_x) * dx + (y2 - start_y) * dy + gap < 0.0
+    behind = (x1 - start_x) * dx + (y1 - start_y) * dy > square + gap
+    return bits(aligned & first_lanes(used - start)) & ~bits(beside | before | behind)
 
 
 @kernel

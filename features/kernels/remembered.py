@@ -8,18 +8,17 @@ from numba.cpython.unsafe.numbers import trailing_zeros
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.lanes import load
 
 Ends: TypeAlias = tuple[float, float, float, float]
 """Start and end of a wall or door: x1, y1, x2, y2 in metres."""
 
 START_X, START_Y, END_X, END_Y, HITS = range(5)
 """Rows of the array of remembered walls, shape (5, room), float64: their ends in metres, and how
-often each was seen. A wall is a column, so that many walls can be compared at once."""
+often each was seen. A wall is a column, so that eight walls can be compared at once: the room is a
+multiple of eight."""
 
 WALL_ROWS = HITS + 1
-
-BLOCK = 64
-"""Remembered walls that are compared with a wall at once: one for each bit of a number."""
 
 lowest_bit: Any = trailing_zeros
 """Place of the lowest bit that is set in a number which is not 0; only kernels can call it."""
@@ -29,6 +28,17 @@ lowest_bit: Any = trailing_zeros
 def ends_of_wall(walls: FloatArray, k: int) -> Ends:
     """The ends of remembered wall `k`."""
     return walls[START_X, k], walls[START_Y, k], walls[END_X, k], walls[END_Y, k]
+
+
+@kernel
+def ends_of_walls(walls: FloatArray, start: int) -> Any:
+    """The ends of the eight remembered walls from `start` on, each of the four as lanes."""
+    return (
+        load(walls[START_X], start),
+        load(walls[START_Y], start),
+        load(walls[END_X], start),
+        load(walls[END_Y], start),
+    )
 
 
 @kernel

@@ -22,7 +22,8 @@ def without_drift(walls: FloatArray, known: FloatArray, used: int, pose: Pose) -
 
     Args:
         walls: x1, y1, x2, y2 of the scan's walls as the pose places them, metres, shape (n, 4).
-        known: remembered walls in the same frame, shape (`WALL_ROWS`, room).
+        known: remembered walls in the same frame, shape (`WALL_ROWS`, room), the room a multiple of
+            `WIDTH`.
         used: how many of its columns are used.
         pose: of the lidar by odometry, in the same frame.
 

@@ -18,6 +18,8 @@ from semnav_env.features.kernels.drift import (
     MAX_LANDMARK_OFFSET,
     MIN_LANDMARK_SIGHTINGS,
 )
+from semnav_env.features.kernels.lanes import WIDTH
+from semnav_env.features.kernels.remembered import WALL_ROWS
 from semnav_env.features.kernels.scene_drift import without_drift
 from semnav_env.features.memory import SceneMemory
 from semnav_env.lidar import Lidar
@@ -37,8 +39,9 @@ def known(walls: FloatArray, hits: int = MIN_LANDMARK_SIGHTINGS) -> FloatArray:
 
 
 def corrected(walls: FloatArray, memory: FloatArray, pose: Pose) -> Pose:
-    """The pose that a memory without free room corrects."""
-    return without_drift(walls, memory, memory.shape[1], pose)
+    """The pose that a memory corrects; whatever stands in its free room."""
+    room = np.full((WALL_ROWS, -memory.shape[1] % WIDTH), np.nan)
+    return without_drift(walls, np.hstack((memory, room)), memory.shape[1], pose)
 
 
 def placed(walls: FloatArray, true: Pose, believed: Pose) -> FloatArray:

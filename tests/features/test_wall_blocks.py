@@ -16,28 +16,29 @@ from semnav_env.features.kernels.drift import (
     MIN_PARALLEL_COSINE,
     _nearest_like,
 )
+from semnav_env.features.kernels.lanes import WIDTH
 from semnav_env.features.kernels.memory import (
     SAME_DIRECTION_COSINE,
     _nearly_in_line,
     _on_one_line,
     remember_wall,
 )
-from semnav_env.features.kernels.remembered import BLOCK, HITS, WALL_ROWS, Ends
+from semnav_env.features.kernels.remembered import HITS, WALL_ROWS, Ends
 
-seeds, sizes = st.integers(0, 2**32 - 1), st.integers(0, 2 * BLOCK + 20)
+seeds, sizes = st.integers(0, 2**32 - 1), st.integers(0, 8 * WIDTH + 3)
 
 
 def drawn_walls(seed: int, count: int) -> FloatArray:
-    """Remembered walls and one more, mostly along x and close together, shape (5, count + 1)."""
+    """Remembered walls and one more, mostly along x and close together; the room is eight more."""
     rng = np.random.default_rng(seed)
-    walls = np.empty((WALL_ROWS, count + 1))
+    walls, room = np.empty((WALL_ROWS, count + 1)), np.full((WALL_ROWS, WIDTH), np.nan)
     middle, half = rng.uniform(-4.0, 4.0, count + 1), rng.uniform(0.05, 3.0, count + 1)
     half *= np.where(rng.random(count + 1) < 0.1, -1.0, 1.0)
     walls[0], walls[2] = middle - half, middle + half
     walls[1] = rng.choice((0.0, 0.3, 2.0), count + 1) + rng.normal(0.0, 0.1, count + 1)
     walls[3] = walls[1] + rng.normal(0.0, 0.12, count + 1) * half
     walls[HITS] = rng.integers(0, 12, count + 1)
-    return walls
+    return np.hstack((walls, room))
 
 
 def one_of(walls: FloatArray, k: int) -> Ends:
@@ -78,7 +79,7 @@ def test_the_nearest_landmark_is_the_one_found_one_by_one(seed: int, count: int)
     assert _nearest_like(wall, walls, count) == nearest_one_by_one(wall, known)
 
 
-@given(seeds, st.integers(1, BLOCK))
+@given(seeds, st.integers(1, WIDTH))
 def test_every_wall_on_one_line_with_another_is_marked(seed: int, count: int) -> None:
     """And as in a block of its own."""
     walls = drawn_walls(seed, count)
@@ -98,7 +99,7 @@ def test_every_wall_on_one_line_with_another_is_marked(seed: int, count: int) ->
 
 @given(sizes)
 def test_a_wall_seen_again_is_fused_in_whatever_block_it_is(count: int) -> None:
-    known, used = np.zeros((WALL_ROWS, 3 * BLOCK)), 0
+    known, used = np.zeros((WALL_ROWS, 9 * WIDTH)), 0
     for hits in (1, 2):
         for k in range(count):
             used = remember_wall((0.0, 1.0 * k, 2.0, 1.0 * k), known, used)
