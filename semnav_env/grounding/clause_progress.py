@@ -22,6 +22,9 @@ CLAUSE_DONE, TRAIL_DUE, ON_WAY = 1, 2, 4
 """Events, as bits: the clause under way is completed; the robot is `WAY_SPACING` from the last
 place of its trail; the goal lies on a known way, so that what to head for changes as one drives."""
 
+NO_TRAIL = math.nan, math.nan
+"""Last place of a trail that nobody keeps: no distance from it is ever large enough to note."""
+
 GOAL_RECORD = np.dtype(
     [(name, "f8", size) for name, size in (("pose", 3), ("door", 4), ("tolerances", 3))]
     + [(name, "f8") for name in ("width", "wait")]
@@ -67,7 +70,7 @@ Written by `note_pose`:
     looked_back: whether it has looked along `ahead` since the clause began.
 
 Written where an event calls for it:
-    trail: last place of the robot's trail.
+    trail: last place of the robot's trail; `NO_TRAIL` if the command never goes back.
 """
 
 _GOAL_FORMAT = Struct("=12dq2?")
