@@ -23,7 +23,7 @@ class TeamActions:
 
     def __init__(self, envs: Sequence[SemNavEnv]) -> None:
         self._shape = (len(envs), *(envs[0].action_space.shape or ()))
-        self._columns = [0, 2] if self._shape[1] == 2 else [0, 1, 2]
+        self._columns = slice(None, None, 2 if self._shape[1] == 2 else 1)
         self._speeds = np.zeros((len(envs), 3))
         for k, env in enumerate(envs):
             self.renew(k, env)
@@ -39,9 +39,10 @@ class TeamActions:
         Raises:
             ValueError: they are not finite, have another shape, or are not made of real numbers.
         """
-        shares = action_array(actions, self._shape).astype(np.float64)
-        require(np.isfinite(shares).all(), "the action", shares, "finite, in [-1, 1]")
+        shares = action_array(actions, self._shape)
+        if not np.isfinite(shares).all():
+            require(False, "the action", shares.astype(np.float64), "finite, in [-1, 1]")
         twists = np.zeros((len(shares), 3))
-        twists[:, self._columns] = np.clip(shares, -1.0, 1.0)
+        twists[:, self._columns] = np.minimum(np.maximum(shares, -1.0), 1.0)
         twists *= self._speeds
         return twists

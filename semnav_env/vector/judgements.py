@@ -21,7 +21,7 @@ class Judgements:
 
     Attributes:
         driven: which robots were driven.
-        thought: in which of them something happened.
+        thought: whose judge thought.
         progress: as in `Judgement`; so are clause, success and failure.
         clause: whether a clause was completed.
         success: whether the command was completed.
@@ -52,6 +52,7 @@ def judge(
     periods: np.ndarray,
     driven: Mask,
     judgements: Mapping[int, Judgement],
+    latest: NDArray[np.int64],
 ) -> Judgements:
     """Say what became of all robots.
 
@@ -59,7 +60,8 @@ def judge(
         envs: of the robots.
         periods: what the compiled calls said, dtype `PERIOD`, shape (n,).
         driven: which robots were driven.
-        judgements: of those in which something happened.
+        judgements: of those whose judge thought.
+        latest: control period in which the episode of each robot is truncated, shape (n,).
     """
     progress = np.where(driven, periods["progress"], 0.0)
     thought, clause, success, failure, terminated = np.zeros((5, len(envs)), dtype=bool)
@@ -67,7 +69,6 @@ def judge(
         thought[k] = True
         progress[k], clause[k], success[k], failure[k] = judgement
         terminated[k] = envs[k].judge.verifier.over
-    latest = np.array([env.max_steps for env in envs])
     truncated = driven & ~terminated & (periods["steps"] >= latest)
     in_contact = driven & periods["in_contact"]
     flags = (clause, success, failure, in_contact, terminated, truncated)

@@ -72,7 +72,7 @@ class Team:
         self._beams, self._workbenches = 0, list[Workbench]()
         self._need_python = np.zeros(count, dtype=bool)
         self._trackers = [env.tracker for env in envs]
-        self._robots, self._who = list_of(_arrays(envs[0]), count), np.zeros(count, np.int64)
+        self._robots, self._who = list_of(_arrays(envs[0]), count), np.zeros((count, 3), np.int64)
         taken, done = np.zeros((2, count), np.int64)
         flags = self._thoughtful, taken, done, reported, self._written
         self._arrays = join_team(self._robots, self.periods, *flags)
@@ -100,7 +100,7 @@ class Team:
             driven: which robots take part, shape (n,).
 
         Returns:
-            What became of the robots that thought, by their number.
+            What became of the robots whose judge thought, by their number.
         """
         for tracker, drives in zip(self._trackers, driven.tolist(), strict=True):
             if drives:
@@ -178,13 +178,14 @@ class Team:
 
     def _think(self, judgements: dict[int, Judgement]) -> None:
         """Let the robots think that are done and have not yet; note what became of them."""
-        for k in self._who[: report(self._arrays, self._rows, self._who)].tolist():
-            env, period = self._envs[k], self.periods[k]
+        count = report(self._arrays, self._rows, self._who)
+        for k, understood, judged in self._who[:count].tolist():
+            env = self._envs[k]
             if self._need_python[k]:
                 env.world.arrive()
-            events = int(period["understood"]), int(period["judged"])
-            if any(events) or env.payload is not None:
-                judgements[k] = env.think(*events)
+            env.understand(understood)
+            if judged:
+                judgements[k] = env.judge.think(judged)
 
     def _submit(self, call: Callable[..., Any], *arguments: Any) -> Future[Any]:
         assert self._pool is not None

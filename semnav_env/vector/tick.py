@@ -138,6 +138,12 @@ def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) 
     """Write which robots are done and think, and were not reported before; returns how many.
 
     Robots that were reported before have thought, and are observed.
+
+    Args:
+        team: the robots.
+        rows: of the observations, see `write_row`.
+        who: written: number of the robot, and its events of `understand` and of `judge_motion`,
+            shape (n, 3).
     """
     count = 0
     for k in range(len(team.robots)):
@@ -147,7 +153,7 @@ def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) 
         elif not team.reported[k] and is_set(team.done, k):
             team.reported[k] = True
             if _thinks(team, k):
-                who[count] = k
+                who[count] = k, team.periods[k].understood, team.periods[k].judged
                 count += 1
     return count
 
