@@ -195,10 +195,15 @@ def _moved(item: _Item, move: Callable[[Point], Point], *points: str) -> _Item:
 
 def ends_of(items: Iterable[Wall | Door]) -> FloatArray:
     """Coordinates x and y of start and end of walls or doors, shape (n, 4), metres."""
-    if isinstance(items, (PlainWalls, RememberedDoors)):
+    if isinstance(items, _MadeFromEnds):
         return items.ends.copy()
     flat = [value for item in items for point in (item.start, item.end) for value in point]
     return np.array(flat, dtype=np.float64).reshape(-1, 4)
+
+
+def known_ends(items: Iterable[Wall | Door]) -> FloatArray:
+    """As `ends_of`, to be read only: an array that the walls or doors may own, not a copy."""
+    return items.ends if isinstance(items, _MadeFromEnds) else ends_of(items)
 
 
 def which_are_named(doors: Sequence[Door]) -> NDArray[np.bool_]:

@@ -28,7 +28,10 @@ def _due_places(command: str) -> list[bool]:
 
 
 def test_a_place_of_the_trail_is_due_every_way_spacing() -> None:
-    assert _due_places("go to the end of the hallway, go back to the start") == [False, False, True] * 2
+    assert (
+        _due_places("go to the end of the hallway, go back to the start")
+        == [False, False, True] * 2
+    )
 
 
 def test_a_command_that_never_goes_back_keeps_no_trail() -> None:
