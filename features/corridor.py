@@ -18,11 +18,14 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
 from semnav_env.features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND
 from semnav_env.features.kernels.corridor_survey import (
+    MAX_OPENINGS,
+    OPENING,
+    PROBE_COUNT,
     axis_along,
     axis_heading,
     first_gap,
     stands_in,
-    survey,
+    write_survey,
 )
 from semnav_env.features.scene import Door, Scene, StillScene, known_ends, which_are_named
 
@@ -194,14 +197,17 @@ def corridor_along(
         named: which doors are known to be doors, shape (m,).
         pose: in the same frame.
     """
-    (x, y, heading), half_width, end, sides, openings = survey(walls, doors, named, *pose)
-    frame = x, y, wrap_angle(heading)
-    return Corridor(frame, sides[0], sides[1], half_width, end, openings)
+    sides, openings = np.empty((2, PROBE_COUNT)), np.empty(MAX_OPENINGS, OPENING)
+    frame, half_width, end, count = write_survey(walls, doors, named, pose, sides, openings)
+    frame = frame[0], frame[1], wrap_angle(frame[2])
+    return Corridor(frame, sides[0], sides[1], half_width, end, openings[:count])
 
 
 def openings_at(scene: StillScene, pose: Pose) -> list[SideOpening]:
     """The openings of the corridor that `corridor_at` would give, of which nothing is kept."""
-    return _openings(survey(scene.wall_ends, scene.door_ends, scene.named_doors, *pose)[-1])
+    return _openings(
+        corridor_along(scene.wall_ends, scene.door_ends, scene.named_doors, pose).openings
+    )
 
 
 def axis_at(scene: StillScene, pose: Pose) -> CorridorAxis:

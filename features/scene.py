@@ -203,11 +203,12 @@ def ends_of(items: Iterable[Wall | Door]) -> FloatArray:
 
 def known_ends(items: Iterable[Wall | Door]) -> FloatArray:
     """As `ends_of`, to be read only: an array that the walls or doors may own, not a copy."""
-    return items.ends if isinstance(items, _MadeFromEnds) else ends_of(items)
+    ends: FloatArray | None = getattr(items, "ends", None)
+    return ends_of(items) if ends is None else ends
 
 
 def which_are_named(doors: Sequence[Door]) -> NDArray[np.bool_]:
     """Which doors have a name, shape (n,): those of a floor plan."""
-    if isinstance(doors, RememberedDoors):
-        return np.zeros(len(doors), np.bool_)
+    if type(doors) is RememberedDoors:
+        return np.zeros(len(doors.ends), np.bool_)
     return np.array([door.name is not None for door in doors], dtype=np.bool_)

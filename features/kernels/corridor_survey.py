@@ -94,15 +94,41 @@ def survey(
         axis; the distance of the left and of the right side at each probe, inf where there is
         none, shape (2, PROBE_COUNT); and the openings, dtype `OPENING`.
     """
-    solid, axis = axis_heading(walls, doors, certain, (x, y, heading))
-    frame, back, end, left, right, local = axis_along(solid, x, y, axis)
-    openings = np.empty(MAX_OPENINGS, OPENING)
-    sides = np.empty((2, PROBE_COUNT))
-    count = 0
+    sides, openings = np.empty((2, PROBE_COUNT)), np.empty(MAX_OPENINGS, OPENING)
+    pose = x, y, heading
+    frame, half_width, end, count = write_survey(walls, doors, certain, pose, sides, openings)
+    return frame, half_width, end, sides, openings[:count]
+
+
+@kernel(counts_references=True)
+def write_survey(
+    walls: FloatArray,
+    doors: FloatArray,
+    certain: NDArray[np.bool_],
+    pose: Frame,
+    sides: FloatArray,
+    openings: np.ndarray,
+) -> tuple[Frame, float, float, int]:
+    """As `survey`, into arrays: to make them takes Python less time than to take them over.
+
+    Args:
+        walls: as for `survey`; so are doors and certain.
+        doors: likewise.
+        certain: likewise.
+        pose: of the robot.
+        sides: written, shape (2, PROBE_COUNT).
+        openings: written, shape (MAX_OPENINGS,).
+
+    Returns:
+        The frame of the axis, half the typical width, the end, and how many openings there are.
+    """
+    solid, axis = axis_heading(walls, doors, certain, pose)
+    frame, back, end, left, right, local = axis_along(solid, pose[0], pose[1], axis)
+    count, last = 0, _probes_before(end)
     for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
-        raw, side = probe(local, sign, back, PROBE_COUNT), sides[row]
+        raw, side = probe(local, sign, back, last), sides[row]
         count = _follow(raw, local, sign, usual, (back, end), side, openings, count)
-    return frame, 0.5 * (left + right), end, sides, openings[:count]
+    return frame, 0.5 * (left + right), end, count
 
 
 @kernel(counts_references=True)
@@ -187,6 +213,14 @@ def _is_across(door: FloatArray, heading: float) -> bool:
 
 
 @kernel
+def _probes_before(end: float) -> int:
+    """How many probes of a side lie before the end of a corridor."""
+    if math.isinf(end):
+        return PROBE_COUNT
+    return min(PROBE_COUNT, int((end + PROBED_BEHIND) / PROBE_SPACING) + 1)
+
+
+@kernel
 def _follow(
     raw: FloatArray,
     solid: FloatArray,
@@ -203,7 +237,7 @@ def _follow(
     how far it lay before that.
 
     Args:
-        raw: what the rays to that side met, metres.
+        raw: what the rays to that side met up to the end of the corridor, metres.
         solid: walls and doors in the frame of the axis.
         sign: 1 for the left side, -1 for the right.
         usual: distance of the side where it is not known better, metres.
@@ -218,12 +252,7 @@ def _follow(
     """
     back, end = stretch
     side[:] = np.inf
-    last = (
-        PROBE_COUNT
-        if math.isinf(end)
-        else min(PROBE_COUNT, int((end + PROBED_BEHIND) / PROBE_SPACING) + 1)
-    )
-    first, reference = -1, usual
+    first, reference, last = -1, usual, len(raw)
     for k in range(max(0, math.ceil((PROBED_BEHIND - back) / PROBE_SPACING)), last):
         level = k > 0 and side[k - 1] < np.inf and raw[k] < side[k - 1] + MAX_LEVEL_STEP
         if first < 0 and not level:

@@ -7,10 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import overload
 
+import numpy as np
+
 from semnav_env.commands.references import Side
 from semnav_env.features.corridor import MAX_KNOWN_VIEWS, Corridor
 from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.door_counting import count_doors
+from semnav_env.features.kernels.door_counting import COUNTED, count_doors
 from semnav_env.features.scene import Door, Scene, StillScene, known_ends
 from semnav_env.rules import GroundingRules
 
@@ -111,7 +113,8 @@ def _known_doors(scene: StillScene, corridor: Corridor, rules: GroundingRules) -
 def _rows_along(
     ends: FloatArray, corridor: Corridor, rules: GroundingRules
 ) -> list[tuple[float, int, int, float]]:
-    rows = count_doors(
+    counted = np.empty(len(ends), COUNTED)
+    count = count_doors(
         ends,
         corridor.frame,
         corridor.half_width,
@@ -120,5 +123,6 @@ def _rows_along(
         corridor.right,
         rules.door_offset,
         rules.end_door_offset,
+        counted,
     )
-    return sorted(rows.tolist())
+    return sorted(counted[:count].tolist())
