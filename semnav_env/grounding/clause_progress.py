@@ -104,6 +104,12 @@ def put_goal(record: np.ndarray, field: str, goal: Goal) -> None:
     _GOAL_FORMAT.pack_into(buffer, buffer.dtype.fields[field][1], *numbers)
 
 
+def goal_bytes(record: np.ndarray, field: str) -> memoryview:
+    """Where a record holds a goal, see `put_goal`: to copy it takes a tenth of writing it."""
+    offset = record.dtype.fields[field][1] if record.dtype.fields else 0
+    return record.view(np.uint8).data[offset : offset + GOAL_RECORD.itemsize]
+
+
 def farthest_view(progress: np.ndarray, heading: float) -> Pose:
     """The farthest place that a robot has come to in the clause under way, and where it looks.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.validation import require
 from semnav_env.robots.actions import action_array
 
@@ -23,7 +25,6 @@ class TeamActions:
 
     def __init__(self, envs: Sequence[SemNavEnv]) -> None:
         self._shape = (len(envs), *(envs[0].action_space.shape or ()))
-        self._columns = slice(None, None, 2 if self._shape[1] == 2 else 1)
         self._speeds = np.zeros((len(envs), 3))
         for k, env in enumerate(envs):
             self.renew(k, env)
@@ -39,10 +40,26 @@ class TeamActions:
         Raises:
             ValueError: they are not finite, have another shape, or are not made of real numbers.
         """
-        shares = action_array(actions, self._shape)
-        if not np.isfinite(shares).all():
-            require(False, "the action", shares.astype(np.float64), "finite, in [-1, 1]")
+        shares = action_array(actions, self._shape).astype(np.float64, order="C")
         twists = np.zeros((len(shares), 3))
-        twists[:, self._columns] = np.minimum(np.maximum(shares, -1.0), 1.0)
-        twists *= self._speeds
+        finite = _write_twists(shares, self._speeds, twists)
+        require(finite, "the action", shares, "finite, in [-1, 1]")
         return twists
+
+
+@kernel
+def _write_twists(shares: FloatArray, speeds: FloatArray, twists: FloatArray) -> bool:
+    """Write shares of the largest speeds, cut to [-1, 1], as velocities; whether all are finite.
+
+    Args:
+        shares: (forward, turn) or (forward, left, turn), shape (n, 2) or (n, 3).
+        speeds: the largest ones: forward, left and turn, shape (n, 3).
+        twists: written, zeros before, shape (n, 3).
+    """
+    step = 2 if shares.shape[1] == 2 else 1
+    for k in range(len(shares)):
+        for i in range(shares.shape[1]):
+            if not math.isfinite(shares[k, i]):
+                return False
+            twists[k, step * i] = min(max(shares[k, i], -1.0), 1.0) * speeds[k, step * i]
+    return True

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.belief.tracker import BeliefTracker
 from semnav_env.belief.understand import Workbench, workbench_with
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
@@ -71,7 +72,7 @@ class Team:
         self._log_length = 0
         self._beams, self._workbenches = 0, list[Workbench]()
         self._need_python = np.zeros(count, dtype=bool)
-        self._trackers = [env.tracker for env in envs]
+        self._asked = set[BeliefTracker]()
         self._robots, self._who = list_of(_arrays(envs[0]), count), np.zeros((count, 3), np.int64)
         taken, done = np.zeros((2, count), np.int64)
         flags = self._thoughtful, taken, done, reported, self._written
@@ -84,7 +85,7 @@ class Team:
         """Take in a robot whose environment has been reset."""
         env = self._envs[index]
         self._make_room(env.lidar_spec.beams)
-        self._trackers[index], self._need_python[index] = env.tracker, env.world.needs_python
+        env.tracker.asked, self._need_python[index] = self._asked, env.world.needs_python
         self._thoughtful[index] = env.payload is not None or env.world.needs_python
         self._written[index] = False
         put(self._robots, index, _arrays(env))
@@ -102,11 +103,10 @@ class Team:
         Returns:
             What became of the robots whose judge thought, by their number.
         """
-        for tracker, drives in zip(self._trackers, driven.tolist(), strict=True):
-            if drives:
-                tracker.let_go()
+        for tracker in tuple(self._asked):
+            tracker.let_go()
         by_python = self._need_python & driven
-        for k in np.flatnonzero(by_python).tolist():
+        for k in by_python.nonzero()[0].tolist():
             self._envs[k].simulator.demand(tuple(twists[k].tolist()))
         self._note(twists, driven & ~by_python)
         begin_period(self._arrays, driven)
