@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,9 +10,9 @@ from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.validation import require
 from semnav_env.robots.actions import action_array
+from semnav_env.vector.tick import write_twists
 
 
 class TeamActions:
@@ -42,24 +41,6 @@ class TeamActions:
         """
         shares = action_array(actions, self._shape).astype(np.float64, order="C")
         twists = np.zeros((len(shares), 3))
-        finite = _write_twists(shares, self._speeds, twists)
+        finite = write_twists(shares, self._speeds, twists)
         require(finite, "the action", shares, "finite, in [-1, 1]")
         return twists
-
-
-@kernel
-def _write_twists(shares: FloatArray, speeds: FloatArray, twists: FloatArray) -> bool:
-    """Write shares of the largest speeds, cut to [-1, 1], as velocities; whether all are finite.
-
-    Args:
-        shares: (forward, turn) or (forward, left, turn), shape (n, 2) or (n, 3).
-        speeds: the largest ones: forward, left and turn, shape (n, 3).
-        twists: written, zeros before, shape (n, 3).
-    """
-    step = 2 if shares.shape[1] == 2 else 1
-    for k in range(len(shares)):
-        for i in range(shares.shape[1]):
-            if not math.isfinite(shares[k, i]):
-                return False
-            twists[k, step * i] = min(max(shares[k, i], -1.0), 1.0) * speeds[k, step * i]
-    return True

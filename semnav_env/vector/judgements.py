@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.tasks.judge import Judgement
+from semnav_env.vector.tick import count_periods
 
 Mask = NDArray[np.bool_]
 
@@ -60,25 +60,9 @@ def judge(
     """
     amounts = np.zeros((6, len(envs)))
     thought, terminated, truncated = np.zeros((3, len(envs)), dtype=bool)
-    _count(periods, driven, latest, amounts, truncated)
+    count_periods(periods, driven, latest, amounts, truncated)
     for k, judgement in judgements.items():
         amounts[:4, k] = judgement
         thought[k], terminated[k] = True, envs[k].judge.verifier.over
         truncated[k] &= not terminated[k]
     return Judgements(driven, thought, amounts, terminated, truncated)
-
-
-@kernel
-def _count(
-    periods: np.ndarray,
-    driven: Mask,
-    latest: NDArray[np.int64],
-    amounts: FloatArray,
-    truncated: Mask,
-) -> None:
-    """Write what robots did of which no judge has thought; see `Judgements` and `judge`."""
-    for k in range(len(driven)):
-        if driven[k]:
-            period = periods[k]
-            amounts[0, k], amounts[4, k] = period.progress, 1.0 if period.in_contact else 0.0
-            amounts[5, k], truncated[k] = 1.0, period.steps >= latest[k]

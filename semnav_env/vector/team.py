@@ -85,7 +85,9 @@ class Team:
         """Take in a robot whose environment has been reset."""
         env = self._envs[index]
         self._make_room(env.lidar_spec.beams)
-        env.tracker.asked, self._need_python[index] = self._asked, env.world.needs_python
+        self._need_python[index] = env.world.needs_python
+        env.tracker.asked = self._asked
+        self._asked.add(env.tracker)  # it may have been asked before it joined
         self._thoughtful[index] = env.payload is not None or env.world.needs_python
         self._written[index] = False
         put(self._robots, index, _arrays(env))

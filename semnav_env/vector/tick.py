@@ -6,6 +6,7 @@ Robots share nothing, so any thread can take any of them.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -189,3 +190,37 @@ def _tick_robot(robot: RobotArrays, twist: FloatArray, seconds: float, period: A
     period.steps, period.in_contact = motion.step, judged.in_contact != 0
     period.collisions, period.path_length = judged.collisions, judged.path_length
     period.progress = judged.progress
+
+
+@kernel
+def write_twists(shares: FloatArray, speeds: FloatArray, twists: FloatArray) -> bool:
+    """Write shares of the largest speeds, cut to [-1, 1], as velocities; whether all are finite.
+
+    Args:
+        shares: (forward, turn) or (forward, left, turn), shape (n, 2) or (n, 3).
+        speeds: the largest ones: forward, left and turn, shape (n, 3).
+        twists: written, zeros before, shape (n, 3).
+    """
+    step = 2 if shares.shape[1] == 2 else 1
+    for k in range(len(shares)):
+        for i in range(shares.shape[1]):
+            if not math.isfinite(shares[k, i]):
+                return False
+            twists[k, step * i] = min(max(shares[k, i], -1.0), 1.0) * speeds[k, step * i]
+    return True
+
+
+@kernel
+def count_periods(
+    periods: np.ndarray,
+    driven: Flags,
+    latest: NDArray[np.int64],
+    amounts: FloatArray,
+    truncated: Flags,
+) -> None:
+    """Write what robots did of which no judge has thought; see `judgements.judge`."""
+    for k in range(len(driven)):
+        if driven[k]:
+            period = periods[k]
+            amounts[0, k], amounts[4, k] = period.progress, 1.0 if period.in_contact else 0.0
+            amounts[5, k], truncated[k] = 1.0, period.steps >= latest[k]
