@@ -16,14 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
-from semnav_env.features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND
+from semnav_env.features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND, first_gap
 from semnav_env.features.kernels.corridor_survey import (
     MAX_OPENINGS,
     OPENING,
     PROBE_COUNT,
     axis_along,
     axis_heading,
-    first_gap,
     stands_in,
     write_survey,
 )

@@ -109,22 +109,12 @@ def write_survey(
     sides: FloatArray,
     openings: np.ndarray,
 ) -> tuple[Frame, float, float, int]:
-    """As `survey`, into arrays: to make them takes Python less time than to take them over.
-
-    Args:
-        walls: as for `survey`; so are doors and certain.
-        doors: likewise.
-        certain: likewise.
-        pose: of the robot.
-        sides: written, shape (2, PROBE_COUNT).
-        openings: written, shape (MAX_OPENINGS,).
-
-    Returns:
-        The frame of the axis, half the typical width, the end, and how many openings there are.
-    """
+    """As `survey`, into arrays; returns frame, half the width, end and the count of openings."""
     solid, axis = axis_heading(walls, doors, certain, pose)
     frame, back, end, left, right, local = axis_along(solid, pose[0], pose[1], axis)
-    count, last = 0, _probes_before(end)
+    count, last = 0, PROBE_COUNT
+    if math.isfinite(end):
+        last = min(PROBE_COUNT, int((end + PROBED_BEHIND) / PROBE_SPACING) + 1)
     for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
         raw, side = probe(local, sign, back, last), sides[row]
         count = _follow(raw, local, sign, usual, (back, end), side, openings, count)
@@ -165,17 +155,6 @@ def axis_along(
 
 
 @kernel
-def first_gap(side: FloatArray, start: int, stop: int, longer_than: int) -> int:
-    """Where more than `longer_than` infinite values in a row first begin; -1 if nowhere."""
-    run = 0
-    for k in range(max(start, 0), min(stop, len(side))):
-        run = run + 1 if math.isinf(side[k]) else 0
-        if run > longer_than:
-            return k - run + 1
-    return -1
-
-
-@kernel
 def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
     """Whether a robot at (x, y, heading) stands in a doorway, shape (4,), to pass through it."""
     dx, dy = door[2] - door[0], door[3] - door[1]
@@ -210,14 +189,6 @@ def _is_across(door: FloatArray, heading: float) -> bool:
     dx, dy = door[2] - door[0], door[3] - door[1]
     along = abs(math.cos(heading) * dx + math.sin(heading) * dy)
     return bool(along < math.sqrt(0.5) * math.hypot(dx, dy))
-
-
-@kernel
-def _probes_before(end: float) -> int:
-    """How many probes of a side lie before the end of a corridor."""
-    if math.isinf(end):
-        return PROBE_COUNT
-    return min(PROBE_COUNT, int((end + PROBED_BEHIND) / PROBE_SPACING) + 1)
 
 
 @kernel

@@ -46,12 +46,7 @@ class CountedDoor:
 
 
 class _CountedDoors(Sequence[CountedDoor]):
-    """Doors in the order of travel; a `CountedDoor` is made when it is asked for.
-
-    Args:
-        doors: of the scene.
-        rows: of those that count, as in `door_counting.COUNTED`.
-    """
+    """Doors of a scene by rows of `COUNTED`; a `CountedDoor` is made when it is asked for."""
 
     def __init__(self, doors: Sequence[Door], rows: list[tuple[float, int, int, float]]) -> None:
         self._doors, self._rows = doors, rows
@@ -113,16 +108,7 @@ def _known_doors(scene: StillScene, corridor: Corridor, rules: GroundingRules) -
 def _rows_along(
     ends: FloatArray, corridor: Corridor, rules: GroundingRules
 ) -> list[tuple[float, int, int, float]]:
+    seen = corridor.frame, corridor.half_width, corridor.end, corridor.left, corridor.right
     counted = np.empty(len(ends), COUNTED)
-    count = count_doors(
-        ends,
-        corridor.frame,
-        corridor.half_width,
-        corridor.end,
-        corridor.left,
-        corridor.right,
-        rules.door_offset,
-        rules.end_door_offset,
-        counted,
-    )
+    count = count_doors(ends, *seen, rules.door_offset, rules.end_door_offset, counted)
     return sorted(counted[:count].tolist())
