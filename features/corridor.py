@@ -9,21 +9,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
-from semnav_env.features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND
+from semnav_env.features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND, first_gap
 from semnav_env.features.kernels.corridor_survey import (
+    MAX_OPENINGS,
+    OPENING,
+    PROBE_COUNT,
     axis_along,
     axis_heading,
-    first_gap,
     stands_in,
-    survey,
+    write_survey,
 )
-from semnav_env.features.scene import Door, Scene, StillScene, ends_of, which_are_named
+from semnav_env.features.scene import Door, Scene, StillScene, known_ends, which_are_named
 
 MIN_CONTINUATION = 1.2
 """A corridor goes on behind a junction if it is longer than this there, metres."""
@@ -101,7 +104,7 @@ class Corridor:
         right: the same to the right.
         half_width: typical distance from the axis to the sides, metres.
         end: where the corridor ends along the axis, metres; inf if that is not seen.
-        junctions: in order along the axis, those behind the pose included.
+        openings: of both sides, dtype `OPENING`, each side's in order along the axis.
     """
 
     frame: Pose
@@ -109,7 +112,12 @@ class Corridor:
     right: FloatArray
     half_width: float
     end: float
-    junctions: tuple[Junction, ...]
+    openings: np.ndarray
+
+    @cached_property
+    def junctions(self) -> tuple[Junction, ...]:
+        """In order along the axis, those behind the pose included."""
+        return _junctions(_openings(self.openings), self.end)
 
     def along(self, point: Point) -> float:
         """Where a point lies along the axis, metres."""
@@ -166,7 +174,7 @@ def corridor_at(scene: Scene, pose: Pose) -> Corridor:
             along which most of the wall in view runs.
     """
     if not isinstance(scene, StillScene):
-        walls, doors = ends_of(scene.walls), ends_of(scene.doors)
+        walls, doors = known_ends(scene.walls), known_ends(scene.doors)
         return corridor_along(walls, doors, which_are_named(scene.doors), pose)
     views = scene.known_views
     if pose not in views:
@@ -188,15 +196,17 @@ def corridor_along(
         named: which doors are known to be doors, shape (m,).
         pose: in the same frame.
     """
-    (x, y, heading), half_width, end, (left, right), rows = survey(walls, doors, named, *pose)
-    openings = _openings(rows)
-    frame = x, y, wrap_angle(heading)
-    return Corridor(frame, left, right, half_width, end, _junctions(openings, end))
+    sides, openings = np.empty((2, PROBE_COUNT)), np.empty(MAX_OPENINGS, OPENING)
+    frame, half_width, end, count = write_survey(walls, doors, named, pose, sides, openings)
+    frame = frame[0], frame[1], wrap_angle(frame[2])
+    return Corridor(frame, sides[0], sides[1], half_width, end, openings[:count])
 
 
 def openings_at(scene: StillScene, pose: Pose) -> list[SideOpening]:
     """The openings of the corridor that `corridor_at` would give, of which nothing is kept."""
-    return _openings(survey(scene.wall_ends, scene.door_ends, scene.named_doors, *pose)[-1])
+    return _openings(
+        corridor_along(scene.wall_ends, scene.door_ends, scene.named_doors, pose).openings
+    )
 
 
 def axis_at(scene: StillScene, pose: Pose) -> CorridorAxis:
@@ -208,8 +218,10 @@ def axis_at(scene: StillScene, pose: Pose) -> CorridorAxis:
 
 def doorway_at(scene: Scene, pose: Pose) -> Door | None:
     """The door that a robot at `pose` stands in, looking through it; None if it does not."""
-    doors = zip(scene.doors, ends_of(scene.doors), strict=True)
-    return next((door for door, ends in doors if stands_in(ends, *pose)), None)
+    for k, ends in enumerate(known_ends(scene.doors)):
+        if stands_in(ends, *pose):
+            return scene.doors[k]
+    return None
 
 
 def _openings(rows: np.ndarray) -> list[SideOpening]:

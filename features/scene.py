@@ -195,14 +195,20 @@ def _moved(item: _Item, move: Callable[[Point], Point], *points: str) -> _Item:
 
 def ends_of(items: Iterable[Wall | Door]) -> FloatArray:
     """Coordinates x and y of start and end of walls or doors, shape (n, 4), metres."""
-    if isinstance(items, (PlainWalls, RememberedDoors)):
+    if isinstance(items, _MadeFromEnds):
         return items.ends.copy()
     flat = [value for item in items for point in (item.start, item.end) for value in point]
     return np.array(flat, dtype=np.float64).reshape(-1, 4)
 
 
+def known_ends(items: Iterable[Wall | Door]) -> FloatArray:
+    """As `ends_of`, to be read only: an array that the walls or doors may own, not a copy."""
+    ends: FloatArray | None = getattr(items, "ends", None)
+    return ends_of(items) if ends is None else ends
+
+
 def which_are_named(doors: Sequence[Door]) -> NDArray[np.bool_]:
     """Which doors have a name, shape (n,): those of a floor plan."""
-    if isinstance(doors, RememberedDoors):
-        return np.zeros(len(doors), np.bool_)
+    if type(doors) is RememberedDoors:
+        return np.zeros(len(doors.ends), np.bool_)
     return np.array([door.name is not None for door in doors], dtype=np.bool_)

@@ -154,8 +154,9 @@ class SemNavEnv(GymnasiumEnv[Any]):
             RuntimeError: before the first `reset`.
         """
         self._require_reset("step")
-        events = self._loop.drive(self._actions.twist(action))
-        judgement, outcome = self.think(*events), self.judge.outcome
+        understood, judged = self._loop.drive(self._actions.twist(action))
+        self.understand(understood)
+        judgement, outcome = self.judge.think(judged), self.judge.outcome
         terms = self._terms(judgement, outcome.in_contact != 0, action)
         terminated = self.judge.verifier.over and not self.judge.truncated
         truncated = not terminated and self.simulator.steps >= self.max_steps
@@ -165,13 +166,12 @@ class SemNavEnv(GymnasiumEnv[Any]):
         info |= {"reward_terms": terms, **ended}
         return self.observe(), sum(terms.values()), terminated, truncated, info
 
-    def think(self, understood: int, judged: int) -> tasks.Judgement:
-        """Do what the events of `understand` and `judge_motion` call for."""
-        if understood:
-            self.tracker.think(understood)
+    def understand(self, events: int) -> None:
+        """Do what the events of `understand` call for, and let the payload see."""
+        if events:
+            self.tracker.think(events)
         if self.payload is not None:
             self.payload.update(self.simulator.motion, self.tracker)
-        return self.judge.think(judged)
 
     def _terms(
         self, judgement: tasks.Judgement, in_contact: bool, action: ArrayLike

@@ -232,3 +232,14 @@ def _lanes(local: FloatArray, start: float, count: int, nearest: float) -> Float
             if x >= nearest:
                 lanes[k] = min(lanes[k], x)
     return lanes
+
+
+@kernel
+def first_gap(side: FloatArray, start: int, stop: int, longer_than: int) -> int:
+    """Where more than `longer_than` infinite values in a row first begin; -1 if nowhere."""
+    run = 0
+    for k in range(max(start, 0), min(stop, len(side))):
+        run = run + 1 if math.isinf(side[k]) else 0
+        if run > longer_than:
+            return k - run + 1
+    return -1

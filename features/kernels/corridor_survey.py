@@ -94,15 +94,31 @@ def survey(
         axis; the distance of the left and of the right side at each probe, inf where there is
         none, shape (2, PROBE_COUNT); and the openings, dtype `OPENING`.
     """
-    solid, axis = axis_heading(walls, doors, certain, (x, y, heading))
-    frame, back, end, left, right, local = axis_along(solid, x, y, axis)
-    openings = np.empty(MAX_OPENINGS, OPENING)
-    sides = np.empty((2, PROBE_COUNT))
-    count = 0
+    sides, openings = np.empty((2, PROBE_COUNT)), np.empty(MAX_OPENINGS, OPENING)
+    pose = x, y, heading
+    frame, half_width, end, count = write_survey(walls, doors, certain, pose, sides, openings)
+    return frame, half_width, end, sides, openings[:count]
+
+
+@kernel(counts_references=True)
+def write_survey(
+    walls: FloatArray,
+    doors: FloatArray,
+    certain: NDArray[np.bool_],
+    pose: Frame,
+    sides: FloatArray,
+    openings: np.ndarray,
+) -> tuple[Frame, float, float, int]:
+    """As `survey`, into arrays; returns frame, half the width, end and the count of openings."""
+    solid, axis = axis_heading(walls, doors, certain, pose)
+    frame, back, end, left, right, local = axis_along(solid, pose[0], pose[1], axis)
+    count, last = 0, PROBE_COUNT
+    if math.isfinite(end):
+        last = min(PROBE_COUNT, int((end + PROBED_BEHIND) / PROBE_SPACING) + 1)
     for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
-        raw, side = probe(local, sign, back, PROBE_COUNT), sides[row]
+        raw, side = probe(local, sign, back, last), sides[row]
         count = _follow(raw, local, sign, usual, (back, end), side, openings, count)
-    return frame, 0.5 * (left + right), end, sides, openings[:count]
+    return frame, 0.5 * (left + right), end, count
 
 
 @kernel(counts_references=True)
@@ -136,17 +152,6 @@ def axis_along(
         left, right = typical_distances(local, back, straight)
     x, y = x - math.sin(heading) * offset, y + math.cos(heading) * offset
     return (x, y, heading), back, farthest_way(local, left, right), left, right, local
-
-
-@kernel
-def first_gap(side: FloatArray, start: int, stop: int, longer_than: int) -> int:
-    """Where more than `longer_than` infinite values in a row first begin; -1 if nowhere."""
-    run = 0
-    for k in range(max(start, 0), min(stop, len(side))):
-        run = run + 1 if math.isinf(side[k]) else 0
-        if run > longer_than:
-            return k - run + 1
-    return -1
 
 
 @kernel
@@ -203,7 +208,7 @@ def _follow(
     how far it lay before that.
 
     Args:
-        raw: what the rays to that side met, metres.
+        raw: what the rays to that side met up to the end of the corridor, metres.
         solid: walls and doors in the frame of the axis.
         sign: 1 for the left side, -1 for the right.
         usual: distance of the side where it is not known better, metres.
@@ -218,12 +223,7 @@ def _follow(
     """
     back, end = stretch
     side[:] = np.inf
-    last = (
-        PROBE_COUNT
-        if math.isinf(end)
-        else min(PROBE_COUNT, int((end + PROBED_BEHIND) / PROBE_SPACING) + 1)
-    )
-    first, reference = -1, usual
+    first, reference, last = -1, usual, len(raw)
     for k in range(max(0, math.ceil((PROBED_BEHIND - back) / PROBE_SPACING)), last):
         level = k > 0 and side[k - 1] < np.inf and raw[k] < side[k - 1] + MAX_LEVEL_STEP
         if first < 0 and not level:

@@ -23,7 +23,7 @@ COUNTED = np.dtype([("along", "f8"), ("door", "i8"), ("side", "i8"), ("outward",
 `AHEAD`; and the heading that leads through it, away from the corridor, radians."""
 
 
-@kernel(counts_references=True)
+@kernel
 def count_doors(
     doors: FloatArray,
     frame: Frame,
@@ -33,8 +33,9 @@ def count_doors(
     right: FloatArray,
     side_offset: float,
     end_offset: float,
-) -> np.ndarray:
-    """The doors that open onto a corridor, in the order in which they are given.
+    counted: np.ndarray,
+) -> int:
+    """Find the doors that open onto a corridor, in the order in which they are given.
 
     Args:
         doors: x and y of the jambs, metres, shape (n, 4).
@@ -45,11 +46,12 @@ def count_doors(
         right: the same of its right side.
         side_offset: how far a door may lie from the side that it is on, metres.
         end_offset: how far one across the corridor may lie from its end, metres.
+        counted: written: those that count, dtype `COUNTED`, shape (n,).
 
     Returns:
-        Those that count, dtype `COUNTED`.
+        How many count.
     """
-    counted, count = np.empty(len(doors), COUNTED), 0
+    count = 0
     for k in range(len(doors)):
         door = doors[k]
         x1, y1 = to_local(frame, (door[0], door[1]))
@@ -73,7 +75,7 @@ def count_doors(
         row.along, row.door, row.side = along, k, side
         row.outward = wrap_angle(frame[2] + normal)
         count += 1
-    return counted[:count]
+    return count
 
 
 @kernel

@@ -12,13 +12,7 @@ from numpy.typing import ArrayLike
 
 from semnav_env.belief.belief import Belief, SceneSource
 from semnav_env.belief.bump_map import BumpMap
-from semnav_env.belief.estimate import (
-    BELIEVED,
-    BELIEVED_OFFSET,
-    ESTIMATE,
-    SENSED,
-    mean_velocity,
-)
+from semnav_env.belief.estimate import BELIEVED, BELIEVED_OFFSET, ESTIMATE, SENSED, mean_velocity
 from semnav_env.belief.scene_source import KnownScene, RememberedScene, nothing
 from semnav_env.belief.told_ways import ToldWays
 from semnav_env.belief.understand import (
@@ -34,15 +28,11 @@ from semnav_env.belief.understand import (
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import MOST_CONTACTS, Contact, FloatArray, Pose, Twist
-from semnav_env.features.kernels.scratch import (
-    Features,
-    allocate_features,
-    allocate_scratch,
-)
+from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
-from semnav_env.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, put_goal
+from semnav_env.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, goal_bytes, put_goal
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.ways import KnownWays, Way
 from semnav_env.rules import Rules, with_doors_of
@@ -78,6 +68,7 @@ class BeliefTracker:
         memory: walls and doors seen so far, odometry frame.
         bumps: walls that were bumped into unseen, odometry frame.
         follower: how far the command has come, as the robot believes; made by `begin`.
+        asked: those of the trackers that share this set whose belief was asked for since the scan.
     """
 
     follower: Follower
@@ -104,6 +95,7 @@ class BeliefTracker:
         self.memory = SceneMemory()
         self.bumps = BumpMap(self.lidar, mount)
         self._belief: Belief | None = None
+        self.asked: set[BeliefTracker] = set()
         self.rules, extractor = with_doors_of(rules, extractor)
         self._record = extractor.as_record()
         self._workbench = workbench_with(allocate_scratch(self.lidar.beams))
@@ -118,6 +110,7 @@ class BeliefTracker:
 
     def _join(self) -> Senses:
         self._buffer, self._contacts = self._estimate.data, self._estimate["contacts"][0]
+        self._bytes = goal_bytes(self._estimate, "target"), goal_bytes(self._progress, "goal")
         lidar = self.lidar.sensor, self.lidar.shared_directions
         sensor = *lidar, self._record, self._workbench, self.mount
         known: tuple[Any, Any] = self.memory.arrays, self.bumps.arrays
@@ -126,12 +119,13 @@ class BeliefTracker:
 
     def __getstate__(self) -> dict[str, Any]:
         self._keep_last_scene()
-        left_out = ("senses", "_buffer", "_contacts", "_last_source", "_workbench")
+        rejoined = ("senses", "_buffer", "_contacts", "_bytes")
+        left_out = (*rejoined, "_last_source", "_workbench", "asked")
         return {name: value for name, value in self.__dict__.items() if name not in left_out}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        self._last_source = nothing
+        self._last_source, self.asked = nothing, set()
         self._workbench = workbench_with(allocate_scratch(self.lidar.beams))
         self.senses = self._join()
 
@@ -245,7 +239,10 @@ class BeliefTracker:
         if looked or events & ON_WAY:
             self._target = follower.target(pose)
             self._estimate["clause"] = follower.active
-            put_goal(self._estimate, "target", self._target)
+            if self._target is follower.goal:
+                self._bytes[0][:] = self._bytes[1]  # much faster than to write it anew
+            else:
+                put_goal(self._estimate, "target", self._target)
 
     @property
     def belief(self) -> Belief:
@@ -254,6 +251,7 @@ class BeliefTracker:
             raise RuntimeError("call begin() with a command first")
         if self._belief is None:
             self._belief = self._believe()
+            self.asked.add(self)
         return self._belief
 
     def _believe(self) -> Belief:
@@ -287,6 +285,7 @@ class BeliefTracker:
         """Forget the last belief, before `understand`; who still has it keeps its scene."""
         if self._belief is not None:
             self._belief = None
+            self.asked.discard(self)
             self._keep_last_scene()
 
     def _keep_last_scene(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from semnav_env.commands.references import Side
 from semnav_env.features.corridor import doorway_at
@@ -17,7 +18,7 @@ from semnav_env.grounding.visible_doors import doors_around, own_doorway
 from semnav_env.rules import GroundingRules
 
 
-def doors_behind(situation: Situation) -> tuple[list[CountedDoor], bool]:
+def doors_behind(situation: Situation) -> tuple[Sequence[CountedDoor], bool]:
     """The doors behind a robot, in order, and whether there may be more farther on.
 
     Behind a robot that stands in a doorway is only that door. In a room, which is wider than any

@@ -22,6 +22,9 @@ CLAUSE_DONE, TRAIL_DUE, ON_WAY = 1, 2, 4
 """Events, as bits: the clause under way is completed; the robot is `WAY_SPACING` from the last
 place of its trail; the goal lies on a known way, so that what to head for changes as one drives."""
 
+NO_TRAIL = math.nan, math.nan
+"""Last place of a trail that nobody keeps: no distance from it is ever large enough to note."""
+
 GOAL_RECORD = np.dtype(
     [(name, "f8", size) for name, size in (("pose", 3), ("door", 4), ("tolerances", 3))]
     + [(name, "f8") for name in ("width", "wait")]
@@ -67,7 +70,7 @@ Written by `note_pose`:
     looked_back: whether it has looked along `ahead` since the clause began.
 
 Written where an event calls for it:
-    trail: last place of the robot's trail.
+    trail: last place of the robot's trail; `NO_TRAIL` if the command never goes back.
 """
 
 _GOAL_FORMAT = Struct("=12dq2?")
@@ -99,6 +102,12 @@ def put_goal(record: np.ndarray, field: str, goal: Goal) -> None:
     numbers = (*goal.pose, *ends, *tolerances, width, wait_of(goal), *flags)
     buffer: Any = record
     _GOAL_FORMAT.pack_into(buffer, buffer.dtype.fields[field][1], *numbers)
+
+
+def goal_bytes(record: np.ndarray, field: str) -> memoryview:
+    """Where a record holds a goal, see `put_goal`: to copy it takes a tenth of writing it."""
+    offset = record.dtype.fields[field][1] if record.dtype.fields else 0
+    return record.view(np.uint8).data[offset : offset + GOAL_RECORD.itemsize]
 
 
 def farthest_view(progress: np.ndarray, heading: float) -> Pose:

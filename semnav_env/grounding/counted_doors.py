@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import overload
+
+import numpy as np
 
 from semnav_env.commands.references import Side
 from semnav_env.features.corridor import MAX_KNOWN_VIEWS, Corridor
-from semnav_env.features.frames import Pose
-from semnav_env.features.kernels.door_counting import count_doors
-from semnav_env.features.scene import Door, Scene, StillScene, ends_of
+from semnav_env.features.frames import FloatArray, Pose
+from semnav_env.features.kernels.door_counting import COUNTED, count_doors
+from semnav_env.features.scene import Door, Scene, StillScene, known_ends
 from semnav_env.rules import GroundingRules
 
 SIDES = (Side.LEFT, Side.RIGHT, Side.AHEAD)
@@ -41,12 +45,34 @@ class CountedDoor:
         return x + beyond * c, y + beyond * s, self.outward
 
 
+class _CountedDoors(Sequence[CountedDoor]):
+    """Doors of a scene by rows of `COUNTED`; a `CountedDoor` is made when it is asked for."""
+
+    def __init__(self, doors: Sequence[Door], rows: list[tuple[float, int, int, float]]) -> None:
+        self._doors, self._rows = doors, rows
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @overload
+    def __getitem__(self, index: int) -> CountedDoor: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[CountedDoor]: ...
+
+    def __getitem__(self, index: int | slice) -> CountedDoor | list[CountedDoor]:
+        if isinstance(index, slice):
+            return list(_CountedDoors(self._doors, self._rows[index]))
+        along, door, side, outward = self._rows[index]
+        return CountedDoor(self._doors[door], along, SIDES[side], outward)
+
+
 def doors_along(
     scene: Scene,
     corridor: Corridor,
     side: Side | None = None,
     rules: GroundingRules = GroundingRules(),
-) -> list[CountedDoor]:
+) -> Sequence[CountedDoor]:
     """The doors that open onto a corridor ahead of its frame, in the order of travel.
 
     A door counts while at least half of its opening is still ahead. A door that runs with the
@@ -59,38 +85,30 @@ def doors_along(
         side: count only the doors there.
         rules: distances.
     """
-    every = _known_doors_along(scene, corridor, rules)
-    return [door for door in every if side in (None, door.side)]
+    if isinstance(scene, StillScene):
+        return [door for door in _known_doors(scene, corridor, rules) if side in (None, door.side)]
+    rows = _rows_along(known_ends(scene.doors), corridor, rules)
+    if side is not None:
+        rows = [row for row in rows if SIDES[row[2]] == side]
+    return _CountedDoors(scene.doors, rows)
 
 
-def _known_doors_along(
-    scene: Scene, corridor: Corridor, rules: GroundingRules
-) -> list[CountedDoor]:
-    """The doors on all sides; in a scene that never changes they are counted once a corridor."""
-    if not isinstance(scene, StillScene):
-        return _all_doors_along(scene, corridor, rules)
+def _known_doors(scene: StillScene, corridor: Corridor, rules: GroundingRules) -> list[CountedDoor]:
+    """The doors on all sides, which are counted once a corridor in a scene that never changes."""
     known, key = scene.known_doors, (corridor, rules)
     if key not in known:
         if len(known) >= MAX_KNOWN_VIEWS:
             known.clear()
-        known[key] = _all_doors_along(scene, corridor, rules)
+        rows = _rows_along(scene.door_ends, corridor, rules)
+        known[key] = list(_CountedDoors(scene.doors, rows))
     found: list[CountedDoor] = known[key]
     return found
 
 
-def _all_doors_along(scene: Scene, corridor: Corridor, rules: GroundingRules) -> list[CountedDoor]:
-    doors = scene.doors
-    rows = count_doors(
-        scene.door_ends if isinstance(scene, StillScene) else ends_of(doors),
-        corridor.frame,
-        corridor.half_width,
-        corridor.end,
-        corridor.left,
-        corridor.right,
-        rules.door_offset,
-        rules.end_door_offset,
-    )
-    return [
-        CountedDoor(doors[k], along, SIDES[side], outward)
-        for along, k, side, outward in sorted(rows.tolist())
-    ]
+def _rows_along(
+    ends: FloatArray, corridor: Corridor, rules: GroundingRules
+) -> list[tuple[float, int, int, float]]:
+    seen = corridor.frame, corridor.half_width, corridor.end, corridor.left, corridor.right
+    counted = np.empty(len(ends), COUNTED)
+    count = count_doors(ends, *seen, rules.door_offset, rules.end_door_offset, counted)
+    return sorted(counted[:count].tolist())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from semnav_env.commands.clauses import Turning
 from semnav_env.commands.references import OTHER, DoorReference, PlaceReference, Side
@@ -48,7 +49,9 @@ def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDo
     return Known(door)
 
 
-def named_doors(reference: DoorReference, situation: Situation) -> tuple[list[CountedDoor], bool]:
+def named_doors(
+    reference: DoorReference, situation: Situation
+) -> tuple[Sequence[CountedDoor], bool]:
     """The doors that a reference may name, in order, and whether there may be more farther on.
 
     Args:
@@ -129,7 +132,7 @@ def _index(reference: DoorReference, count: int) -> int:
 
 
 def _check_order(
-    reference: DoorReference, doors: list[CountedDoor], index: int, situation: Situation
+    reference: DoorReference, doors: Sequence[CountedDoor], index: int, situation: Situation
 ) -> None:
     """Refuse to choose between doors that are not one before the other."""
     chosen, rules = doors[index], situation.rules.grounding
@@ -148,9 +151,11 @@ def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> b
     """Whether a stretch of the side ahead of the robot and before `until` is still unseen."""
     if situation.has_come(until):
         return False  # what cannot be seen from there, no looking will show
-    lefts = {Side.LEFT: (True,), Side.RIGHT: (False,), Side.AHEAD: (), None: (True, False)}
-    start = max(0.0, situation.progress)
-    return any(math.isfinite(situation.corridor.unseen(left, start, until)) for left in lefts[side])
+    start, corridor = max(0.0, situation.progress), situation.corridor
+    for left, own_side in ((True, Side.LEFT), (False, Side.RIGHT)):
+        if side in (None, own_side) and math.isfinite(corridor.unseen(left, start, until)):
+            return True
+    return False
 
 
 def _missing(what: str, count: int) -> GroundingError:

@@ -23,6 +23,7 @@ from semnav_env.grounding.clause_order import (
 from semnav_env.grounding.clause_progress import (
     CLAUSE_DONE,
     CLAUSE_PROGRESS,
+    NO_TRAIL,
     TRAIL_DUE,
     farthest_view,
     note_pose,
@@ -86,7 +87,9 @@ class Follower:
     def start(self, scene: Scene, pose: Pose) -> None:
         """Begin with the first clause."""
         self.active, self._trail = 0, Trail(pose)
-        self._write(last=pose[:2], trail=pose[:2], care=self.care, jamb_margin=self.jamb_margin)
+        goes_back = any(isinstance(clause, GoBack) for clause in self.command.clauses)
+        trail = pose[:2] if goes_back else NO_TRAIL
+        self._write(last=pose[:2], trail=trail, care=self.care, jamb_margin=self.jamb_margin)
         self._write(
             standstill_speed=self.rules.success.standstill_speed,
             inspection_angle=self.rules.grounding.inspection_angle,

@@ -74,5 +74,6 @@ def _is_a(junction: Junction, place: Place | None) -> bool:
 
 
 def _opens_to(junction: Junction, turning: Turning | None) -> bool:
-    arms = {Turning.LEFT: junction.left, Turning.RIGHT: junction.right}
-    return turning is None or arms[turning] is not None
+    if turning is None:
+        return True
+    return (junction.left if turning == Turning.LEFT else junction.right) is not None

@@ -12,6 +12,7 @@ from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.validation import require
 from semnav_env.robots.actions import action_array
+from semnav_env.vector.tick import write_twists
 
 
 class TeamActions:
@@ -23,7 +24,6 @@ class TeamActions:
 
     def __init__(self, envs: Sequence[SemNavEnv]) -> None:
         self._shape = (len(envs), *(envs[0].action_space.shape or ()))
-        self._columns = [0, 2] if self._shape[1] == 2 else [0, 1, 2]
         self._speeds = np.zeros((len(envs), 3))
         for k, env in enumerate(envs):
             self.renew(k, env)
@@ -39,9 +39,8 @@ class TeamActions:
         Raises:
             ValueError: they are not finite, have another shape, or are not made of real numbers.
         """
-        shares = action_array(actions, self._shape).astype(np.float64)
-        require(np.isfinite(shares).all(), "the action", shares, "finite, in [-1, 1]")
+        shares = action_array(actions, self._shape).astype(np.float64, order="C")
         twists = np.zeros((len(shares), 3))
-        twists[:, self._columns] = np.clip(shares, -1.0, 1.0)
-        twists *= self._speeds
+        finite = write_twists(shares, self._speeds, twists)
+        require(finite, "the action", shares, "finite, in [-1, 1]")
         return twists

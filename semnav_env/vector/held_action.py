@@ -36,12 +36,16 @@ class HeldAction:
 
     def add(self, judged: Judgements, terms: Terms) -> None:
         """Count a control period."""
-        amounts = (np.ma.filled(amount, 0.0) for amount in terms.values())
-        self.rewards += sum(amounts, start=np.zeros(len(self.rewards)))
-        self.terms = self.terms | {
-            name: _added(self.terms[name], amount) if name in self.terms else amount
-            for name, amount in terms.items()
-        }
+        total = np.zeros(len(self.rewards))
+        for amount in terms.values():
+            total += amount.filled(0.0) if isinstance(amount, np.ma.MaskedArray) else amount
+        self.rewards += total
+        if self.terms:
+            terms = self.terms | {
+                name: _added(self.terms[name], amount) if name in self.terms else amount
+                for name, amount in terms.items()
+            }
+        self.terms = terms
         self.terminated |= judged.terminated
         self.truncated |= judged.truncated
         self.going = self.going & ~self.over

@@ -26,8 +26,12 @@ def step_infos(
         driven: which robots were driven.
     """
     names = ("collisions", "path_length", "in_contact", "pose")
-    entries: Infos = {"verdicts": _where(driven, verdicts)}
-    entries |= {name: _where(driven, periods[name]) for name in names}
+    entries: Infos = {"verdicts": verdicts} | {name: periods[name] for name in names}
+    all_driven = np.count_nonzero(driven) == len(driven)
+    entries = {
+        name: values.copy() if all_driven else _where(driven, values)
+        for name, values in entries.items()
+    }
     return masked(entries | {"reward_terms": masked(terms, driven)}, driven)
 
 
@@ -36,7 +40,7 @@ def masked(entries: Infos, mask: NDArray[np.bool_]) -> Infos:
     found: Infos = {}
     for name, value in entries.items():
         found[name], found[f"_{name}"] = value, mask.copy()
-        if np.ma.isMaskedArray(value):
+        if isinstance(value, np.ma.MaskedArray):
             found[name] = value.filled(0.0)
             found[f"_{name}"] &= ~np.ma.getmaskarray(value)
     return found
@@ -64,8 +68,6 @@ def without(infos: Infos, mask: NDArray[np.bool_]) -> Infos:
 
 def _where(mask: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[Any]:
     """The values where the mask holds; zeros, or None, elsewhere."""
-    if mask.all():
-        return values.copy()
     kept: NDArray[Any] = np.full(values.shape, None if values.dtype == object else 0, values.dtype)
     kept[mask] = values[mask]
     return kept

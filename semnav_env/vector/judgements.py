@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
 from semnav_env.tasks.judge import Judgement
+from semnav_env.vector.tick import count_periods
 
 Mask = NDArray[np.bool_]
 
@@ -21,30 +22,24 @@ class Judgements:
 
     Attributes:
         driven: which robots were driven.
-        thought: in which of them something happened.
-        progress: as in `Judgement`; so are clause, success and failure.
-        clause: whether a clause was completed.
-        success: whether the command was completed.
-        failure: whether the episode failed.
-        in_contact: whether the body touches anything.
+        thought: whose judge thought.
+        amounts: what the fields of `RewardWeights` weigh, in their order: progress in metres, as in
+            `Judgement`; then 1 where a clause was completed, the command was, the episode failed,
+            the body touches anything, the robot was driven; shape (6, n).
         terminated: whether the episode is over.
         truncated: whether its time is over.
     """
 
     driven: Mask
     thought: Mask
-    progress: FloatArray
-    clause: Mask
-    success: Mask
-    failure: Mask
-    in_contact: Mask
+    amounts: FloatArray
     terminated: Mask
     truncated: Mask
 
     def judgement(self, index: int) -> Judgement:
         """That of one robot."""
-        flags = (bool(each[index]) for each in (self.clause, self.success, self.failure))
-        return Judgement(float(self.progress[index]), *flags)
+        progress, *flags = self.amounts[:4, index].tolist()
+        return Judgement(progress, *map(bool, flags))
 
 
 def judge(
@@ -52,6 +47,7 @@ def judge(
     periods: np.ndarray,
     driven: Mask,
     judgements: Mapping[int, Judgement],
+    latest: NDArray[np.int64],
 ) -> Judgements:
     """Say what became of all robots.
 
@@ -59,16 +55,14 @@ def judge(
         envs: of the robots.
         periods: what the compiled calls said, dtype `PERIOD`, shape (n,).
         driven: which robots were driven.
-        judgements: of those in which something happened.
+        judgements: of those whose judge thought.
+        latest: control period in which the episode of each robot is truncated, shape (n,).
     """
-    progress = np.where(driven, periods["progress"], 0.0)
-    thought, clause, success, failure, terminated = np.zeros((5, len(envs)), dtype=bool)
+    amounts = np.zeros((6, len(envs)))
+    thought, terminated, truncated = np.zeros((3, len(envs)), dtype=bool)
+    count_periods(periods, driven, latest, amounts, truncated)
     for k, judgement in judgements.items():
-        thought[k] = True
-        progress[k], clause[k], success[k], failure[k] = judgement
-        terminated[k] = envs[k].judge.verifier.over
-    latest = np.array([env.max_steps for env in envs])
-    truncated = driven & ~terminated & (periods["steps"] >= latest)
-    in_contact = driven & periods["in_contact"]
-    flags = (clause, success, failure, in_contact, terminated, truncated)
-    return Judgements(driven, thought, progress, *flags)
+        amounts[:4, k] = judgement
+        thought[k], terminated[k] = True, envs[k].judge.verifier.over
+        truncated[k] &= not terminated[k]
+    return Judgements(driven, thought, amounts, terminated, truncated)

@@ -31,22 +31,14 @@ class WeightedTerms:
     """The terms of `RewardWeights`, computed over all robots."""
 
     def __init__(self, weights: Sequence[RewardWeights]) -> None:
-        self._weights = {
-            field.name: np.array([getattr(each, field.name) for each in weights])
-            for field in fields(RewardWeights)
-        }
+        self._names = [field.name for field in fields(RewardWeights)]
+        self._weights = np.array(
+            [[float(getattr(each, name)) for each in weights] for name in self._names]
+        )
 
     def terms(self, judged: Judgements, actions: NDArray[Any]) -> Terms:
         """As `RewardWeights.terms`."""
-        amounts = {
-            "progress": judged.progress,
-            "clause": judged.clause,
-            "success": judged.success,
-            "failure": judged.failure,
-            "contact": judged.in_contact,
-            "time": judged.driven,
-        }
-        return {name: self._weights[name] * amount for name, amount in amounts.items()}
+        return dict(zip(self._names, self._weights * judged.amounts, strict=True))
 
 
 class EachTerms:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.belief.tracker import BeliefTracker
 from semnav_env.belief.understand import Workbench, workbench_with
 from semnav_env.env import SemNavEnv
 from semnav_env.features.frames import FloatArray
@@ -71,8 +72,8 @@ class Team:
         self._log_length = 0
         self._beams, self._workbenches = 0, list[Workbench]()
         self._need_python = np.zeros(count, dtype=bool)
-        self._trackers = [env.tracker for env in envs]
-        self._robots, self._who = list_of(_arrays(envs[0]), count), np.zeros(count, np.int64)
+        self._asked = set[BeliefTracker]()
+        self._robots, self._who = list_of(_arrays(envs[0]), count), np.zeros((count, 3), np.int64)
         taken, done = np.zeros((2, count), np.int64)
         flags = self._thoughtful, taken, done, reported, self._written
         self._arrays = join_team(self._robots, self.periods, *flags)
@@ -84,7 +85,9 @@ class Team:
         """Take in a robot whose environment has been reset."""
         env = self._envs[index]
         self._make_room(env.lidar_spec.beams)
-        self._trackers[index], self._need_python[index] = env.tracker, env.world.needs_python
+        self._need_python[index] = env.world.needs_python
+        env.tracker.asked = self._asked
+        self._asked.add(env.tracker)  # it may have been asked before it joined
         self._thoughtful[index] = env.payload is not None or env.world.needs_python
         self._written[index] = False
         put(self._robots, index, _arrays(env))
@@ -100,13 +103,12 @@ class Team:
             driven: which robots take part, shape (n,).
 
         Returns:
-            What became of the robots that thought, by their number.
+            What became of the robots whose judge thought, by their number.
         """
-        for tracker, drives in zip(self._trackers, driven.tolist(), strict=True):
-            if drives:
-                tracker.let_go()
+        for tracker in tuple(self._asked):
+            tracker.let_go()
         by_python = self._need_python & driven
-        for k in np.flatnonzero(by_python).tolist():
+        for k in by_python.nonzero()[0].tolist():
             self._envs[k].simulator.demand(tuple(twists[k].tolist()))
         self._note(twists, driven & ~by_python)
         begin_period(self._arrays, driven)
@@ -178,13 +180,14 @@ class Team:
 
     def _think(self, judgements: dict[int, Judgement]) -> None:
         """Let the robots think that are done and have not yet; note what became of them."""
-        for k in self._who[: report(self._arrays, self._rows, self._who)].tolist():
-            env, period = self._envs[k], self.periods[k]
+        count = report(self._arrays, self._rows, self._who)
+        for k, understood, judged in self._who[:count].tolist():
+            env = self._envs[k]
             if self._need_python[k]:
                 env.world.arrive()
-            events = int(period["understood"]), int(period["judged"])
-            if any(events) or env.payload is not None:
-                judgements[k] = env.think(*events)
+            env.understand(understood)
+            if judged:
+                judgements[k] = env.judge.think(judged)
 
     def _submit(self, call: Callable[..., Any], *arguments: Any) -> Future[Any]:
         assert self._pool is not None

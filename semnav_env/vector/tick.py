@@ -6,6 +6,7 @@ Robots share nothing, so any thread can take any of them.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -138,6 +139,12 @@ def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) 
     """Write which robots are done and think, and were not reported before; returns how many.
 
     Robots that were reported before have thought, and are observed.
+
+    Args:
+        team: the robots.
+        rows: of the observations, see `write_row`.
+        who: written: number of the robot, and its events of `understand` and of `judge_motion`,
+            shape (n, 3).
     """
     count = 0
     for k in range(len(team.robots)):
@@ -147,7 +154,7 @@ def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) 
         elif not team.reported[k] and is_set(team.done, k):
             team.reported[k] = True
             if _thinks(team, k):
-                who[count] = k
+                who[count] = k, team.periods[k].understood, team.periods[k].judged
                 count += 1
     return count
 
@@ -183,3 +190,37 @@ def _tick_robot(robot: RobotArrays, twist: FloatArray, seconds: float, period: A
     period.steps, period.in_contact = motion.step, judged.in_contact != 0
     period.collisions, period.path_length = judged.collisions, judged.path_length
     period.progress = judged.progress
+
+
+@kernel
+def write_twists(shares: FloatArray, speeds: FloatArray, twists: FloatArray) -> bool:
+    """Write shares of the largest speeds, cut to [-1, 1], as velocities; whether all are finite.
+
+    Args:
+        shares: (forward, turn) or (forward, left, turn), shape (n, 2) or (n, 3).
+        speeds: the largest ones: forward, left and turn, shape (n, 3).
+        twists: written, zeros before, shape (n, 3).
+    """
+    step = 2 if shares.shape[1] == 2 else 1
+    for k in range(len(shares)):
+        for i in range(shares.shape[1]):
+            if not math.isfinite(shares[k, i]):
+                return False
+            twists[k, step * i] = min(max(shares[k, i], -1.0), 1.0) * speeds[k, step * i]
+    return True
+
+
+@kernel
+def count_periods(
+    periods: np.ndarray,
+    driven: Flags,
+    latest: NDArray[np.int64],
+    amounts: FloatArray,
+    truncated: Flags,
+) -> None:
+    """Write what robots did of which no judge has thought; see `judgements.judge`."""
+    for k in range(len(driven)):
+        if driven[k]:
+            period = periods[k]
+            amounts[0, k], amounts[4, k] = period.progress, 1.0 if period.in_contact else 0.0
+            amounts[5, k], truncated[k] = 1.0, period.steps >= latest[k]

@@ -84,7 +84,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self.action_space = batch_space(first.action_space, num_envs)
         self.observation_space = batch_space(first.observation_space, num_envs)
         self._actions = TeamActions(self.envs)
-        self._rewards = team_rewards(self.envs)
+        self.read_settings()
         self._over = np.zeros(num_envs, dtype=bool)
         self._verdicts = np.full(num_envs, None, dtype=object)
         self._unbegun = np.zeros(num_envs, dtype=bool)
@@ -136,7 +136,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self._check_open()
         if self._team is None:
             raise RuntimeError("call reset() before step()")
-        if self._unbegun.any():
+        if np.count_nonzero(self._unbegun):
             waiting = np.flatnonzero(self._unbegun)
             raise RuntimeError(f"reset robots {waiting} first: what they were told was refused")
         driven = ~self._over
@@ -177,8 +177,9 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self.read_settings()
 
     def read_settings(self) -> None:
-        """Read anew what was set of the single environments: their rewards."""
+        """Read anew what was set of the single environments: their rewards and time limits."""
         self._rewards = team_rewards(self.envs)
+        self._latest = np.array([env.max_steps for env in self.envs])
 
     def close_extras(self, **_: Any) -> None:
         """Stop the threads and close the windows."""
@@ -214,14 +215,14 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         team, twists, held = self._gathered, self._actions.twists(actions), HeldAction(driven)
         for period in range(self._repeat):
             going = held.going
-            if not going.any():
+            if not np.count_nonzero(going):
                 break
             if period == self._repeat - 1:
                 self._observations.prepare(team)
             judgements = team.drive(twists, going)
-            judged = judge(self.envs, team.periods, going, judgements)
+            judged = judge(self.envs, team.periods, going, judgements, self._latest)
             held.add(judged, self._rewards.terms(judged, actions))
-            over = going & held.over
+            over = judged.terminated | judged.truncated
             for k in _indices(over):
                 held.ends[k] = self.envs[k].conclude(bool(judged.truncated[k]))
             for k in _indices(judged.thought | over):
@@ -271,5 +272,5 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
 
 
 def _indices(mask: Mask) -> list[int]:
-    indices: list[int] = np.flatnonzero(mask).tolist()
+    indices: list[int] = mask.nonzero()[0].tolist()
     return indices

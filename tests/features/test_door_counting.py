@@ -12,6 +12,7 @@ from semnav_env.features.frames import FloatArray, Point, Pose, middle_of, to_lo
 from semnav_env.features.kernels.corridor_survey import PROBE_COUNT
 from semnav_env.features.kernels.door_counting import (
     AHEAD,
+    COUNTED,
     LEFT,
     PROBE_SPACING,
     PROBED_BEHIND,
@@ -69,7 +70,10 @@ def test_doors_count_as_plain_geometry_says(
     sides = np.full((2, PROBE_COUNT), width)
     sides[:, gap : gap + 20] = np.inf
     array = np.array(given_ends, np.float64).reshape(-1, 4)
-    found = count_doors(array, frame, width, end, *sides, SIDE_OFFSET, END_OFFSET).tolist()
+    counted = np.empty(len(array), COUNTED)
+    limits = SIDE_OFFSET, END_OFFSET
+    count = count_doors(array, frame, width, end, sides[0], sides[1], *limits, counted)
+    found = counted[:count].tolist()
     expected = []
     for k, (x1, y1, x2, y2) in enumerate(given_ends):
         start, last = to_local(frame, (x1, y1)), to_local(frame, (x2, y2))

@@ -13,8 +13,9 @@ from tests.support.hand_made import corridor
 SCENE = corridor(left=(3.0, 6.0), right=(4.0,))
 
 
-def test_a_place_of_the_trail_is_due_every_way_spacing() -> None:
-    follower = Follower(parse("go to the end of the hallway"), complete=True)
+def _due_places(command: str) -> list[bool]:
+    """Whether a place of the trail is due, every third of `WAY_SPACING` along a corridor."""
+    follower = Follower(parse(command), complete=True)
     follower.start(SCENE, (0.0, 0.0, 0.0))
     step = WAY_SPACING / 3
     due = []
@@ -23,7 +24,18 @@ def test_a_place_of_the_trail_is_due_every_way_spacing() -> None:
         events = note_pose(follower.progress, pose, 0.5, 1 / 15)
         follower.think(events, lambda: SCENE, pose)
         due.append(bool(events & TRAIL_DUE))
-    assert due == [False, False, True] * 2
+    return due
+
+
+def test_a_place_of_the_trail_is_due_every_way_spacing() -> None:
+    assert (
+        _due_places("go to the end of the hallway, go back to the start")
+        == [False, False, True] * 2
+    )
+
+
+def test_a_command_that_never_goes_back_keeps_no_trail() -> None:
+    assert not any(_due_places("go to the end of the hallway"))
 
 
 def test_a_known_way_calls_for_thought_at_every_step() -> None:
