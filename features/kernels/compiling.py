@@ -173,6 +173,23 @@ class _BodyLibrary(JITCodeLibrary):
         return _NoEnvironments()
 
 
+class _LinkedLibrary(JITCodeLibrary):
+    """Machine code of which only some functions can be called from outside.
+
+    The others are then put in place of their calls where there is one call alone, and are handed
+    over only what they use, not all arrays of a structure.
+    """
+
+    exported: frozenset[str] | set[str] = frozenset()
+
+    def _optimize_final_module(self) -> None:
+        for k, function in enumerate(self._final_module.functions):
+            if not function.is_declaration and function.name not in self.exported:
+                function.linkage = "internal"
+                function.name = f"inner.{k}"  # or it is found in place of the exported one
+        super()._optimize_final_module()
+
+
 class _NoEnvironments:
     def set_env(self, env_name: str, env: Any) -> None:
         """Do nothing, for there is no machine code."""
@@ -240,7 +257,8 @@ def _linked(body: Any) -> Any:
         context.__class__ = CPUContext  # pyright: ignore[reportAttributeAccessIssue]
     door.env_name += ".python"
     environment = Environment.from_fndesc(door)
-    library = context.codegen().create_library(door.qualname)
+    library = _LinkedLibrary(context.codegen(), door.qualname)
+    library.exported = {door.llvm_func_name, door.llvm_cpython_wrapper_name}
     library.enable_object_caching()
     library.add_linking_library(body.library)
     context.create_cpython_wrapper(library, door, environment, body.call_helper, release_gil=True)

@@ -157,7 +157,8 @@ def _list_starts(segments: FloatArray, grid: np.ndarray, range_max: float) -> ND
     g = grid[0]
     reach = _reach(g, range_max)
     starts = np.zeros(g.columns * g.rows + 2, np.int64)
-    for segment in segments:
+    for k in range(len(segments)):
+        segment = segments[k]
         first, last, low, high = _cells_near(segment, g, reach)
         for row in range(low, high):
             for cell in range(row * g.columns + first, row * g.columns + last):
@@ -175,15 +176,28 @@ def _listed_ends(
 ) -> FloatArray:
     g = grid[0]
     reach = _reach(g, range_max)
-    ends, places = np.empty((4, starts[-1])), starts[:-1].copy()
-    for is_near in (True, False):
-        for segment in segments:
+    ends, used = np.empty((4, starts[-1])), np.zeros(len(starts) - 1, np.int64)
+    everything = len(starts) - 2
+    for turn in range(2):  # first those that are near a cell
+        for k in range(len(segments)):
+            segment = segments[k]
+            if turn == 0:
+                _list(segment, ends, starts, used, everything)
             first, last, low, high = _cells_near(segment, g, reach)
             for row in range(low, high):
                 for cell in range(row * g.columns + first, row * g.columns + last):
                     x, y = _centre(g, cell)
-                    if _reaches(segment, x, y, reach) and _reaches(segment, x, y, NEAR) == is_near:
-                        ends[:, places[cell]] = segment
-                        places[cell] += 1
-    ends[:, places[-1] :] = segments.T
+                    is_near = _reaches(segment, x, y, NEAR)
+                    if is_near == (turn == 0) and _reaches(segment, x, y, reach):
+                        _list(segment, ends, starts, used, cell)
     return ends
+
+
+@kernel
+def _list(
+    segment: FloatArray, ends: FloatArray, starts: Any, used: NDArray[np.int64], cell: int
+) -> None:
+    """Append a segment to the list of a cell."""
+    for i in range(4):
+        ends[i, starts[cell] + used[cell]] = segment[i]
+    used[cell] += 1
