@@ -12,6 +12,7 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.rows import put_row
 from semnav_env.features.kernels.selection import finite_values, value_of_rank
 
 PROBE_SPACING = 0.1
@@ -183,7 +184,7 @@ def way_back(local: FloatArray) -> float:
     """How far any way for a body near the axis goes back, metres."""
     turned = np.empty_like(local)
     for i in range(len(local)):
-        turned[i] = -local[i, 0], local[i, 1], -local[i, 2], local[i, 3]
+        put_row(turned, i, (-local[i, 0], local[i, 1], -local[i, 2], local[i, 3]))
     return farthest_way(turned, BODY_WIDTH, BODY_WIDTH)
 
 

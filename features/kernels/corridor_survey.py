@@ -28,6 +28,7 @@ from semnav_env.features.kernels.corridor_rays import (
 )
 from semnav_env.features.kernels.heading import prevailing_heading
 from semnav_env.features.kernels.narrowings import is_narrowing
+from semnav_env.features.kernels.rows import put_row
 from semnav_env.features.kernels.selection import finite_values, value_of_rank
 
 PROBED_AHEAD = 40.0
@@ -170,15 +171,18 @@ def _solid(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> FloatArray:
     """The walls, then the doors that close their gaps (see `survey`), shape (k, 4)."""
-    known, count = np.concatenate((walls, doors)), len(walls)
-    solid = known.copy()
+    count, room = len(walls), len(walls) + len(doors)
+    known, solid = np.empty((room, 4)), np.empty((room, 4))
+    for i in range(room):
+        put_row(known, i, walls[i] if i < count else doors[i - count])
+        put_row(solid, i, known[i])
     for i in range(len(doors)):
         if stands_in(doors[i], *pose):
             continue
         doubtful = not certain[i] and _is_across(doors[i], pose[2])
         if doubtful and is_narrowing(doors[i], known):
             continue
-        solid[count] = doors[i]
+        put_row(solid, count, doors[i])
         count += 1
     return solid[:count]
 

@@ -43,7 +43,9 @@ def least_costs(
     rows, columns = weight.shape
     wide = columns + 2
     prices = np.full((rows + 2, wide), np.inf)  # the rim saves looking whether a neighbour exists
-    prices[1:-1, 1:-1] = weight
+    for row in range(rows):  # number by number: it compiles in a tenth of the time
+        for column in range(columns):
+            prices[row + 1, column + 1] = weight[row, column]
     price = prices.ravel()
     cost = np.full(price.size, np.inf)
     soon, later = np.empty(price.size, np.int64), np.empty(price.size, np.int64)
@@ -84,7 +86,11 @@ def least_costs(
                 else:
                     later[laters] = beside
                     laters += 1
-    return cost.reshape(rows + 2, wide)[1:-1, 1:-1].copy()
+    inner = np.empty((rows, columns))
+    for row in range(rows):
+        for column in range(columns):
+            inner[row, column] = cost[(row + 1) * wide + column + 1]
+    return inner
 
 
 @kernel

@@ -23,6 +23,7 @@ from semnav_env.features.kernels.remembered import (
     place_for_new,
     write_wall,
 )
+from semnav_env.features.kernels.rows import put_row
 
 COUNTERS = np.dtype([("walls", "i8"), ("doors", "i8"), ("scans", "i8")])
 """How many entries of the walls and of the doors are used, and how many scans were added; an array
@@ -166,13 +167,13 @@ def what_counts(
     n = m = 0
     for k in range(used.walls):
         if walls[HITS, k] >= MIN_WALL_SIGHTINGS:
-            wall_ends[n] = ends_of_wall(walls, k)
+            put_row(wall_ends, n, ends_of_wall(walls, k))
             n += 1
     for k in range(used.doors):
         if door_counts(doors[: used.doors], k):
             door = doors[k]
-            door_ends[m] = door.start_x, door.start_y, door.end_x, door.end_y
-            beliefs[m] = door.log_odds, float(door.hits)
+            put_row(door_ends, m, (door.start_x, door.start_y, door.end_x, door.end_y))
+            put_row(beliefs, m, (door.log_odds, float(door.hits)))
             m += 1
     return wall_ends[:n], door_ends[:m], beliefs[:m]
 

@@ -21,6 +21,7 @@ from semnav_env.features.frames import (
     to_parent,
 )
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.rows import put_row
 from semnav_env.grounding.crossing import first_crossed
 
 Ends = tuple[float, float, float, float]
@@ -64,7 +65,7 @@ def note_contacts(
     fresh = 0
     for k in range(count):
         if not _is_covered(_row(unseen, k), known, used[0]):
-            unseen[fresh] = unseen[k]
+            put_row(unseen, fresh, unseen[k])
             fresh += 1
     if fresh:
         _learn(bumps, unseen[:fresh])
@@ -87,7 +88,8 @@ def _learn(bumps: Bumps, fresh: FloatArray) -> None:
     """Unite all pieces anew, and forget the oldest if there are too many."""
     known, used = bumps
     before, count = used[0], 0
-    known[before : before + len(fresh)] = fresh
+    for k in range(len(fresh)):
+        put_row(known, before + k, fresh[k])
     for k in range(before + len(fresh)):
         count = _unite(known, count, _row(known, k), _GAP)
     used[0] = count
@@ -101,7 +103,7 @@ def _drop(bumps: Bumps, first: int, count: int) -> None:
     known, used = bumps
     used[0] -= count
     for k in range(first, used[0]):
-        known[k] = known[k + count]
+        put_row(known, k, known[k + count])
 
 
 @kernel

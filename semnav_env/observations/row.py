@@ -148,11 +148,15 @@ def _write_remembered(row: NDArray[np.float32], doors: np.ndarray, used: int, po
         away[i] = dx * dx + dy * dy if door_counts(doors[:used], i) else np.inf
     c, s = math.cos(pose[2]), -math.sin(pose[2])
     x, y = -(c * pose[0] - s * pose[1]), -(s * pose[0] + c * pose[1])
-    order = np.argsort(away)
     for k in range(min(used, REMEMBERED_ROWS)):
-        if away[order[k]] < np.inf:
-            _write_ends(row, _REMEMBERED + 4 * k, doors[order[k]], x, y, c, s)
-            row[_REMEMBERED_MASK + k] = 1.0
+        nearest = 0
+        for i in range(1, used):
+            nearest = i if away[i] < away[nearest] else nearest
+        if away[nearest] == np.inf:
+            break
+        _write_ends(row, _REMEMBERED + 4 * k, doors[nearest], x, y, c, s)
+        row[_REMEMBERED_MASK + k] = 1.0
+        away[nearest] = np.inf
 
 
 @kernel

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from semnav_env.belief.understand import Workbench
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.features.kernels.rows import put_row
 from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.observations.memory_row import write_command_row
 from semnav_env.observations.row import write_row
@@ -154,7 +155,7 @@ def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) 
         elif not team.reported[k] and is_set(team.done, k):
             team.reported[k] = True
             if _thinks(team, k):
-                who[count] = k, team.periods[k].understood, team.periods[k].judged
+                put_row(who, count, (k, team.periods[k].understood, team.periods[k].judged))
                 count += 1
     return count
 
