@@ -9,7 +9,7 @@ that Python calls is linked with all that it calls, optimised and turned into ma
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Set
 from contextlib import contextmanager
 from copy import copy
 from functools import partial
@@ -176,17 +176,20 @@ class _BodyLibrary(JITCodeLibrary):
 class _LinkedLibrary(JITCodeLibrary):
     """Machine code of which only some functions can be called from outside.
 
-    The others are then put in place of their calls where there is one call alone, and are handed
-    over only what they use, not all arrays of a structure.
+    The compiler may then put the others in place of their calls, and hand over to them only what
+    they use, not all arrays of a structure. They lose their names: a function is looked up by its
+    name in all modules, and such a copy would be found in place of the one that can be called.
+
+    Attributes:
+        exported: names of the functions that can be called.
     """
 
-    exported: frozenset[str] | set[str] = frozenset()
+    exported: Set[str] = frozenset()
 
     def _optimize_final_module(self) -> None:
         for k, function in enumerate(self._final_module.functions):
             if not function.is_declaration and function.name not in self.exported:
-                function.linkage = "internal"
-                function.name = f"inner.{k}"  # or it is found in place of the exported one
+                function.linkage, function.name = "internal", f"inner.{k}"
         super()._optimize_final_module()
 
 
@@ -257,7 +260,7 @@ def _linked(body: Any) -> Any:
         context.__class__ = CPUContext  # pyright: ignore[reportAttributeAccessIssue]
     door.env_name += ".python"
     environment = Environment.from_fndesc(door)
-    library = _LinkedLibrary(context.codegen(), door.qualname)
+    library: Any = _LinkedLibrary(context.codegen(), door.qualname)
     library.exported = {door.llvm_func_name, door.llvm_cpython_wrapper_name}
     library.enable_object_caching()
     library.add_linking_library(body.library)

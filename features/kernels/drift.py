@@ -126,7 +126,7 @@ def _alike(wall: Ends, known: FloatArray, start: int, used: int) -> np.uint64:
     last = (x2 - start_x) * dx + (y2 - start_y) * dy
     overlaps = (first < square) & (last > 0.0)
     often = load(known[HITS], start) >= float(MIN_LANDMARK_SIGHTINGS)
-    return bits(parallel & near & overlaps & often & first_lanes(used - start))
+    return np.uint64(bits(parallel & near & overlaps & often & first_lanes(used - start)))
 
 
 @kernel

@@ -130,8 +130,8 @@ class _Row:
 def _fits(kind: Any, given: Any) -> bool:
     """Whether a type is of a kind."""
     if kind is _Row:
-        return given == types.Array(types.float64, 1, "C")
-    return isinstance(given, kind)
+        return bool(given == types.Array(types.float64, 1, "C"))
+    return bool(isinstance(given, kind))
 
 
 def _compiled(function: Callable[..., Any], result: Any, *kinds: Any) -> Callable[..., Any]:
@@ -255,14 +255,18 @@ def _bits(builder: Any, mask: Any) -> Any:
     return builder.zext(builder.bitcast(mask, ir.IntType(WIDTH)), ir.IntType(64))
 
 
-for _sign, _join in ((operator.and_, ir.IRBuilder.and_), (operator.or_, ir.IRBuilder.or_)):
-    _compiled(_sign, MASK, MaskType, MaskType)(_join)
+def _comparison(sign: str) -> Callable[..., Any]:
+    """The code that compares lanes; a NaN compares with nothing."""
+    return lambda builder, one, other: builder.fcmp_ordered(sign, one, other)
 
 
+_compiled(operator.and_, MASK, MaskType, MaskType)(ir.IRBuilder.and_)
+_compiled(operator.or_, MASK, MaskType, MaskType)(ir.IRBuilder.or_)
 for _kinds in ((LanesType, LanesType), (LanesType, types.Float), (types.Float, LanesType)):
-    for _sign, _name in (("add", "fadd"), ("sub", "fsub"), ("mul", "fmul")):
-        _compiled(getattr(operator, _sign), LANES, *_kinds)(getattr(ir.IRBuilder, _name))
-    for _sign, _name in (("ge", ">="), ("gt", ">"), ("le", "<="), ("lt", "<")):
-        _compiled(getattr(operator, _sign), MASK, *_kinds)(
-            lambda builder, a, b, name=_name: builder.fcmp_ordered(name, a, b)
-        )
+    _compiled(operator.add, LANES, *_kinds)(ir.IRBuilder.fadd)
+    _compiled(operator.sub, LANES, *_kinds)(ir.IRBuilder.fsub)
+    _compiled(operator.mul, LANES, *_kinds)(ir.IRBuilder.fmul)
+    _compiled(operator.ge, MASK, *_kinds)(_comparison(">="))
+    _compiled(operator.gt, MASK, *_kinds)(_comparison(">"))
+    _compiled(operator.le, MASK, *_kinds)(_comparison("<="))
+    _compiled(operator.lt, MASK, *_kinds)(_comparison("<"))

@@ -249,7 +249,8 @@ def _nearly_in_line(
     gap = 0.55 * SAME_LINE_GAP * (1.0 + square)
     before = (x2 - start_x) * dx + (y2 - start_y) * dy + gap < 0.0
     behind = (x1 - start_x) * dx + (y1 - start_y) * dy > square + gap
-    return bits(aligned & first_lanes(used - start)) & ~bits(beside | before | behind)
+    aside = bits(beside | before | behind)
+    return np.uint64(bits(aligned & first_lanes(used - start)) & ~aside)
 
 
 @kernel

@@ -106,7 +106,8 @@ def put_goal(record: np.ndarray, field: str, goal: Goal) -> None:
 
 def goal_bytes(record: np.ndarray, field: str) -> memoryview:
     """Where a record holds a goal, see `put_goal`: to copy it takes a tenth of writing it."""
-    offset = record.dtype.fields[field][1] if record.dtype.fields else 0
+    fields: Any = record.dtype.fields
+    offset = fields[field][1]
     return record.view(np.uint8).data[offset : offset + GOAL_RECORD.itemsize]
 
 

@@ -90,7 +90,7 @@ def cast(
     nearest = np.full(_SECTOR * len(sectors), farthest)  # with room beyond the last beam
     done, count = 0, table.shape[1]
     while done < count:
-        begin, done = done, min(max(2 * done, _DRAWN_FIRST), count)
+        begin, done = done, min(max(4 * done, _DRAWN_FIRST), count)
         if begin > 0:
             _note_farthest(nearest, sectors)
         for k in range(begin, done):

@@ -51,6 +51,27 @@ def test_only_what_python_calls_becomes_callable_from_python():
     assert inner(2) == 6
 
 
+def test_an_inner_function_is_not_found_in_place_of_the_kernel_that_python_calls():
+    """A caller may have changed its copy: it needs no arguments that are never read."""
+
+    @kernel
+    def inner(values, unread, k):
+        total = 0.0
+        for i in range(len(values)):
+            total += values[i] * k
+        return total
+
+    @kernel
+    def outer(values, unread):
+        return inner(values, unread, 2.0) + inner(unread, values, 3.0)
+
+    outer._cache.disable()
+    inner._cache.disable()
+    ones, twos = np.ones(3), np.full(4, 2.0)
+    assert outer(ones, twos) == 6.0 + 24.0
+    assert inner(ones, twos, 5.0) == 15.0
+
+
 def test_arrays_and_errors_of_a_kernel_reach_python():
     kept = [counting(3) for _ in range(100)]
     assert all(array.tolist() == [0, 1, 2] for array in kept)
