@@ -7,8 +7,7 @@ time. With lanes a kernel says itself what becomes of eight neighbours:
     for i in range(first, last, WIDTH):
         store(ys, i, 2.0 * load(xs, i) + 1.0)
 
-Sums are then made in the order of the source, on every machine. In plain Python lanes are NumPy
-arrays of shape (8,).
+In plain Python lanes are NumPy arrays of shape (8,).
 """
 
 from __future__ import annotations
@@ -78,13 +77,6 @@ def larger(one: Any, other: Any) -> Any:
 def smaller(one: Lanes, other: Lanes) -> Lanes:
     """The smaller one in each lane; as `larger`."""
     return np.minimum(one, other)
-
-
-def total(lanes: Lanes) -> float:
-    """The sum of all eight: lanes four apart are added, then two, then one."""
-    for half in (4, 2, 1):
-        lanes = lanes[:half] + lanes[half:]
-    return float(lanes[0])
 
 
 def largest(lanes: Lanes) -> float:
@@ -236,7 +228,6 @@ def _folded(join: Callable[..., Any]) -> Callable[..., Any]:
     return build
 
 
-_compiled(total, types.float64, LanesType)(_folded(ir.IRBuilder.fadd))
 _compiled(largest, types.float64, LanesType)(_folded(_LARGER))
 _compiled(smallest, types.float64, LanesType)(_folded(_SMALLER))
 
