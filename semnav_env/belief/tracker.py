@@ -283,9 +283,9 @@ class BeliefTracker:
 
     def let_go(self) -> None:
         """Forget the last belief, before `understand`; who still has it keeps its scene."""
+        self.asked.discard(self)
         if self._belief is not None:
             self._belief = None
-            self.asked.discard(self)
             self._keep_last_scene()
 
     def _keep_last_scene(self) -> None:

@@ -1,6 +1,8 @@
 """Parts of one's own in a vector: each robot has its own, as in an environment of its own."""
 
+import gc
 from dataclasses import replace
+from weakref import ref
 
 import gymnasium as gym
 import numpy as np
@@ -127,3 +129,14 @@ def test_after_an_autoreset_that_failed_no_finished_episode_goes_on():
         envs.step(np.zeros((2, 2)))
     envs.reset()
     assert not envs.step(np.zeros((2, 2)))[3].any()
+
+
+def test_a_mind_that_was_replaced_is_not_kept() -> None:
+    """Another floor plan needs another one."""
+    envs = SemNavVectorEnv(2, threads=1)
+    envs.reset(seed=0)
+    before = [ref(env.tracker) for env in envs.envs]
+    envs.reset(seed=1, options={"floor_plan": "office_cross"})
+    envs.step(np.zeros((2, 2)))
+    gc.collect()
+    assert [each() for each in before] == [None, None]
