@@ -160,9 +160,11 @@ def _find_start(
             continue
         turn, misses = _between(-MAX_TURN, MAX_TURN, draws[used]), 0
         used += 1
+        attempts += 1
+        if attempts <= START_TRIES and _is_at_door(counted, x, y):
+            continue
         solid_here, axis = axis_heading(*sides, (x, y, heading))
         start = x, y, wrap_angle(wrap_angle(axis) + turn)
-        attempts += 1
         if attempts <= START_TRIES:
             if _is_beside_door(counted, start):  # asked first, for it rejects most
                 continue
@@ -197,6 +199,16 @@ def _is_in_junction(openings: np.ndarray) -> bool:
     """As `is_in_junction`, of openings as `survey` gives them."""
     for k in range(len(openings)):
         if openings[k].near < OUTSIDE and openings[k].far > -OUTSIDE:
+            return True
+    return False
+
+
+@kernel
+def _is_at_door(doors: FloatArray, x: float, y: float) -> bool:
+    """Whether a door lies beside a robot at a place whatever its heading, see `_is_beside_door`."""
+    near = 0.999 * min(ABEAM, ASIDE)
+    for x1, y1, x2, y2 in doors:
+        if ((x1 + x2) / 2 - x) ** 2 + ((y1 + y2) / 2 - y) ** 2 < near * near:
             return True
     return False
 
