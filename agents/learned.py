@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import Any, Self
 
@@ -87,6 +88,8 @@ class LearnedAgent:
     def load(cls, path: str | Path) -> Self:
         """The agent in a folder that `semnav train` wrote, or one of `pretrained_names`.
 
+        A policy that has learned nothing yet is a warning.
+
         Raises:
             ValueError: there is none, it is damaged, or it does not fit this version.
             OSError: a file cannot be read.
@@ -94,6 +97,11 @@ class LearnedAgent:
         """
         folder = _folder(path)
         description = AgentDescription.read(folder)
+        if description.is_untrained:
+            warnings.warn(
+                f"{folder} holds an untrained policy, of 0 decisions: train it, by --resume",
+                stacklevel=2,
+            )
         try:
             sizes = [robot_spec(robot).action_size for robot in description.robots]
         except ValueError as error:

@@ -1,4 +1,4 @@
-"""Moments in which Ctrl-C must wait."""
+"""Moments in which Ctrl-C and SIGTERM must wait."""
 
 from __future__ import annotations
 
@@ -9,16 +9,18 @@ from contextlib import contextmanager
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Delay an interruption from the keyboard until the end of the block."""
+    """Delay an interruption until the end of the block, and then let it do what it does."""
     held: list[int] = []
+    numbers = (signal.SIGINT, signal.SIGTERM)
     try:
-        before = signal.signal(signal.SIGINT, lambda number, _: held.append(number))
+        before = [signal.signal(each, lambda number, _: held.append(number)) for each in numbers]
     except ValueError:  # not the main thread, which alone gets interruptions
         yield
         return
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in zip(numbers, before, strict=True):
+            signal.signal(number, handler)
         if held:
-            raise KeyboardInterrupt
+            signal.raise_signal(held[0])

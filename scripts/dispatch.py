@@ -1,7 +1,7 @@
 """A command with sub-commands: runs one of them and returns an exit code.
 
 Exit codes: 0 done; 1 not achieved; 2 bad input, with one line on stderr that names what is wrong
-and what would be right; 130 interrupted.
+and what would be right; 130 interrupted by Ctrl-C; 143 by SIGTERM.
 """
 
 from __future__ import annotations
@@ -14,12 +14,14 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from types import FrameType
+from typing import NoReturn
 
 from semnav_env.features.validation import clipped
 
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO)
-BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
-"""Exit codes; the last two are those of a shell for SIGINT and SIGPIPE."""
+BAD_INPUT, INTERRUPTED, BROKEN_PIPE, TERMINATED = 2, 130, 141, 143
+"""Exit codes; the last three are those of a shell for SIGINT, SIGPIPE and SIGTERM."""
 
 LONGEST_LINE = 1000
 """Largest number of characters of an error that are shown."""
@@ -60,7 +62,7 @@ class CommandTable:
             if isinstance(stop, SystemError) and not isinstance(stop.__cause__, KeyboardInterrupt):
                 raise  # otherwise Ctrl-C came while a compiled kernel ran
             print(_with_notes(f"{self.prog}: interrupted", stop), file=sys.stderr)
-            return INTERRUPTED
+            return exit_code_of(stop)
         except (ValueError, OSError, ImportError) as error:
             if debug:
                 raise
@@ -105,14 +107,29 @@ class CommandTable:
             f"usage: {self.prog} COMMAND ...\n\n{self.about}\n\ncommands:\n{lines}\n\n"
             f"`{self.prog} COMMAND --help` tells a command's options; `--debug` shows where an\n"
             "error comes from; `--version` prints the version.\n"
-            "exit codes: 0 done, 1 not achieved, 2 bad input"
+            "exit codes: 0 done, 1 not achieved, 2 bad input, 130 Ctrl-C, 143 SIGTERM"
         )
 
 
+class Terminated(KeyboardInterrupt):
+    """SIGTERM, by which a cluster or a service ends a process; a command minds it as Ctrl-C."""
+
+
+def exit_code_of(stop: BaseException) -> int:
+    """The exit code of a command that this interruption ended, itself or as a cause."""
+    return TERMINATED if Terminated in (type(stop), type(stop.__cause__)) else INTERRUPTED
+
+
 def _end_loading() -> None:
-    """From here on Ctrl-C is an exception, so that a command can put away what it has begun."""
-    if getattr(signal.getsignal(signal.SIGINT), "__name__", "") == "leave_at_once":
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    """From here on interruptions are exceptions, so that a command can put away what it began."""
+    handlers = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: _raise_terminated}
+    for number, handler in handlers.items():
+        if getattr(signal.getsignal(number), "__name__", "") == "leave_at_once":
+            signal.signal(number, handler)
+
+
+def _raise_terminated(number: int, frame: FrameType | None) -> NoReturn:
+    raise Terminated
 
 
 def in_one_line(error: Exception) -> str:

@@ -2,38 +2,38 @@
 
 from __future__ import annotations
 
+import math
 import signal
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from tyro.conf import Positional
 
 from semnav_env.agents.hearing.card import CARD_FILE
 from semnav_env.agents.hearing.presets import HEARING_PRESETS
-from semnav_env.agents.learning.files import AGENT_FILE
+from semnav_env.agents.learning.files import AGENT_FILE, CURVES_FOLDER
+from semnav_env.agents.learning.folder_lock import only_trainer_in
 from semnav_env.agents.learning.presets import Preset, preset
+from semnav_env.agents.learning.reports import TrainingReport
 from semnav_env.agents.learning.rllib.options import RayOptions
 from semnav_env.agents.learning.rllib.start import start_training
 from semnav_env.agents.learning.session import Training, TrainingLimits, train
-from semnav_env.scripts.dispatch import INTERRUPTED
 from semnav_env.scripts.train_hearing import train_hearing
-
-if TYPE_CHECKING:
-    from semnav_env.agents.learning.training import TrainingReport
+from semnav_env.scripts.training_progress import training_display
 
 
 @dataclass(frozen=True)
 class Arguments:
     """Train an agent on a preset with proximal policy optimisation (extra `rl`).
 
-    Training ends when --steps or --minutes is reached, whichever comes first. Ctrl-C ends it after
-    the current update; what was learned is saved, and --resume continues from there.
+    Training ends when --steps or --minutes is reached, whichever comes first. Ctrl-C or SIGTERM
+    ends it after the current update; what was learned is saved, and --resume continues from the
+    last checkpoint.
 
     Attributes:
         preset: what to learn: hallway, quick, drive, or listener, which hears the command.
@@ -59,28 +59,37 @@ class Arguments:
     def run(self) -> int:
         """Train, save and say how it went."""
         folder = self.out or Path("runs") / self.preset
-        if self.preset in HEARING_PRESETS:
-            self._check(folder, CARD_FILE)
-            return train_hearing(self.preset, folder, self.seed, self.minutes)
-        wanted = preset(self.preset)
-        self._check(folder, AGENT_FILE)
-        trainer = self._trainer(wanted, folder)
-        console = Console(stderr=True)
-        limits = TrainingLimits(wanted.steps if self.steps is None else self.steps, self.minutes)
-        with _stopped_by_signals() as stop, _bar(console) as bar:
-            report = _train(trainer, limits, stop, bar)
-        trainer.close()
-        interrupted = "interrupted; " if stop else ""
-        print(f"{interrupted}{trainer.steps} decisions{_learned(report)}; saved in {folder}")
-        return INTERRUPTED if stop else 0
+        hears = self.preset in HEARING_PRESETS
+        wanted = None if hears else preset(self.preset)
+        self._check()
+        with only_trainer_in(folder):
+            self._check_unused(folder, CARD_FILE if hears else AGENT_FILE)
+            if wanted is None:
+                return train_hearing(self.preset, folder, self.seed, self.minutes)
+            return self._train(wanted, folder)
 
-    def _check(self, folder: Path, file: str) -> None:
+    def _train(self, wanted: Preset, folder: Path) -> int:
+        trainer = self._trainer(wanted, folder)
+        print(f"curves: tensorboard --logdir {folder / CURVES_FOLDER}", file=sys.stderr)
+        limits = TrainingLimits(wanted.steps if self.steps is None else self.steps, self.minutes)
+        report: TrainingReport | None = None
+        with _stopped_by_signals() as stop, training_display() as display:
+            for progress in train(trainer, limits, lambda: bool(stop)):
+                display.show(progress)
+                report = progress.state if isinstance(progress.state, TrainingReport) else None
+        trainer.close()
+        print(_ending(trainer.steps, report, folder, bool(stop)))
+        return 128 + stop[0] if stop else 0
+
+    def _check(self) -> None:
         if self.steps is not None and self.steps < 0:
             raise ValueError(f"--steps is {self.steps}; it must be at least 0")
         if self.minutes is not None and not 0 < self.minutes < float("inf"):
             raise ValueError(f"--minutes is {self.minutes}; it must be positive and finite")
         if self.seed < 0:
             raise ValueError(f"--seed is {self.seed}; it must be at least 0")
+
+    def _check_unused(self, folder: Path, file: str) -> None:
         if not self.resume and (folder / file).exists():
             raise ValueError(
                 f"{folder} holds a trained agent; go on with it by --resume, or give another --out"
@@ -98,37 +107,15 @@ class Arguments:
         return Trainer.resume(wanted, folder) if self.resume else Trainer(wanted, folder, self.seed)
 
 
-def _train(
-    trainer: Training, limits: TrainingLimits, stop: list[int], bar: Progress
-) -> TrainingReport | None:
-    """Learn, show how far it is, and return the last report."""
-    task = bar.add_task("learning", total=1.0)
-    report: TrainingReport | None = None
-    for fraction, report, saved in train(trainer, limits, lambda: bool(stop)):
-        bar.update(task, completed=fraction, description=_line(report))
-        if saved and not bar.console.is_terminal:
-            bar.console.print(_line(report), highlight=False)
-    return report
+def _ending(steps: int, report: TrainingReport | None, folder: Path, stopped: bool) -> str:
+    """The last line: what was learned, where it is, and how to go on."""
+    learned = f"{steps} decisions{'' if report is None else _success(report)}; saved in {folder}"
+    return f"interrupted; {learned}; go on with --resume" if stopped else learned
 
 
-def _bar(console: Console) -> Progress:
-    columns = (BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-    return Progress(TextColumn("{task.description}"), *columns, console=console)
-
-
-def _line(report: TrainingReport | None) -> str:
-    if report is None:
-        return "driving demonstrations"
-    return (
-        f"{report.steps} decisions, {report.rate:.0f}/s, "
-        f"success {report.success:.0%}, no contact {report.contact_free:.0%}, "
-        f"SPL {report.spl:.2f}, reward {report.reward:.1f}"
-    )
-
-
-def _learned(report: TrainingReport | None) -> str:
-    if report is None:
-        return ""
+def _success(report: TrainingReport) -> str:
+    if math.isnan(report.success):
+        return ", no episode has ended yet"
     return (
         f", success {report.success:.0%} and no contact {report.contact_free:.0%} while exploring"
     )

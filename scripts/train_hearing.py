@@ -9,7 +9,7 @@ from typing import Any
 from rich.console import Console
 
 from semnav_env.agents.hearing.presets import HEARING_PRESETS
-from semnav_env.scripts.dispatch import INTERRUPTED
+from semnav_env.scripts.dispatch import exit_code_of
 
 
 def train_hearing(name: str, folder: Path, seed: int, minutes: float | None) -> int:
@@ -27,17 +27,17 @@ def train_hearing(name: str, folder: Path, seed: int, minutes: float | None) -> 
         raise ImportError(f'training needs {error.name}: pip install "semnav-env[rl]"') from None
     trainer = HearingTrainer(HEARING_PRESETS[name], folder, seed)
     console, start = Console(stderr=True), time.monotonic()
-    rows, interrupted = trainer.advance(), False
+    rows, code = trainer.advance(), 0
     try:
         for row in rows:
             console.print(_line(row, len(trainer.card.curve), trainer.steps), highlight=False)
             if minutes is not None and time.monotonic() - start > 60.0 * minutes:
                 break
-    except KeyboardInterrupt:
-        interrupted = True
+    except KeyboardInterrupt as stop:
+        code = exit_code_of(stop)
     done = f"{len(trainer.card.curve)} of {trainer.steps} steps; saved in {folder}"
-    print(f"interrupted; {done}" if interrupted else done)
-    return INTERRUPTED if interrupted else 0
+    print(f"interrupted; {done}; go on with --resume" if code else done)
+    return code
 
 
 def _line(row: dict[str, Any], number: int, steps: int) -> str:

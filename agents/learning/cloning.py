@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import torch
@@ -23,7 +24,7 @@ VALUE_WEIGHT = 0.01
 """Weight of the squared error of the value beside the error of the actions."""
 
 
-def clone(model: PPO, demonstrations: Tensors, seed: int) -> list[float]:
+def clone(model: PPO, demonstrations: Tensors, seed: int) -> Iterator[float]:
     """Teach the mean of the policy the actions, and the value function the returns.
 
     Every other batch, by chance, is mirrored: left and right are exchanged.
@@ -33,8 +34,8 @@ def clone(model: PPO, demonstrations: Tensors, seed: int) -> list[float]:
         demonstrations: "observations", "actions" and "returns", a row for each decision.
         seed: of the order of the decisions.
 
-    Returns:
-        The mean loss of each pass, on what was learned from.
+    Yields:
+        The mean loss of each of `EPOCHS` passes, on what was learned from.
     """
     kept = ~pauses(demonstrations)
     parts = [demonstrations[name][kept] for name in ("observations", "actions", "returns")]
@@ -47,7 +48,6 @@ def clone(model: PPO, demonstrations: Tensors, seed: int) -> list[float]:
     schedule = torch.optim.lr_scheduler.OneCycleLR(
         optimizer, LEARNING_RATE, total_steps=EPOCHS * batches, pct_start=0.15
     )
-    curve = []
     for _ in range(EPOCHS):
         losses = []
         for rows in torch.randperm(count, generator=order).chunk(batches):
@@ -58,8 +58,7 @@ def clone(model: PPO, demonstrations: Tensors, seed: int) -> list[float]:
             optimizer.step()
             schedule.step()
             losses.append(loss.item())
-        curve.append(sum(losses) / len(losses))
-    return curve
+        yield sum(losses) / len(losses)
 
 
 def _loss(model: PPO, observations: Tensor, actions: Tensor, returns: Tensor) -> Tensor:

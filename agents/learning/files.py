@@ -37,6 +37,9 @@ MAX_FILE_SIZE = 64 * 2**20
 AGENT_FILE, POLICY_FILE, TRAINING_FILE = "agent.json", "policy.safetensors", "training.safetensors"
 PREVIOUS_FILE, CURVE_FILE = "training.previous.safetensors", "cloning.json"
 
+CURVES_FOLDER = "tensorboard"
+"""Folder of the curves that TensorBoard shows, in that of the agent."""
+
 
 @dataclass(frozen=True)
 class AgentDescription:
@@ -49,6 +52,7 @@ class AgentDescription:
         preset: the preset that was trained, as plain data.
         seed: of the training.
         steps: number of decisions so far.
+        imitated: number of demonstrations that were imitated first.
         format: version of the files.
     """
 
@@ -58,7 +62,13 @@ class AgentDescription:
     preset: dict[str, Any]
     seed: int
     steps: int
+    imitated: int = 0
     format: int = FORMAT_VERSION
+
+    @property
+    def is_untrained(self) -> bool:
+        """Whether nothing was learned: the weights are those that were drawn by chance."""
+        return not self.steps and not self.imitated
 
     def write(self, folder: Path) -> None:
         """Write it to a folder, in one move."""
@@ -84,7 +94,9 @@ class AgentDescription:
         return cls(**_checked(path, document))
 
 
-def save_agent(folder: Path, policy: Policy, preset: Preset, seed: int, steps: int) -> None:
+def save_agent(
+    folder: Path, policy: Policy, preset: Preset, seed: int, steps: int, imitated: int = 0
+) -> None:
     """Write what an agent needs to run, each file in one move.
 
     Args:
@@ -93,11 +105,14 @@ def save_agent(folder: Path, policy: Policy, preset: Preset, seed: int, steps: i
         preset: that was trained.
         seed: of the training.
         steps: number of decisions so far.
+        imitated: number of demonstrations that were imitated first.
     """
     save_tensors(folder / POLICY_FILE, policy.tensors())
     widths = (policy.weights[0].shape[1], *(len(bias) for bias in policy.biases))
-    told = AgentDescription(preset.robots, preset.repeat, widths, preset.plain(), seed, steps)
-    told.write(folder)
+    plain = preset.plain()
+    AgentDescription(preset.robots, preset.repeat, widths, plain, seed, steps, imitated).write(
+        folder
+    )
 
 
 def _checked(path: Path, document: Any) -> dict[str, Any]:
@@ -109,15 +124,17 @@ def _checked(path: Path, document: Any) -> dict[str, Any]:
         )
     fields: dict[str, Any] = {}
     for name, kind in _FIELD_TYPES.items():
-        value = document.get(name)
+        value = document.get(name, _imitated_before(document) if name == "imitated" else None)
         if type(value) is not kind:
             raise ValueError(f"{path}: {name!r} must be of type {kind.__name__}, not {value!r:.40}")
         fields[name] = value
     widths = fields["widths"]
     if len(widths) < 2 or not all(type(w) is int and 0 < w <= 4096 for w in widths):
         raise ValueError(f"{path}: 'widths' must be two or more whole numbers from 1 to 4096")
-    if fields["repeat"] < 1 or fields["steps"] < 0 or fields["seed"] < 0:
-        raise ValueError(f"{path}: 'repeat' must be at least 1, 'steps' and 'seed' at least 0")
+    if fields["repeat"] < 1 or min(fields[name] for name in ("steps", "seed", "imitated")) < 0:
+        raise ValueError(
+            f"{path}: 'repeat' must be at least 1, 'steps', 'seed' and 'imitated' at least 0"
+        )
     robots = fields["robots"]
     if not robots or not all(type(robot) is str for robot in robots):
         raise ValueError(f"{path}: 'robots' must be one or more names")
@@ -131,7 +148,14 @@ _FIELD_TYPES: dict[str, type] = {
     "preset": dict,
     "seed": int,
     "steps": int,
+    "imitated": int,
 }
+
+
+def _imitated_before(document: dict[str, Any]) -> object:
+    """The number of demonstrations in a file that does not say how many were imitated."""
+    preset = document.get("preset")
+    return preset.get("demonstrations", 0) if isinstance(preset, dict) else 0
 
 
 def save_curve(folder: Path, losses: list[float]) -> None:

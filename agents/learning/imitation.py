@@ -33,14 +33,18 @@ def demonstrations(preset: Preset, seed: int, folder: Path) -> Iterator[int]:
     """Drive the demonstrations of a preset that are not in a folder yet.
 
     Yields:
-        How many there are, after each file.
+        How many have been driven, after each.
     """
     demonstrator = Demonstrator(preset, seed)
     for first in range(0, preset.demonstrations, SHARD_SIZE):
         end = min(first + SHARD_SIZE, preset.demonstrations)
         path = folder / f"{first:06}.safetensors"
         if not path.exists():
-            save_tensors(path, joined([demonstrator.drive(i) for i in range(first, end)]))
+            drives = []
+            for number in range(first, end - 1):
+                drives.append(demonstrator.drive(number))
+                yield number + 1
+            save_tensors(path, joined([*drives, demonstrator.drive(end - 1)]))
         yield end
 
 

@@ -5,12 +5,10 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple, Protocol
 
+from semnav_env.agents.learning.reports import Preparation, TrainingReport, TrainingState
 from semnav_env.features.checked_fields import Bounds, check_fields
-
-if TYPE_CHECKING:  # stable-baselines3 is optional
-    from semnav_env.agents.learning.training import TrainingReport
 
 
 @dataclass(frozen=True)
@@ -53,8 +51,8 @@ class Training(Protocol):
         """Whether a checkpoint can be made now."""
         ...
 
-    def prepare(self) -> Iterator[float]:
-        """Do what comes before the first rollout; yields the share that is done."""
+    def prepare(self) -> Iterator[Preparation]:
+        """Do what comes before the first rollout; what it gave is saved at its end."""
         ...
 
     def advance(self) -> TrainingReport:
@@ -71,17 +69,15 @@ class Training(Protocol):
 
 
 class SessionProgress(NamedTuple):
-    """The state of a session after an update.
+    """The state of a session.
 
     Attributes:
-        fraction: share of the session that is done, at most 1.
-        report: of the training; None while demonstrations are driven.
-        saved: whether a checkpoint was just written.
+        fraction: share of the preparation, or of the learning, that is done, at most 1.
+        state: after a part of the preparation, or after an update.
     """
 
     fraction: float
-    report: TrainingReport | None
-    saved: bool
+    state: TrainingState
 
 
 def train(
@@ -89,7 +85,8 @@ def train(
 ) -> Iterator[SessionProgress]:
     """Learn until a limit is reached or `stopped` says so.
 
-    A checkpoint is written at the end of each stretch, and the agent as it is at the end.
+    A checkpoint is written after the preparation and at the end of each stretch, and the agent as
+    it is at the end.
     """
     first, start = trainer.steps, time.monotonic()
 
@@ -97,13 +94,13 @@ def train(
         return limits.fraction(first, trainer.steps, time.monotonic() - start)
 
     trainer.save()
-    for share in trainer.prepare():
+    for preparation in trainer.prepare():
+        yield SessionProgress(preparation.done / preparation.total, preparation)
         if stopped():
             return
-        yield SessionProgress(share, None, False)
     while not stopped() and fraction() < 1.0:
         report = trainer.advance()
         if trainer.is_resumable:
             trainer.save()
-        yield SessionProgress(min(fraction(), 1.0), report, trainer.is_resumable)
+        yield SessionProgress(min(fraction(), 1.0), report)
     trainer.save()

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
+import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +14,9 @@ from stable_baselines3 import PPO
 from stable_baselines3.common.logger import configure
 from stable_baselines3.common.vec_env import VecMonitor
 
-from semnav_env.agents.learning.cloning import clone
+from semnav_env.agents.learning.cloning import EPOCHS, clone
 from semnav_env.agents.learning.files import (
+    CURVES_FOLDER,
     TRAINING_FILE,
     AgentDescription,
     load_checkpoint,
@@ -27,32 +28,12 @@ from semnav_env.agents.learning.imitation import demonstrations, load_demonstrat
 from semnav_env.agents.learning.policy import Policy
 from semnav_env.agents.learning.preset_envs import preset_envs
 from semnav_env.agents.learning.presets import Preset
+from semnav_env.agents.learning.reports import Preparation, TrainingReport
 from semnav_env.agents.learning.state import read_state, write_state
 from semnav_env.metrics import spl
 
 LOGGED_KEYS = ("is_success", "collisions", "path_length", "route_length")
 """Keys of an episode's last `info` that are logged."""
-
-
-@dataclass(frozen=True)
-class TrainingReport:
-    """The state of a training; shares and means are of the last hundred episodes, NaN before any.
-
-    Attributes:
-        steps: number of decisions so far.
-        rate: decisions per second in the last rollout.
-        success: share of episodes in which the command was carried out.
-        contact_free: share of episodes without any contact.
-        spl: mean success weighted by path length, as the evaluation measures it.
-        reward: mean sum of rewards of an episode.
-    """
-
-    steps: int
-    rate: float
-    success: float
-    contact_free: float
-    spl: float
-    reward: float
 
 
 class Trainer:
@@ -72,8 +53,8 @@ class Trainer:
         self.model = _model(preset, self._envs, _seed_from(seed, 0))
         if preset.ppo.anneal:
             self.model.lr_schedule = self._step_size
-        self._imitated = False
-        self.model.set_logger(configure(str(folder / "tensorboard"), ["tensorboard"]))
+        self._imitated = 0
+        self.model.set_logger(configure(str(folder / CURVES_FOLDER), ["tensorboard"]))
 
     @classmethod
     def resume(cls, preset: Preset, folder: Path) -> Trainer:
@@ -90,31 +71,36 @@ class Trainer:
         tensors = load_checkpoint(folder)
         trainer = cls(preset, folder, description.seed)
         try:
-            read_state(trainer.model, tensors)
+            trainer._imitated = read_state(trainer.model, tensors)
         except ValueError as error:
             raise ValueError(f"{folder / TRAINING_FILE}: {error}") from None
         return trainer
 
-    def prepare(self) -> Iterator[float]:
+    def prepare(self) -> Iterator[Preparation]:
         """Imitate the demonstrations of the preset, if it has any and nothing was learned yet.
 
         Yields:
-            The share of the demonstrations that have been driven.
+            How far that is, after each demonstration and each pass; saves before the last one.
         """
         count = self.preset.demonstrations
-        if not count or self.steps:
+        if not count or self.steps or self._imitated:
             return
         folder = self.folder / "demonstrations"
         for driven in demonstrations(self.preset, self.seed, folder):
-            yield driven / count
-        self._imitated = True
-        curve = clone(self.model, load_demonstrations(folder), self.seed)
-        save_curve(self.folder, curve)
+            yield Preparation("demonstrations", driven, count)
+        curve: list[float] = []
+        for loss in clone(self.model, load_demonstrations(folder), self.seed):
+            curve.append(loss)
+            if len(curve) == EPOCHS:
+                self._imitated = count
+                save_curve(self.folder, curve)
+                self.save()
+            yield Preparation("cloning", len(curve), EPOCHS, loss)
 
     def advance(self) -> TrainingReport:
         """Drive one rollout and learn from it."""
         start, before = time.perf_counter(), self.steps
-        if self.is_resumable or not before:
+        if self.is_resumable:
             self._begin_stretch()
         size = self.model.n_steps * self.model.n_envs
         # log_interval=None: the curves are written below, together with measures that SB3 lacks
@@ -138,8 +124,8 @@ class Trainer:
         """Write the agent as it is and, where training can be resumed from here, a checkpoint."""
         policy = _actor(self.model)
         if self.is_resumable:
-            save_checkpoint(self.folder, write_state(self.model))
-        save_agent(self.folder, policy, self.preset, self.seed, self.steps)
+            save_checkpoint(self.folder, write_state(self.model, self._imitated))
+        save_agent(self.folder, policy, self.preset, self.seed, self.steps, self._imitated)
 
     @property
     def steps(self) -> int:
@@ -150,7 +136,7 @@ class Trainer:
     def is_resumable(self) -> bool:
         """Whether a stretch has ended, so that a checkpoint can be made."""
         stretch = self.preset.ppo.stretch * self.model.n_steps * self.model.n_envs
-        return self.steps % stretch == 0 and not (self._imitated and self.steps == 0)
+        return self.steps % stretch == 0
 
     def _begin_stretch(self) -> None:
         """Reset all robots and all generators, with seeds that follow from seed and decisions."""
@@ -169,6 +155,13 @@ class Trainer:
 
 
 def _model(preset: Preset, envs: VecMonitor, seed: int) -> PPO:
+    """The model of stable-baselines3, whose warning of a last, smaller batch is no news here."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "You have specified a mini-batch size", UserWarning)
+        return _new_model(preset, envs, seed)
+
+
+def _new_model(preset: Preset, envs: VecMonitor, seed: int) -> PPO:
     ppo = preset.ppo
     return PPO(
         "MlpPolicy",

@@ -2,29 +2,39 @@
 
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
+from dataclasses import replace
 
 import pytest
 
 pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 pytest.importorskip("torch", reason='needs the extra "rl"')
 
+from semnav_env.agents.learning.cloning import EPOCHS
 from semnav_env.agents.learning.files import (
+    AGENT_FILE,
     POLICY_FILE,
+    TRAINING_FILE,
     AgentDescription,
     load_tensors,
 )
+from semnav_env.agents.learning.folder_lock import only_trainer_in
 from semnav_env.agents.learning.presets import PRESETS
 from semnav_env.agents.learning.training import Trainer
 from semnav_env.scripts import main as cli
+from tests.support.paths import ROOT
 from tests.support.tiny_training import TINY, same
+
+SHOWN = replace(PRESETS["quick"], name="shown", envs=2, steps=128, demonstrations=2, ppo=TINY.ppo)
 
 
 @pytest.fixture
 def tiny(monkeypatch):
     monkeypatch.setitem(PRESETS, "tiny", TINY)
+    monkeypatch.setitem(PRESETS, "shown", SHOWN)
 
 
 def run(capsys, *words):
@@ -74,6 +84,88 @@ def test_an_interrupted_training_is_saved(capsys, tmp_path):
     assert code == 130
     assert text.startswith("interrupted; ")
     assert Trainer.resume(TINY, tmp_path).steps == AgentDescription.read(tmp_path).steps
+
+
+@pytest.mark.usefixtures("tiny")
+def test_a_training_that_sigterm_ends_goes_on_as_if_it_had_not(capsys, tmp_path, monkeypatch):
+    run(capsys, "train", "shown", "--out", tmp_path / "straight")
+    straight = load_tensors(tmp_path / "straight" / TRAINING_FILE)
+    real = Trainer.prepare
+    for phase, number in (("demonstrations", 1), ("cloning", 7), ("cloning", EPOCHS)):
+        out = tmp_path / f"{phase}{number}"
+
+        def killed(trainer, phase=phase, number=number):
+            for step in real(trainer):
+                if (step.phase, step.done) == (phase, number):
+                    os.kill(os.getpid(), signal.SIGTERM)
+                yield step
+
+        monkeypatch.setattr(Trainer, "prepare", killed)
+        code, text, _ = run(capsys, "train", "shown", "--out", out)
+        monkeypatch.setattr(Trainer, "prepare", real)
+        assert code == 143
+        assert text == f"interrupted; 0 decisions; saved in {out}; go on with --resume\n"
+        assert AgentDescription.read(out).is_untrained == (number < EPOCHS)
+        code, *_ = run(capsys, "train", "shown", "--out", out, "--resume")
+        assert code == 0
+        assert same(straight, load_tensors(out / TRAINING_FILE))
+
+
+@pytest.mark.usefixtures("tiny")
+def test_a_log_file_says_how_far_a_training_is(capsys, tmp_path):
+    *_, err = run(capsys, "train", "shown", "--out", tmp_path)
+    lines = err.splitlines()
+    assert f"curves: tensorboard --logdir {tmp_path / 'tensorboard'}" in lines
+    told = [line for line in lines if line.endswith(" left")]
+    assert [line.partition(",")[0] for line in told] == [
+        "demonstrations: 1 of 2 driven",
+        "demonstrations: 2 of 2 driven",
+        *(f"cloning: pass {k} of {EPOCHS}" for k in range(4, EPOCHS + 1, 4)),
+        "64 decisions",
+        "128 decisions",
+    ]
+    assert told[-1].endswith(", 0:00:00 left")
+
+
+@pytest.mark.usefixtures("tiny")
+def test_a_batch_that_does_not_divide_a_rollout_is_no_warning(tmp_path):
+    Trainer(replace(TINY, ppo=replace(TINY.ppo, batch_size=48)), tmp_path, seed=0).close()
+
+
+TRAIN_TINY = """
+import sys
+from semnav_env.agents.learning.presets import PRESETS
+from tests.support.tiny_training import TINY
+PRESETS["tiny"] = TINY
+from semnav_env.scripts.main import main
+sys.exit(main(["train", "tiny", "--steps", "1000000000", "--out", sys.argv[1]]))
+"""
+
+
+@pytest.mark.usefixtures("tiny")
+def test_a_folder_is_trained_by_one_process_at_a_time(capsys, tmp_path):
+    """The lock ends with its process, even one that is killed."""
+    first = subprocess.Popen([sys.executable, "-c", TRAIN_TINY, tmp_path], cwd=ROOT)
+    try:
+        while not (tmp_path / AGENT_FILE).exists():
+            time.sleep(0.01)
+        for words in ([], ["--resume"]):
+            code, _, err = run(capsys, "train", "tiny", "--out", tmp_path, *words)
+            assert code == 2
+            assert f"{tmp_path} is being trained by process {first.pid} on " in err
+            assert err.endswith("; give another --out\n")
+    finally:
+        first.kill()
+        first.wait()
+    code, *_ = run(capsys, "train", "tiny", "--out", tmp_path, "--resume", "--steps", 0)
+    assert code == 0
+
+
+def test_a_hearing_training_is_refused_in_a_folder_in_use(capsys, tmp_path):
+    with only_trainer_in(tmp_path):
+        code, _, err = run(capsys, "train", "listener", "--out", tmp_path)
+    assert code == 2
+    assert "is being trained by process" in err
 
 
 def test_without_the_extra_the_error_says_what_to_install(capsys, tmp_path, monkeypatch):

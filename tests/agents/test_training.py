@@ -23,6 +23,7 @@ from semnav_env.agents.learning.files import (  # noqa: E402
     CURVE_FILE,
     POLICY_FILE,
     TRAINING_FILE,
+    AgentDescription,
     load_tensors,
     save_tensors,
 )
@@ -191,7 +192,11 @@ def test_what_a_preset_demonstrates_is_imitated_first(tmp_path):
     preset = replace(PRESETS["drive"], name="shown", envs=2, demonstrations=3, ppo=TINY.ppo)
     trainer = Trainer(preset, tmp_path / "a", seed=0)
     before = weights(trainer)
-    assert list(trainer.prepare()) == [1.0]
+    driven, cloned = (
+        [("demonstrations", k) for k in (1, 2, 3)],
+        [("cloning", k + 1) for k in range(EPOCHS)],
+    )
+    assert [(step.phase, step.done) for step in trainer.prepare()] == driven + cloned
     losses = json.loads((tmp_path / "a" / CURVE_FILE).read_text())
     assert len(losses) == EPOCHS
     assert losses[-1] < losses[0]
@@ -204,10 +209,32 @@ def test_what_a_preset_demonstrates_is_imitated_first(tmp_path):
         for each in (trainer, again)
     ]
     assert errors[0].mean() < 0.9 * errors[1].mean()
-    assert list(again.prepare()) == [1.0]
+    assert [step.done for step in again.prepare()] == [3, *range(1, EPOCHS + 1)]
     assert same(weights(trainer), weights(again))
+
+
+def test_what_was_cloned_is_a_checkpoint(tmp_path):
+    preset = replace(PRESETS["quick"], name="shown", envs=2, demonstrations=1, ppo=LONG.ppo)
+    trainer = Trainer(preset, tmp_path, seed=0)
     trainer.save()
-    assert not (tmp_path / "a" / TRAINING_FILE).exists()
+    assert AgentDescription.read(tmp_path).is_untrained
+    for _ in trainer.prepare():
+        pass
+    assert not AgentDescription.read(tmp_path).is_untrained
+    resumed = Trainer.resume(preset, tmp_path)
+    assert same(weights(trainer), weights(resumed))
+    assert list(resumed.prepare()) == []
+    assert trainer.advance().steps == resumed.advance().steps == ROLLOUT
+    assert same(weights(trainer), weights(resumed))
+
+
+def test_an_untrained_policy_is_a_warning(tmp_path):
+    trainer = train(tmp_path, rollouts=0)
+    with pytest.warns(UserWarning, match="holds an untrained policy, of 0 decisions"):
+        LearnedAgent.load(tmp_path)
+    trainer.model.num_timesteps = 64
+    trainer.save()
+    LearnedAgent.load(tmp_path)
 
 
 def test_resuming_at_once_starts_from_the_same_weights(tmp_path):

@@ -1,7 +1,8 @@
-"""Case 12: Ctrl-C at any moment, `render()` before `reset()`, long errors, plans of one's own."""
+"""Case 12: Ctrl-C and SIGTERM at any moment, an early `render()`, long errors, own plans."""
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -23,7 +24,7 @@ class Interrupting:
     def find_spec(self, name, path=None, target=None):
         self.left -= 1
         if not self.left:
-            os.kill(os.getpid(), signal.SIGINT)
+            os.kill(os.getpid(), {number})
 
 import semnav
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -33,16 +34,48 @@ sys.exit(semnav.main())
 """
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("count", [1, 40, 200, 330])
 @pytest.mark.parametrize("words", [["map", "list"], ["--help"], ["ground", "stop", "--json"]])
-def test_ctrl_c_while_loading_ends_in_one_line(words: list[str], count: int) -> None:
-    program = INTERRUPTED_AT_AN_IMPORT.format(root=str(ROOT), count=count, words=words)
+def test_a_signal_while_loading_ends_in_one_line(words: list[str], count: int, number: int) -> None:
+    program = INTERRUPTED_AT_AN_IMPORT.format(
+        root=str(ROOT), count=count, words=words, number=int(number)
+    )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    if done.returncode == 130:
+    if done.returncode == 128 + number:
         assert done.stderr == "semnav: interrupted\n"
     else:  # it was done before so many modules were loaded
         assert "Traceback" not in done.stderr
         assert count > 1
+
+
+TERMINATED_AT_WORK = """
+import os, signal, sys
+sys.path.insert(0, {root!r})
+import semnav
+from semnav_env.scripts.map_list import Arguments
+
+def run(self):
+    try:
+        os.kill(os.getpid(), signal.SIGTERM)
+        signal.pause()
+    finally:
+        print("put away")
+
+Arguments.run = run
+sys.argv[1:] = ["map", "list"]
+sys.exit(semnav.main())
+"""
+
+
+def test_sigterm_lets_a_command_put_away_what_it_has_begun() -> None:
+    program = TERMINATED_AT_WORK.format(root=str(ROOT))
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (
+        143,
+        "put away\n",
+        "semnav: interrupted\n",
+    )
 
 
 def test_rendering_before_a_reset_is_an_error() -> None:

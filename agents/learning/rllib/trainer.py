@@ -16,11 +16,13 @@ from ray.rllib.core import DEFAULT_MODULE_ID
 from torch.utils.tensorboard import SummaryWriter
 
 from semnav_env.agents.learning.files import (
+    CURVES_FOLDER,
     AgentDescription,
     save_agent,
     save_tensors,
 )
 from semnav_env.agents.learning.presets import Preset
+from semnav_env.agents.learning.reports import Preparation, TrainingReport
 from semnav_env.agents.learning.rllib.algorithm import MEASURES, build_algorithm
 from semnav_env.agents.learning.rllib.options import RayOptions
 from semnav_env.agents.learning.rllib.weights import (
@@ -32,7 +34,6 @@ from semnav_env.agents.learning.rllib.weights import (
     beginning,
     policy_from,
 )
-from semnav_env.agents.learning.training import TrainingReport
 
 SAMPLED = "num_env_steps_sampled_lifetime"
 """RLlib's name for the number of decisions of all runners."""
@@ -59,7 +60,7 @@ class RayTrainer:
         self._first: int
         drawn = np.random.SeedSequence((seed, steps)).generate_state(1)[0]
         self.algorithm = build_algorithm(preset, int(drawn) // 2, options)
-        self._curves = SummaryWriter(str(folder / "tensorboard"))
+        self._curves = SummaryWriter(str(folder / CURVES_FOLDER))
         self._put(RLlibState(beginning(self._weights(), preset.ppo.log_std), {}, steps))
 
     @classmethod
@@ -97,7 +98,7 @@ class RayTrainer:
     is_resumable = True
     """Whether a checkpoint can be made."""
 
-    def prepare(self) -> Iterator[float]:
+    def prepare(self) -> Iterator[Preparation]:
         """Nothing comes before the first rollout."""
         return iter(())
 
