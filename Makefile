@@ -31,13 +31,17 @@ types: $(VENV)/.test
 	$(BIN)/mypy
 	$(BIN)/basedpyright
 
-docs: $(VENV)/.test
-	$(BIN)/pip install -q -c constraints.txt -e ".[docs]"
+docs: $(VENV)/.docs
 	$(BIN)/sphinx-build -W -b html docs docs/_build/html
 
 $(VENV)/.demo: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install -q -c constraints.txt -e ".[render]"
+	touch $@
+
+$(VENV)/.docs: pyproject.toml constraints.txt
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install -q -c constraints.txt -e ".[docs]"
 	touch $@
 
 $(VENV)/.test: pyproject.toml constraints.txt

@@ -15,7 +15,13 @@ from semnav_env.features.frames import ORIGIN
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
 from semnav_env.maps import FloorPlan
-from semnav_env.observations import Moment, ObservationType, as_observation
+from semnav_env.observations import (
+    EntryObservation,
+    Moment,
+    ObservationType,
+    as_observation,
+    check_observation,
+)
 from semnav_env.payload import Payload, as_payload
 from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
@@ -71,7 +77,8 @@ class SemNavEnv(GymnasiumEnv[Any]):
     still ("stopped short"); truncates after `max_seconds`. `info["collisions"]` counts contacts.
 
     ## Arguments
-    robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a `FloorPlan`.
+    robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a `FloorPlan`;
+    "heidelberg_hallway" if it is not given.
     observation: a mode, see above, or an observation type. lidar: "tim561", "barbret" or a
     `LidarSpec`; its rate is the control rate. odometry: how dead reckoning errs: "usual",
     "exact", "wheelchair", "spot" or an `OdometrySettings`. extractor: its limits. corrects_drift:
@@ -89,7 +96,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
     def __init__(
         self,
         robot: str | RobotSpec = "wheelchair",
-        floor_plan: str | FloorPlan = "heidelberg_hallway",
+        floor_plan: str | FloorPlan | None = None,
         observation: str | ObservationType = "semantic",
         lidar: str | LidarSpec = "tim561",
         odometry: str | OdometrySettings = "usual",
@@ -113,7 +120,8 @@ class SemNavEnv(GymnasiumEnv[Any]):
         sensors = lidar_spec(lidar), odometry_settings(odometry)
         self.usual = RobotSetup(robot_spec(robot), *sensors, exact)
         super().__init__(self.usual.control_hz, max_seconds, render_mode)
-        self.plan_source = PlanSource(floor_plan, dynamics, self.usual.robot)
+        plan = self.episode_source.usual_plan(floor_plan)
+        self.plan_source = PlanSource(plan, dynamics, self.usual.robot)
         self._enter(self.plan_source.plan(), self.usual)
         self.action_space = self._actions.space
         self.observation_space = self.observation_type.space(self.robot, self.lidar_spec)
@@ -143,8 +151,9 @@ class SemNavEnv(GymnasiumEnv[Any]):
             self.payload.begin(self.floor_plan, self.setup, mission.start, self.np_random)
             self.payload.update(sensed.motion, self.tracker)
             info |= self.payload.start_info()
+        observation = self.observe()
         self._started = True
-        return self.observe(), info
+        return observation, info
 
     def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Drive for one control period.
@@ -184,9 +193,16 @@ class SemNavEnv(GymnasiumEnv[Any]):
         return tasks.terms_of(rewards, tasks.Tick(*judgement, *sensed, self.payload))
 
     def observe(self) -> Any:
-        """A fresh observation from where the robot is now."""
+        """A fresh observation from where the robot is now.
+
+        Raises:
+            ValueError: an observation of somebody's own is not in its space.
+        """
         told = self.tokens, self.instruction, self.simulator.see, self.payload
-        return self.observation_type.observe(Moment(self.tracker, *told))
+        observation = self.observation_type.observe(Moment(self.tracker, *told))
+        if type(self.observation_type) is not EntryObservation:  # which looks at its own
+            check_observation(observation, self.observation_space)
+        return observation
 
     def conclude(self, truncated: bool) -> dict[str, Any]:
         """End the episode; returns what `info` says at its end."""

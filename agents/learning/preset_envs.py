@@ -103,10 +103,7 @@ def options_of_body(preset: Preset, robot: RobotSpec, count: int) -> dict[str, A
 def _where(preset: Preset, robot: RobotSpec, count: int) -> list[dict[str, Any]]:
     """The floor plan and the task or the episodes of each environment."""
     if preset.episodes:
-        return [
-            {"floor_plan": each[0].floor_plan, "episodes": each}
-            for each in dealt(load_episodes(preset.episodes), count)
-        ]
+        return [{"episodes": each} for each in dealt(load_episodes(preset.episodes), count)]
     task = TrialTask(preset.trials, robot) if preset.trials else None
     return [{"floor_plan": preset.floor_plan, "task": task}] * count
 

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from semnav_env.features.lazy_names import lazy_names
+from semnav_env.observations.checking import check_observation
 from semnav_env.observations.layout import (
     ENTRIES,
     GOAL,
@@ -43,6 +44,7 @@ __all__ = [
     "ObservationType",
     "SeenGoal",
     "as_observation",
+    "check_observation",
     "read_odometry",
     "table",
 ]

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from semnav_env.belief import Belief, BeliefTracker
 from semnav_env.commands import Command
 from semnav_env.features.lidar_spec import LidarSpec
+from semnav_env.observations.checking import check_observation
 from semnav_env.observations.layout import (
     ENTRIES,
     MEMORY_ENTRIES,
@@ -145,16 +146,22 @@ class EntryObservation:
         }
         spaces |= {"scan": scan_space(lidar), "command": command_space()}
         chosen = {name: spaces[name] for name in MODES[self.mode]}
-        return gym.spaces.Dict(chosen | {e.name: e.space(robot, lidar) for e in self.extra})
+        self._extra = [(entry, entry.space(robot, lidar)) for entry in self.extra]
+        return gym.spaces.Dict(chosen | {entry.name: space for entry, space in self._extra})
 
     def observe(self, moment: Moment) -> dict[str, Array]:
-        """The entries as fresh arrays."""
+        """The entries as fresh arrays.
+
+        Raises:
+            ValueError: an entry of one's own is not in its space.
+        """
         row = np.empty(self.row_size, np.float32)
         self._write(row, moment.tracker.senses)
         entries: dict[str, Array] = dict(zip(self._names, self._split(row)))  # noqa: B905, slower
         entries["command"] = moment.tokens.ravel().astype(np.int16)
-        for entry in self.extra:
-            entries[entry.name] = entry.observe(moment)
+        for entry, space in self._extra:
+            value = entries[entry.name] = entry.observe(moment)
+            check_observation(value, space, f"observation entry {entry.name!r}")
         return entries
 
 

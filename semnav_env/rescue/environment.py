@@ -78,7 +78,7 @@ def search_and_rescue_vector(
 
 def _search_options(
     observation: Any = "semantic",
-    floor_plan: Any = "office:house:0",
+    floor_plan: Any = None,
     task: Any = None,
     dynamics: Dynamics = Dynamics(victims=VICTIMS),
     max_seconds: float = MAX_SEARCH_SECONDS,
@@ -89,7 +89,9 @@ def _search_options(
     """Arguments of `SemNavEnv`, with those of a search where none are given."""
     if isinstance(observation, str):
         observation = EntryObservation(observation, [PeopleEntry()])
-    task = HouseTask() if task is None and options.get("episodes") is None else task
+    if options.get("episodes") is None:
+        floor_plan = "office:house:0" if floor_plan is None else floor_plan
+        task = HouseTask() if task is None else task
     return {
         "observation": observation,
         "floor_plan": floor_plan,

@@ -10,7 +10,12 @@ from semnav_env.tasks.request import EpisodeRequest
 from semnav_env.tasks.task import AdaptiveTask, Task, as_task
 
 if TYPE_CHECKING:
+    from semnav_env.maps import FloorPlan
     from semnav_env.tasks.frozen import Episodes, FrozenEpisodes
+
+
+USUAL_PLAN = "heidelberg_hallway"
+"""The floor plan where neither an argument nor a request says another."""
 
 
 class EpisodeSource:
@@ -51,6 +56,21 @@ class EpisodeSource:
         from semnav_env.tasks.frozen import spelled_out  # most environments need none
 
         return spelled_out(request, self.episodes)
+
+    def usual_plan(self, given: str | FloorPlan | None) -> str | FloorPlan:
+        """The floor plan of requests that name none.
+
+        Args:
+            given: what `floor_plan=` was given.
+
+        Raises:
+            ValueError: it was given, and so were episodes.
+        """
+        if given is not None and self.episodes is not None:
+            raise ValueError(
+                "give floor_plan= or episodes=, not both: each episode says its own floor plan"
+            )
+        return USUAL_PLAN if given is None else given
 
     def note(self, success: bool) -> None:
         """Tell a task that learns how an episode ended that it asked for."""

@@ -33,7 +33,7 @@ class EpisodeJudge:
 
     Attributes:
         verifier: says what became of each clause.
-        verdicts: one per clause.
+        verdicts: one word per clause, plain text for `info`; see `Verdict`.
         truncated: whether the time was over before the command was carried out.
     """
 
@@ -46,7 +46,7 @@ class EpisodeJudge:
                 "or give payload=PersonSearch() of semnav_env.rescue"
             )
         self.verifier = Verifier(mission, None if payload is None else payload.fulfils)
-        self.verdicts = self.verifier.verdicts
+        self._note_verdicts()
         self._measure_way()
 
     def update(self, motion: Motion) -> Judgement:
@@ -65,7 +65,7 @@ class EpisodeJudge:
             return Judgement(outcome.progress, False, False, False)
         was_over = verifier.over
         completed = verifier.think(events)
-        self.verdicts = verifier.verdicts
+        self._note_verdicts()
         ended = verifier.over and not was_over
         success = ended and verifier.success
         progress = outcome.progress
@@ -73,6 +73,9 @@ class EpisodeJudge:
             progress = outcome.remaining_before if isfinite(outcome.remaining_before) else 0.0
             self._measure_way()
         return Judgement(progress, completed, success, ended != success)
+
+    def _note_verdicts(self) -> None:
+        self.verdicts = tuple(map(str, self.verifier.verdicts))
 
     def _measure_way(self) -> None:
         """Measure the way to the goal under way from now on, and anew from where the robot is."""
@@ -111,7 +114,7 @@ class EpisodeJudge:
         if truncated:
             self.truncated = True
             verifier.out_of_time()
-            self.verdicts = verifier.verdicts
+            self._note_verdicts()
         return {
             "is_success": verifier.success,
             "crossed_doors": tuple(verifier.crossed),

@@ -10,6 +10,7 @@ from gymnasium.vector.utils import concatenate, create_empty_array
 
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import EntryObservation
+from semnav_env.vector.arguments import naming_robot
 from semnav_env.vector.team import Team
 
 
@@ -66,7 +67,10 @@ class EachObservation:
 
     def observe(self, team: Team) -> Any:
         """As Gymnasium stacks them."""
-        values = [env.observe() for env in self._envs]
+        values = []
+        for k, env in enumerate(self._envs):
+            with naming_robot(k):
+                values.append(env.observe())
         fresh: Any = create_empty_array(self._space, len(values), fn=np.zeros)
         return concatenate(self._space, values, fresh)
 

@@ -46,6 +46,9 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             robot whose episode is over waits until the others are done with the action.
         autoreset_mode: when a robot whose episode is over begins the next one: in the next step, in
             the same one, or not by itself.
+        max_episode_steps: calls of `step` after which an episode is truncated, if its `max_seconds`
+            are not over before; -1 for `max_seconds` alone. `gymnasium.make_vec` gives that of a
+            spec.
         options: arguments of `SemNavEnv` for all robots.
 
     Attributes:
@@ -64,6 +67,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         threads: int | None = None,
         repeat: int = 1,
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
+        max_episode_steps: int = -1,
         **options: Any,
     ) -> None:
         # Gymnasium 1.2 also closes what was never made.
@@ -75,6 +79,10 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self.num_envs, self._threads, self._repeat = num_envs, threads, repeat
         each = one_each("each", [{}] * num_envs if each is None else each, num_envs)
         self.envs = made(each, options)
+        if max_episode_steps != -1:
+            check_count("max_episode_steps", max_episode_steps)
+            for env in self.envs:
+                env.max_steps = min(env.max_steps, max_episode_steps * repeat)
         first = self.envs[0]
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = first.metadata | {"autoreset_mode": self.autoreset_mode}
@@ -226,7 +234,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             for k in _indices(over):
                 held.ends[k] = self.envs[k].conclude(bool(judged.truncated[k]))
             for k in _indices(judged.thought | over):
-                self._verdicts[k] = self.envs[k].judge.verifier.verdicts
+                self._verdicts[k] = self.envs[k].judge.verdicts
             if self.render_mode is not None:
                 self._show(going)
         return held
@@ -243,7 +251,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         with naming_robot(index):
             info = env.begin(seed, options)
         self._over[index] = self._unbegun[index] = False
-        self._verdicts[index] = env.judge.verifier.verdicts
+        self._verdicts[index] = env.judge.verdicts
         self._actions.renew(index, env)
         if self._team is not None:
             self._team.renew(index)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+from importlib.metadata import version
 from itertools import product
 
 import gymnasium as gym
@@ -12,6 +13,7 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
+import semnav_env
 from semnav_env.commands import CommandError
 from semnav_env.env import SemNavEnv
 from semnav_env.features.memory import SceneMemory
@@ -26,7 +28,12 @@ IDS = [name for name, spec in gym.registry.items() if "semnav_env" in str(spec.e
 
 
 def test_importing_the_package_registers_it() -> None:
-    assert IDS == ["SemNav-v0", "SearchAndRescue-v0"]
+    assert IDS == ["SemNav-v0", "SemNav-Train-v0", "SearchAndRescue-v0"]
+
+
+def test_the_package_says_its_version() -> None:
+    assert semnav_env.__version__ == version("semnav-env")
+    assert not hasattr(semnav_env, "__verzion__")
 
 
 @pytest.mark.parametrize(("name", "robot", "mode"), list(product(IDS, ROBOTS, MODES)))

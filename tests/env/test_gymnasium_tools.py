@@ -87,6 +87,51 @@ def test_time_aware_observation_finds_the_time_limit() -> None:
     assert observation["time"] == steps == 60
 
 
+@pytest.mark.parametrize("name", ["SemNav-v0", "SearchAndRescue-v0"])
+@pytest.mark.parametrize("mode", [None, "sync"])
+def test_a_vector_of_environments_can_have_a_limit_of_steps(name: str, mode: str | None) -> None:
+    envs = gym.make_vec(
+        f"semnav_env:{name}", num_envs=2, vectorization_mode=mode, max_episode_steps=5
+    )
+    envs.reset(seed=0)
+    ends = [envs.step(envs.action_space.sample())[3].tolist() for _ in range(5)]
+    assert ends == [[False] * 2] * 4 + [[True] * 2]
+
+
+def test_a_limit_of_steps_counts_actions_that_are_held_once() -> None:
+    envs = gym.make_vec(ID, num_envs=1, max_episode_steps=3, repeat=2)
+    envs.reset(seed=0)
+    assert [envs.step(np.zeros((1, 2)))[3].tolist() for _ in range(3)] == [[False]] * 2 + [[True]]
+    with pytest.raises(ValueError, match="max_episode_steps"):
+        gym.make_vec(ID, num_envs=1, max_episode_steps=0)
+
+
+def test_a_vector_can_be_made_from_any_spec() -> None:
+    """A spec has a time limit once its environment is made, for `max_seconds` says which."""
+    env = gym.make(ID, max_seconds=0.4)
+    assert gym.spec("SemNav-v0").max_episode_steps is None
+    assert env.spec is not None
+    assert env.spec.max_episode_steps == 6
+    vector = gym.make_vec(ID, num_envs=2, max_seconds=0.4)
+    for spec in (env.spec, env.unwrapped.spec, vector.spec):
+        assert spec is not None
+        envs = gym.make_vec(spec, num_envs=2)
+        envs.reset(seed=0)
+        ends = [bool(envs.step(np.zeros((2, 2), np.float32))[3].all()) for _ in range(6)]
+        assert ends == [False] * 5 + [True]
+
+
+@pytest.mark.parametrize("mode", ["vector_entry_point", "sync"])
+def test_the_training_id_draws_episodes_of_the_benchmark(mode: str) -> None:
+    envs = gym.make_vec("semnav_env:SemNav-Train-v0", num_envs=3, vectorization_mode=mode)
+    _, infos = envs.reset(seed=0)
+    alone = [gym.make(ID, episodes="train").reset(seed=seed)[1] for seed in range(3)]
+    for name in ("episode_id", "instruction", "floor_plan"):
+        assert infos[name].tolist() == [info[name] for info in alone]
+    assert len(set(infos["floor_plan"])) > 1
+    assert all(each.startswith("train-") for each in infos["episode_id"])
+
+
 @pytest.mark.parametrize("mode", ["semantic", "raw", "all"])
 def test_a_flattened_observation_is_float32(mode: str) -> None:
     env = FlattenObservation(gym.make(ID, observation=mode))

@@ -121,6 +121,8 @@ def test_a_function_that_gives_no_request_is_refused() -> None:
 def test_a_task_and_episodes_are_not_given_together() -> None:
     with pytest.raises(ValueError, match="not both"):
         SemNavEnv(task=AROUND, episodes="val_seen")
+    with pytest.raises(ValueError, match="give floor_plan= or episodes=, not both"):
+        SemNavEnv(floor_plan="office_cross", episodes="val_seen")
 
 
 def test_a_curriculum_goes_on_when_enough_episodes_succeed() -> None:
