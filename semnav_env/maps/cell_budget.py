@@ -46,4 +46,7 @@ def check_cells(count: float, what: str) -> None:
         FloorPlanError: names the number, and the budget.
     """
     if count > MAX_CELLS:
-        raise FloorPlanError(f"{what} take {count:,.0f} cells; at most {MAX_CELLS:,} are made")
+        raise FloorPlanError(
+            f"{what} take {count:,.0f} cells; at most {MAX_CELLS:,} are made: draw less or make it "
+            "smaller, with coordinates in metres"
+        )
