@@ -25,7 +25,7 @@ from semnav_env.maps.nearness import clear_near
 from semnav_env.maps.reach import REACH_SPACING, reach
 from semnav_env.robots import WHEELCHAIR
 from tests.reliability.children import MEMORY, Outcome, in_child
-from tests.reliability.vast_plans import FAR, PLANS, USES, crossed, large, vast
+from tests.reliability.vast_plans import FAR, PLANS, USES, crossed, large, search, vast
 
 SECONDS = 60.0
 """Processor time for one use of one plan, against a hang."""
