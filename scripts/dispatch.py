@@ -18,6 +18,7 @@ from types import FrameType
 from typing import NoReturn
 
 from semnav_env.features.validation import clipped
+from semnav_env.scripts.printable import printable, printing_text
 
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO)
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE, TERMINATED = 2, 130, 141, 143
@@ -98,7 +99,8 @@ class CommandTable:
         except HelpShown:
             return 0
         _end_loading()
-        return command.run()
+        with printing_text():
+            return command.run()
 
     def _help(self) -> str:
         width = max(map(len, self.commands)) + 2
@@ -152,4 +154,4 @@ def _first_line(error: Exception) -> str:
 
 def _with_notes(said: str, error: BaseException) -> str:
     """The message with the notes of the error, such as where the results so far are."""
-    return "; ".join([said, *getattr(error, "__notes__", ())])
+    return printable("; ".join([said, *getattr(error, "__notes__", ())]))

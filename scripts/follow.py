@@ -21,6 +21,7 @@ from semnav_env.features.readers import Geometry, LogRecord, TruncatedLogError, 
 from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.ground import understood
 from semnav_env.scripts.outputs import check_file
+from semnav_env.scripts.printable import printable
 from semnav_env.scripts.progress import tracked
 from semnav_env.scripts.scene_report import bad_text
 
@@ -104,7 +105,7 @@ class Arguments:
             except TruncatedLogError as error:
                 damage = error
             if log.bad:
-                print(bad_text(log), file=sys.stderr)
+                print(printable(bad_text(log)), file=sys.stderr)
         if not beliefs:
             raise damage or ValueError(f"{self.log} has no scan {self.first}")
         return beliefs, damage

@@ -21,14 +21,14 @@ class Arguments:
 
     It reads maps of ROS's map_server (.yaml, with doors.yaml and locations.yaml beside it if they
     exist; or the image alone), drawings (.dxf, .svg), vector maps and houses of HouseExpo (.json),
-    and lists of wall segments (.csv).
+    lists of wall segments (.csv), and floor plans in another unit than metres (.geojson).
 
     Attributes:
         source: the map.
         out: the floor plan to write (.geojson).
         resolution: of an image without .yaml file, metres per pixel.
         tracing: how the pixels of an occupancy map become walls.
-        drawing: scale and layers of a drawing.
+        drawing: scale and layers of a drawing; the scale also of other lists of coordinates.
         picture: picture of the plan to write (.png, .pdf or .svg).
         json: print the report as JSON.
     """

@@ -18,6 +18,7 @@ from semnav_env.agents.planning.obstacle_kernels import (
 )
 from semnav_env.features.checked_fields import Bounds, Count, Length, Share, check_fields
 from semnav_env.features.frames import FloatArray, Pose, wrap_angle
+from semnav_env.maps.cell_budget import check_cells
 
 
 @dataclass(frozen=True)
@@ -152,9 +153,13 @@ def points_of_segments(segments: FloatArray, spacing: float = 0.02) -> FloatArra
 
     Returns:
         shape (N, 2).
+
+    Raises:
+        FloorPlanError: that is more than the budget allows.
     """
     starts, ends = segments[:, :2], segments[:, 2:]
     counts = point_counts(segments, spacing)
+    check_cells(counts.sum(), f"points {spacing} m apart on {len(segments):,} segments")
     index = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     owner = np.repeat(np.arange(len(segments)), counts)
     steps = (ends - starts) / (counts - 1)[:, None]

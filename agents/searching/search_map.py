@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from semnav_env.agents.searching.settings import SearchSettings
 from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.maps.cell_budget import check_cells
 
 Mask = NDArray[np.bool_]
 
@@ -37,6 +38,9 @@ class SearchMap:
         lower: its lower left corner, (x, y) in metres.
         upper: its upper right corner.
 
+    Raises:
+        FloorPlanError: it would have too many cells.
+
     Attributes:
         hits: evidence that a cell is solid, shape (rows, columns).
         found: what cells were found to be, bits, same shape.
@@ -49,6 +53,7 @@ class SearchMap:
         self.settings, self.lower = settings, lower
         columns = math.ceil((upper[0] - lower[0]) / settings.spacing) + 1
         rows = math.ceil((upper[1] - lower[1]) / settings.spacing) + 1
+        check_cells(rows * columns, f"maps of a search in steps of {settings.spacing} m")
         self.hits = np.zeros((rows, columns), np.int64)
         self.found = np.zeros((rows, columns), np.uint8)
         self.tries = np.zeros((rows, columns), np.uint8)

@@ -109,7 +109,7 @@ class Crowd:
         """Update the desired velocities; who has arrived or is stuck chooses another place."""
         for i, ways in enumerate(self._ways):
             x, y = self.places[i]
-            ahead, aside, left = look_ahead(ways.distances, *ways.geodesic.origin, x, y)
+            ahead, aside, left = look_ahead(*ways.field, x, y)
             self._wishes[i] = self._speeds[i] * ahead, self._speeds[i] * aside
             nearer = left < self._best[i] - LEAST_PROGRESS
             self._best[i] = left if nearer else self._best[i]
@@ -122,11 +122,7 @@ class Crowd:
         """The ways to a place that can be reached from there; None if none was found."""
         for index in self._rng.permutation(len(self._routes.places))[:8]:
             ways = self._routes.to(int(index))
-            if (
-                ARRIVAL_DISTANCE
-                < look_ahead(ways.distances, *ways.geodesic.origin, *place)[2]
-                < math.inf
-            ):
+            if ARRIVAL_DISTANCE < look_ahead(*ways.field, *place)[2] < math.inf:
                 return ways
         return None
 

@@ -12,14 +12,14 @@ from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.grid_search import lowest_around
 from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.geodesic import GRID_SPACING, Geodesic, WaysTo
+from semnav_env.maps.geodesic import Geodesic, WaysTo
 
 PEOPLE_CLEARANCE = 0.3
 """Least distance of the ways of people from everything solid, metres: a little more than the radius
 of a body."""
 
 LOOKAHEAD_CELLS = 8
-"""Cells of the grid, 0.1 m each, from a person down the way to the point that they walk towards."""
+"""Cells of the grid, mostly of 0.1 m, from a person down the way to the point they walk to."""
 
 SEARCH_CELLS = 4
 """Cells to each side of a person among which the nearest one with a way is looked for; people are
@@ -64,7 +64,7 @@ def _places(floor_plan: FloorPlan) -> list[Point]:
 
 @kernel(counts_references=True)
 def look_ahead(
-    field: FloatArray, west: float, south: float, x: float, y: float
+    field: FloatArray, west: float, south: float, spacing: float, x: float, y: float
 ) -> tuple[float, float, float]:
     """The direction in which somebody at (x, y) goes on, and how far it is.
 
@@ -72,6 +72,7 @@ def look_ahead(
         field: distances of the cells of a grid, metres.
         west: x of its first column.
         south: y of its first row.
+        spacing: between its cells, metres.
         x: metres.
         y: metres.
 
@@ -79,13 +80,13 @@ def look_ahead(
         A unit vector, or zeros at the goal and where no way is near; the way left, metres, which
         is then infinite.
     """
-    row, column = _nearest_cell(field, (y - south) / GRID_SPACING, (x - west) / GRID_SPACING)
+    row, column = _nearest_cell(field, (y - south) / spacing, (x - west) / spacing)
     if row < 0:
         return 0.0, 0.0, np.inf
     left = field[row, column]
     for _ in range(LOOKAHEAD_CELLS):
         row, column = lowest_around(field, row, column)
-    dx, dy = west + GRID_SPACING * column - x, south + GRID_SPACING * row - y
+    dx, dy = west + spacing * column - x, south + spacing * row - y
     length = math.hypot(dx, dy)
     return (dx / length, dy / length, left) if length > 1e-6 else (0.0, 0.0, left)
 

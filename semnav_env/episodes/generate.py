@@ -5,7 +5,6 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 import shapely
@@ -15,8 +14,8 @@ from semnav_env.commands import Command
 from semnav_env.episodes.ambiguous import ambiguous_text
 from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.episode import Episode, Expected
-from semnav_env.episodes.fingerprint import fingerprint
 from semnav_env.episodes.random_clauses import CommandTopic, topics_of
+from semnav_env.episodes.site import LARGEST_BODY, Site
 from semnav_env.episodes.splits import SEED, Split
 from semnav_env.episodes.walk import carries_out
 from semnav_env.episodes.wording import worded
@@ -24,10 +23,7 @@ from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.grounding import Goal, ReachGoal
 from semnav_env.grounding.visible_doors import doors_around
 from semnav_env.maps import FloorPlan, load_floor_plan
-from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import is_clear, placement_error, sample_pose
-from semnav_env.maps.reach import Reach, reach
-from semnav_env.robots import ROBOTS, WHEELCHAIR
 from semnav_env.tasks.starts import sample_start
 from semnav_env.verifier import Verifier, place, plan_mission
 
@@ -59,49 +55,12 @@ class EpisodeLimits:
 LIMITS = EpisodeLimits()
 """Limits of all episodes; the frozen ones were made with them."""
 
-LARGEST_BODY = replace(
-    WHEELCHAIR,
-    name="body",
-    length=max(robot.length for robot in ROBOTS.values()),
-    width=max(robot.width for robot in ROBOTS.values()),
-)
-"""A body as long as the longest robot and as wide as the widest: every robot gets to where it
-gets."""
-
 GERMAN_SHARE = 0.2
 """Share of the episodes in German."""
 
 
 class TooBareError(ValueError):
     """No command of the wanted kind was found in a floor plan."""
-
-
-@dataclass(frozen=True)
-class Site:
-    """A floor plan with what all its episodes share.
-
-    Attributes:
-        plan: the floor plan.
-        name: name by which `load_floor_plan` finds it.
-    """
-
-    plan: FloorPlan
-    name: str
-
-    @cached_property
-    def geodesic(self) -> Geodesic:
-        """Shortest ways of a robot's centre."""
-        return self.plan.derived(Geodesic)
-
-    @cached_property
-    def reach(self) -> Reach:
-        """The cells that every body reaches."""
-        return reach(self.plan, LARGEST_BODY.length, LARGEST_BODY.width)
-
-    @cached_property
-    def plan_hash(self) -> str:
-        """Its fingerprint."""
-        return fingerprint(self.plan)
 
 
 def generate_split(
@@ -223,15 +182,21 @@ def _episode(name: str, site: Site, start: Pose, language: str, said: EpisodeDra
 
 def _start(site: Site, split: Split, topic: CommandTopic, rng: Generator) -> Pose | None:
     """A start at which every body can stand, rounded as in a file; in a room to be left."""
-    if topic is CommandTopic.LEAVE and split.expected is Expected.FEASIBLE and site.plan.rooms:
-        pose = _start_in_room(site, rng)
-    else:
-        pose = sample_start(site.plan, LARGEST_BODY, rng)
+    in_room = topic is CommandTopic.LEAVE and split.expected is Expected.FEASIBLE
+    pose = (_start_in_room if in_room and site.plan.rooms else _start_in_corridor)(site, rng)
     if pose is None:
         return None
     start = round(pose[0], 2), round(pose[1], 2), round(pose[2], 3)
     stands = placement_error(site.plan, LARGEST_BODY, start) is None
-    return start if stands and site.reach.near(shapely.Point(start[:2])) else None
+    return start if stands and site.part_at(start[:2]) is not None else None
+
+
+def _start_in_corridor(site: Site, rng: Generator) -> Pose | None:
+    """A pose in a random corridor; None if there is no room in it."""
+    try:
+        return sample_start(site.plan, LARGEST_BODY, rng)
+    except ValueError:
+        return None
 
 
 def _start_in_room(site: Site, rng: Generator) -> Pose | None:
@@ -257,7 +222,8 @@ def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | Non
     if not LIMITS.min_route_length <= verifier.mission.route_length <= LIMITS.max_route_length:
         return None
     places = [shapely.Point(place(goal)) for goal in verifier.mission.goals]
-    if not all(site.reach.near(point, LIMITS.goal_distance) for point in places):
+    part = site.part_at(start[:2])
+    if part is None or not all(part.near(point, LIMITS.goal_distance) for point in places):
         return None
     if not all(_has_room(site.plan, goal) for goal in verifier.mission.goals):
         return None

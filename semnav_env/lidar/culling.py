@@ -12,20 +12,21 @@ from numpy.typing import NDArray
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.maps.cell_budget import MAX_CELLS
 from semnav_env.maps.floor_plan import FloorPlan
 
 GRID = np.dtype([("x", "f8"), ("y", "f8"), ("cell", "f8"), ("columns", "i8"), ("rows", "i8")])
 """The lower left corner, the side of a cell in metres, and how many cells: shape (1,)."""
 
 CELL_SIZE = 2.0
-"""Side of a cell, metres; larger in a plan that would need more than `MAX_CELLS` of them."""
+"""Side of a cell, metres; larger where there would be too many cells, or too long lists in them."""
 
 NEAR = 3.5
 """Segments within this distance of a cell's centre, metres, come first in its list: drawn first,
 they hide many of the others."""
 
-MAX_CELLS = 10_000
-"""Largest number of cells: it bounds the memory that a plan takes."""
+MAX_CULLING_CELLS = 10_000
+"""Largest number of cells: it bounds the time that the lists of a plan take."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +66,9 @@ class Culling:
             )
         grid = _grid(rows)
         starts = _list_starts(rows, grid, range_max)
+        while starts[-1] > MAX_CELLS and len(starts) > 3:  # more than one cell
+            grid = _grid(rows, 2.0 * float(grid["cell"][0]))
+            starts = _list_starts(rows, grid, range_max)
         return cls(grid, starts, _listed_ends(rows, grid, range_max, starts))
 
 
@@ -94,13 +98,15 @@ def _cullings(floor_plan: FloorPlan) -> Cullings:
     return WeakValueDictionary()
 
 
-def _grid(segments: FloatArray) -> np.ndarray:
+def _grid(segments: FloatArray, least_cell: float = CELL_SIZE) -> np.ndarray:
     if len(segments) == 0:
         return np.array([(0.0, 0.0, CELL_SIZE, 1, 1)], GRID)
     points = segments.reshape(-1, 2)
     low, extent = points.min(axis=0), np.ptp(points, axis=0)
     cell = max(
-        CELL_SIZE, math.sqrt(float(extent.prod()) / MAX_CELLS), float(extent.max()) / MAX_CELLS
+        least_cell,
+        math.sqrt(float(extent.prod()) / MAX_CULLING_CELLS),
+        float(extent.max()) / MAX_CULLING_CELLS,
     )
     columns, rows = (extent // cell).astype(np.int64) + 1
     return np.array([(*low, cell, columns, rows)], GRID)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from semnav_env.maps.faults import faults
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.gaps import gaps
 from semnav_env.maps.plan_fault import PlanFault
 from semnav_env.maps.reachability import unreachable_parts
 from semnav_env.maps.rules import FloorPlanError, check_plan
+from semnav_env.maps.units import unit_fault
 from semnav_env.robots import WHEELCHAIR, RobotSpec
 
 
 def check(plan: FloorPlan, robot: RobotSpec = WHEELCHAIR) -> list[PlanFault]:
     """Everything found wrong with a plan; an empty list if nothing.
 
-    A plan that breaks a rule of floor plans gets that one fault. Otherwise it is searched for gaps
+    A plan that breaks a rule of floor plans gets that one fault. Otherwise it is searched for doors
+    as wide as in another unit than metres, for gaps
     (to the outside, and out of rooms other than through their doors), for parts that overlap or
     stand in doorways, and for open doors, rooms and ends of corridors that the robot cannot reach.
     The robot starts in the largest corridor as a rectangle that turns where it must.
@@ -27,4 +31,9 @@ def check(plan: FloorPlan, robot: RobotSpec = WHEELCHAIR) -> list[PlanFault]:
         check_plan(plan)
     except FloorPlanError as error:
         return [PlanFault(plan.name, str(error))]
-    return [*gaps(plan), *faults(plan), *unreachable_parts(plan, robot)]
+    return [*_unit(plan), *gaps(plan), *faults(plan), *unreachable_parts(plan, robot)]
+
+
+def _unit(plan: FloorPlan) -> Iterator[PlanFault]:
+    if fault := unit_fault(door.width for door in plan.doors):
+        yield PlanFault(plan.name, fault)

@@ -15,12 +15,16 @@ from numpy.typing import NDArray
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.grid_search import descent, least_costs
+from semnav_env.maps.cell_budget import check_cells, spacing_within_budget
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.nearness import clear_near
 from semnav_env.maps.recent_fields import RecentFields
 
 GRID_SPACING = 0.1
-"""Distance between the points of the grid, metres."""
+"""Distance between the points of the grid, metres; larger in a plan of more than 60,000 m2."""
+
+COARSEST_SPACING = 0.2
+"""Largest distance between the points of the grid, metres: ways still lead through doors."""
 
 CLEARANCE = 0.2
 """Distance that the way of the robot's centre keeps from everything solid, metres: a door of 0.8 m
@@ -45,6 +49,13 @@ class Geodesic:
         comfort: distance from everything solid that ways prefer to keep, metres. Nearer to it they
             cost more, so that they run in the middle of corridors; 0 for the shortest ways.
         clearance: distance from everything solid that every way keeps, metres.
+
+    Attributes:
+        origin: first point of the grid, (x, y) in metres.
+        spacing: distance between its points, metres.
+
+    Raises:
+        FloorPlanError: the plan is too large for a grid.
     """
 
     def __init__(
@@ -52,11 +63,14 @@ class Geodesic:
     ) -> None:
         west, south, east, north = floor_plan.boundary.bounds
         self.origin = (west, south)
+        self.spacing = spacing_within_budget(
+            floor_plan, GRID_SPACING, COARSEST_SPACING, "for ways to be found in it"
+        )
         self._floor_plan, self._number = floor_plan, next(_NUMBERS)
         self._comfort, self._clearance = comfort, clearance
         self._shape = (
-            math.ceil((north - south) / GRID_SPACING) + 1,
-            math.ceil((east - west) / GRID_SPACING) + 1,
+            math.ceil((north - south) / self.spacing) + 1,
+            math.ceil((east - west) / self.spacing) + 1,
         )
 
     def __getstate__(self) -> dict[str, Any]:
@@ -79,12 +93,12 @@ class Geodesic:
         return RECENT_FIELDS.get((self._number, cell), lambda: self._distances_to_cell(cell))
 
     def _distances_to_cell(self, cell: tuple[int, int]) -> FloatArray:
-        source, diagonal = np.array([cell]), GRID_SPACING * math.hypot(1, 1)
-        return least_costs(source, np.zeros(1), self._weight, GRID_SPACING, diagonal, True)
+        source, diagonal = np.array([cell]), self.spacing * math.hypot(1, 1)
+        return least_costs(source, np.zeros(1), self._weight, self.spacing, diagonal, True)
 
     def _cell(self, point: Point) -> tuple[int, int]:
         """The nearest free cell (row, column)."""
-        found = _nearest_free(self.free, *self.origin, GRID_SPACING, *point)
+        found = _nearest_free(self.free, *self.origin, self.spacing, *point)
         if found[0] < 0:
             raise ValueError(f"{self._floor_plan.name} has no free place")
         return found
@@ -93,12 +107,12 @@ class Geodesic:
     def free(self) -> NDArray[np.bool_]:
         """Whether the robot's centre may be in each cell, shape (rows, columns)."""
         floor_plan = self._floor_plan
-        rows, columns = np.indices(self._shape)
-        x = self.origin[0] + GRID_SPACING * columns
-        y = self.origin[1] + GRID_SPACING * rows
-        free = np.asarray(shapely.contains_xy(floor_plan.boundary, x, y), dtype=bool)
+        rows, columns = map(np.arange, self._shape)
+        x = self.origin[0] + self.spacing * columns
+        y = self.origin[1] + self.spacing * rows
+        free = np.asarray(shapely.contains_xy(floor_plan.boundary, x, y[:, None]), dtype=bool)
         reach = self._clearance - 1e-9  # what is exactly so far away is free
-        clear_near(free, floor_plan.segments, *self.origin, GRID_SPACING, reach)
+        clear_near(free, floor_plan.segments, *self.origin, self.spacing, reach)
         self._block_inside(free, np.asarray(floor_plan.furniture.geometries))
         return free
 
@@ -109,14 +123,15 @@ class Geodesic:
         of one piece, row by row.
         """
         low, high = np.split(shapely.bounds(pieces).reshape(-1, 4) - np.tile(self.origin, 2), 2, 1)
-        first = np.ceil(low / GRID_SPACING).astype(int)
-        sizes = np.maximum(np.floor(high / GRID_SPACING).astype(int) + 1 - first, 0)
+        first = np.ceil(low / self.spacing).astype(int)
+        sizes = np.maximum(np.floor(high / self.spacing).astype(int) + 1 - first, 0)
         cells = sizes.prod(axis=1)
+        check_cells(cells.sum(), f"{self._floor_plan.name}: the {len(pieces)} pieces of furniture")
         piece = np.repeat(np.arange(len(pieces)), cells)
         inner = np.arange(len(piece)) - np.repeat(np.cumsum(cells) - cells, cells)
         width = sizes[piece, 0]
         column, row = first[piece, 0] + inner % width, first[piece, 1] + inner // width
-        x, y = self.origin[0] + GRID_SPACING * column, self.origin[1] + GRID_SPACING * row
+        x, y = self.origin[0] + self.spacing * column, self.origin[1] + self.spacing * row
         shapely.prepare(pieces)
         inside = shapely.contains_xy(pieces[piece], x, y)
         free[row[inside], column[inside]] = False
@@ -128,7 +143,7 @@ class Geodesic:
         if self._comfort:
             from scipy.ndimage import distance_transform_edt  # seldom needed, and slow to import
 
-            room = self._clearance + GRID_SPACING * distance_transform_edt(self.free)
+            room = self._clearance + self.spacing * distance_transform_edt(self.free)
             weight += DISCOMFORT_FACTOR * np.clip(1.0 - room / self._comfort, 0.0, 1.0)
         return weight
 
@@ -150,18 +165,22 @@ class WaysTo:
         """Cost of the way from every cell of the grid to the goal, metres."""
         return self.geodesic.distances_to(self.goal)
 
+    @property
+    def field(self) -> tuple[FloatArray, float, float, float]:
+        """The distances; x of the first column, y of the first row, and spacing of the cells."""
+        return self.distances, *self.geodesic.origin, self.geodesic.spacing
+
     def length(self, start: Point) -> float:
         """Length of the shortest way from `start`, metres; infinite if there is none."""
-        return distance_at(self.distances, *self.geodesic.origin, GRID_SPACING, *start)
+        return distance_at(*self.field, *start)
 
     def way(self, start: Point) -> FloatArray:
         """The shortest way from `start` as points, shape (k, 2)."""
-        west, south = self.geodesic.origin
-        row = round((start[1] - south) / GRID_SPACING)
-        column = round((start[0] - west) / GRID_SPACING)
+        (west, south), spacing = self.geodesic.origin, self.geodesic.spacing
+        row, column = round((start[1] - south) / spacing), round((start[0] - west) / spacing)
         first = _nearest_reached(self.distances, row, column)
         cells = descent(self.distances, *first, self.distances.size)
-        inner = np.array((west, south)) + GRID_SPACING * cells[:, ::-1]
+        inner = np.array((west, south)) + spacing * cells[:, ::-1]
         return np.vstack((start, inner[1:-1], self.goal))
 
 

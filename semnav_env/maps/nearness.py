@@ -35,11 +35,18 @@ def clear_near(
         x1, y1, x2, y2 = segments[k]
         first_row = max(0, math.floor((min(y1, y2) - reach - south) / spacing))
         last_row = min(rows - 1, math.ceil((max(y1, y2) + reach - south) / spacing))
-        first = max(0, math.floor((min(x1, x2) - reach - west) / spacing))
-        last = min(columns - 1, math.ceil((max(x1, x2) + reach - west) / spacing))
         dx, dy = x2 - x1, y2 - y1
         squared = dx * dx + dy * dy
         for row in range(first_row, last_row + 1):
+            begin, end = 0.0, 1.0  # of the share of the segment that is near this row
+            if dy != 0.0:
+                one = (south + spacing * row - reach - y1) / dy
+                other = (south + spacing * row + reach - y1) / dy
+                begin, end = max(0.0, min(one, other)), min(1.0, max(one, other))
+            low, high = x1 + begin * dx, x1 + end * dx
+            low, high = min(low, high) - reach - west, max(low, high) + reach - west
+            first = max(0, math.floor(low / spacing) - 1)  # one more, for rounding
+            last = min(columns - 1, math.ceil(high / spacing) + 1)
             for column in range(first, last + 1):
                 x, y = west + spacing * column - x1, south + spacing * row - y1
                 share = min(1.0, max(0.0, (x * dx + y * dy) / squared)) if squared > 0.0 else 0.0

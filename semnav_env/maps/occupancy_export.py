@@ -144,10 +144,10 @@ def draw_pixels(plan: FloorPlan, resolution: float) -> PixelPlan:
     clear = np.ones((rows, columns), dtype=bool)
     reach = 0.5 * resolution + 1e-9
     clear_near(clear, plan.segments, left, bottom, resolution, reach)
-    row, column = np.indices(clear.shape)
-    x, y = left + resolution * column, bottom + resolution * row
-    inside = shapely.contains_xy(plan.boundary, x, y)
-    grey = np.where(clear, np.where(inside, FREE_GREY, UNKNOWN_GREY), SOLID_GREY).astype(np.uint8)
+    x, y = left + resolution * np.arange(columns), bottom + resolution * np.arange(rows)
+    grey = np.full(clear.shape, UNKNOWN_GREY, np.uint8)
+    grey[shapely.contains_xy(plan.boundary, x, y[:, None])] = FREE_GREY
+    grey[~clear] = SOLID_GREY
     origin = left - 0.5 * resolution, bottom - 0.5 * resolution
     return PixelPlan(np.flipud(grey).copy(), origin, resolution)
 

@@ -18,6 +18,7 @@ from shapely.geometry.base import BaseGeometry
 
 from semnav_env.features.frames import FloatArray, Point
 from semnav_env.features.kernels.compiling import kernel
+from semnav_env.maps.cell_budget import spacing_within_budget
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.pose_flood import REACHED, flood
 
@@ -30,8 +31,8 @@ HEADING_COUNT = 12
 BORDER_CELLS = 4
 """Cells around the plan that nothing reaches."""
 
-MAX_CELLS = 6_000_000
-"""Largest number of cells of the grid; a larger plan gets a coarser one."""
+COARSEST_SPACING = 0.1
+"""Largest spacing of the grid, metres: a coarser one shows no body the way through a door."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +55,16 @@ class Reach:
     origin: Point
     spacing: float
 
+    @property
+    def area(self) -> float:
+        """Area of the cells, square metres."""
+        return float(self.cells.sum()) * self.spacing**2
+
     def near(self, place: BaseGeometry, within: float = 0.0) -> bool:
         """Whether the centre gets within a distance of a place, metres, up to half a cell."""
         area = place.buffer(max(within, 0.75 * self.spacing))
+        if area.is_empty:  # as what is left of a room that is narrower than a robot
+            return False
         west, south, east, north = area.bounds
         first_column, first_row = self._cell(west, south)
         last_column, last_row = self._cell(east, north)
@@ -98,16 +106,21 @@ def reach(
         plan: the floor plan.
         length: length of the body, metres.
         width: width of the body, metres.
-        spacing: spacing of the grid, metres; a very large plan gets a coarser one.
+        spacing: spacing of the grid, metres; a large plan gets a coarser one.
         headings: number of headings of the body, evenly spread over `turn`.
         start: where the body is instead, (x, y) in metres.
         turn: half a turn, or a whole one where it matters which end is the front, radians. At the
             start the body may have any heading that is free.
         border: cells of the grid around the plan. No place counts that is nearer to the rim of the
             grid than the body's corners reach, so a body right inside an outer wall needs more.
+
+    Raises:
+        FloorPlanError: the plan is too large for a grid.
     """
     west, south, east, north = plan.boundary.bounds
-    spacing = max(spacing, math.sqrt((east - west) * (north - south) / MAX_CELLS))
+    spacing = spacing_within_budget(
+        plan, spacing, max(spacing, COARSEST_SPACING), "to tell which parts a robot reaches"
+    )
     origin = west - border * spacing, south - border * spacing
     shape = (
         math.ceil((north - south) / spacing) + 2 * border,

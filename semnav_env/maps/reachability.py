@@ -18,6 +18,7 @@ from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region
 from semnav_env.maps.geodesic import GRID_SPACING
 from semnav_env.maps.plan_fault import PlanFault, point_in, written
 from semnav_env.maps.reach import HEADING_COUNT, REACH_SPACING, Reach, reach
+from semnav_env.maps.rules import FloorPlanError
 from semnav_env.robots import RobotSpec
 
 SEARCH_GRIDS = ((REACH_SPACING, HEADING_COUNT), (REACH_SPACING / 2, 2 * HEADING_COUNT))
@@ -45,11 +46,15 @@ def unreachable_parts(plan: FloorPlan, robot: RobotSpec) -> list[PlanFault]:
     An open door is reached when the robot's centre gets onto its line; a room with an open door,
     when the whole robot gets in, though it may have to back out; a corridor, when its centre gets
     near both ends. What lies behind closed doors need not be reachable, and of a room behind an
-    open door that is not reached only the door is named.
+    open door that is not reached only the door is named. A plan that is too large to be searched
+    gets one fault that says so.
     """
     faults: list[PlanFault] = []
     for spacing, headings in SEARCH_GRIDS:
-        area = reach(plan, robot.length, robot.width, spacing, headings)
+        try:
+            area = reach(plan, robot.length, robot.width, spacing, headings)
+        except FloorPlanError as error:
+            return [PlanFault(plan.name, str(error).removeprefix(f"{plan.name} "))]
         faults = list(_unreached(plan, robot, area))
         if not faults:
             break

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -18,6 +20,7 @@ from semnav_env.maps.rules import (
     check_polygon,
     check_region,
     check_surface,
+    check_unit,
 )
 
 Properties: TypeAlias = dict[str, Any]
@@ -62,6 +65,10 @@ def parse_plan(text: str, where: str, name: str, *, follows_schema: bool = False
         from semnav_env.maps.schema import check_schema  # bundled plans do without it
 
         check_schema(document, where)
+    try:
+        check_unit(_door_widths(document))
+    except FloorPlanError as error:
+        raise FloorPlanError(f"{where}: {error}") from None
     parts: dict[str, list[Any]] = {}
     for index, feature in enumerate(document["features"]):
         try:
@@ -76,6 +83,14 @@ def parse_plan(text: str, where: str, name: str, *, follows_schema: bool = False
     except FloorPlanError as error:
         raise FloorPlanError(f"{where}: {error}") from None
     return plan
+
+
+def _door_widths(document: Document) -> Iterator[float]:
+    """Widths of the doors as they are drawn, whatever else is wrong with the plan."""
+    for feature in document["features"]:
+        if feature["properties"]["kind"] == "door":
+            start, end = feature["geometry"]["coordinates"]
+            yield math.dist(start, end)
 
 
 def _assemble(document: Document, parts: dict[str, list[Any]], name: str) -> FloorPlan:

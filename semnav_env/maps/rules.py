@@ -18,6 +18,7 @@ from semnav_env.maps.doorways import (
     door_state,
 )
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region, Surface
+from semnav_env.maps.units import certain_unit_fault
 
 MAX_EXTENT = 1000.0
 """Largest absolute value of a coordinate, metres: larger ones are in another unit or frame."""
@@ -39,6 +40,7 @@ def check_plan(plan: FloorPlan) -> None:
     Raises:
         FloorPlanError: names the part, what is wrong with it and what would be right.
     """
+    check_unit(door.width for door in plan.doors)
     for surface in plan.surfaces:
         check_surface(surface)
     for door in plan.doors:
@@ -49,6 +51,12 @@ def check_plan(plan: FloorPlan) -> None:
     check_text(plan.name, "the plan's name")
     _check_encodable(plan.source, "the plan's source")
     check_together(plan)
+
+
+def check_unit(door_widths: Iterable[float]) -> None:
+    """Refuse a plan that is certainly not drawn in metres, by the widths of its doors."""
+    if fault := certain_unit_fault(door_widths):
+        raise FloorPlanError(fault)
 
 
 def check_surface(surface: Surface) -> None:

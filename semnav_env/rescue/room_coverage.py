@@ -41,7 +41,7 @@ class RoomCoverage:
         rows, columns = self._seen.shape
         x = self.grid.west + CELL * np.arange(columns)
         y = self.grid.south + CELL * np.arange(rows)
-        places = np.meshgrid(x, y)
+        places = x, y[:, None]
         self.floor = np.full((rows, columns), len(regions))
         for index, region in enumerate(regions):
             self.floor[shapely.contains_xy(region.polygon, *places)] = index

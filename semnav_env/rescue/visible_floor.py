@@ -9,6 +9,7 @@ import numpy as np
 
 from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.lidar.lidar import Lidar
+from semnav_env.maps.cell_budget import spacing_within_budget
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.pose_flood import REACHED
 from semnav_env.maps.reach import Reach, reach
@@ -50,8 +51,13 @@ class FloorGrid:
 
     @classmethod
     def over(cls, plan: FloorPlan) -> FloorGrid:
-        """The grid over the whole of a plan."""
+        """The grid over the whole of a plan.
+
+        Raises:
+            FloorPlanError: the plan is too large.
+        """
         west, south, east, north = plan.boundary.bounds
+        spacing_within_budget(plan, CELL, CELL, "to tell which floor a robot sees")
         rows, columns = (math.ceil(size / CELL) + 1 for size in (north - south, east - west))
         return cls(west, south, rows, columns)
 

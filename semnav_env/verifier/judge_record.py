@@ -17,7 +17,7 @@ from semnav_env.features.kernels.compiling import kernel
 from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
 from semnav_env.grounding.crossing import first_crossed
-from semnav_env.maps.geodesic import GRID_SPACING, distance_at
+from semnav_env.maps.geodesic import distance_at
 from semnav_env.verifier.exact_hypot import exact_hypot
 
 DOOR_CROSSED, ASTRAY, TOO_STILL = 8, 16, 32
@@ -113,7 +113,7 @@ def _remaining(record: JudgeRecord, state: Any) -> float:
     """Length of the way to the goal, metres."""
     if record.distances.size == 0:
         return 0.0
-    return distance_at(record.distances, state.west, state.south, GRID_SPACING, state.x, state.y)
+    return distance_at(record.distances, state.west, state.south, state.spacing, state.x, state.y)
 
 
 @kernel

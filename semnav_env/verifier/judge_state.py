@@ -51,7 +51,7 @@ class Outcome(NamedTuple):
 
 _INTEGERS = ("in_contact", "was_in_contact", "collisions", "crossed_door")
 _FLOATS = (
-    *("last_x", "last_y", "still_seconds", "west", "south"),
+    *("last_x", "last_y", "still_seconds", "west", "south", "spacing"),
     *("still_speed", "still_yaw_rate", "longest_still", "missed_beyond"),
     *("corridor_x", "corridor_y", "corridor_cos", "corridor_sin"),
 )
@@ -62,7 +62,7 @@ JUDGE_STATE = np.dtype([(name, "i8" if name in _INTEGERS else "f8") for name in 
 
 First the `Outcome`, which begins with the `Motion` of the period, written before each call. Then:
 last_x, last_y, was_in_contact, still_seconds: of the period before, the latter how long the robot
-has stood still. west, south: origin of the field of distances. still_speed, still_yaw_rate: below
+has stood still. west, south, spacing: of the field of distances. still_speed, still_yaw_rate: below
 both the robot stands still; longest_still: for how long it may. missed_beyond: see `missed_beyond`.
 corridor_x to corridor_sin: frame of the corridor of the goal.
 """
@@ -77,6 +77,7 @@ def first_state(mission: Mission) -> np.ndarray:
     state["x"], state["y"], state["heading"] = mission.start
     state["last_x"], state["last_y"] = mission.start[:2]
     state["west"], state["south"] = mission.geodesic.origin
+    state["spacing"] = mission.geodesic.spacing
     state["still_speed"], state["still_yaw_rate"] = rules.still_speed, rules.still_yaw_rate
     return state
 

@@ -27,13 +27,12 @@ from semnav_env.episodes import SPLITS, Episode, load_episodes
 from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.episodes.drafts import Drafter
 from semnav_env.episodes.generate import (
-    LARGEST_BODY,
     LIMITS,
-    Site,
     exits,
     generate_episode,
 )
 from semnav_env.episodes.random_clauses import CommandTopic
+from semnav_env.episodes.site import LARGEST_BODY, Site
 from semnav_env.episodes.wording import worded
 from semnav_env.features.corridor import corridor_at
 from semnav_env.features.frames import Pose, to_local

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from semnav_env.bench.brute_force import brute_force_ranges
 from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.features.lidar_spec import BARBRET, TIM561, LidarSpec
-from semnav_env.lidar.culling import CELL_SIZE, MAX_CELLS, Culling, cell_of
+from semnav_env.lidar.culling import CELL_SIZE, MAX_CULLING_CELLS, Culling, cell_of
 from semnav_env.lidar.raster import cast
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
 from tests.support.small_plans import closed, empty_hall, furnished_hall, plan_of
@@ -221,7 +221,7 @@ def test_every_list_holds_whatever_its_cell_can_reach() -> None:
 def test_cells_grow_instead_of_becoming_too_many() -> None:
     assert Culling.of(empty_hall().segments, 10.0).grid[0]["cell"] == CELL_SIZE
     vast = plan_of(closed((0, 0), (5e4, 0), (5e4, 3e4), (0, 3e4)))
-    assert len(Culling.of(vast.segments, 10.0).starts) < 1.1 * MAX_CELLS
+    assert len(Culling.of(vast.segments, 10.0).starts) < 1.1 * MAX_CULLING_CELLS
     assert ranges_of(vast.segments, (5e4 - 3.0, 9.0, 0.0), AROUND)[180] == pytest.approx(3.0)
 
 

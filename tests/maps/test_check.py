@@ -67,8 +67,10 @@ def test_a_narrow_door_is_a_fault_for_the_wheelchair_only() -> None:
     assert found(plan, SPOT) == []
 
 
-def test_a_room_too_shallow_for_the_body_is_found() -> None:
-    assert found(room_at_a_corridor(depth=0.8)) == [
+@pytest.mark.parametrize("depth", [0.8, 0.6])
+def test_a_room_too_shallow_for_the_body_is_found(depth: float) -> None:
+    """In the shallower one there is no place left where a body could be."""
+    assert found(room_at_a_corridor(depth=depth)) == [
         "room: a wheelchair (1.1 m x 0.65 m) cannot get into this room"
     ]
 

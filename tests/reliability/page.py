@@ -13,13 +13,16 @@ from semnav_env.features.readers.npz_arrays import MAX_BYTES as MAX_ARRAY
 from semnav_env.features.readers.text import MAX_EXPANSION
 from semnav_env.features.reading import WHOLE_FILE
 from semnav_env.features.writing import write_file
-from semnav_env.maps.geodesic import RECENT_FIELDS
+from semnav_env.maps.cell_budget import MAX_CELLS
+from semnav_env.maps.geodesic import COARSEST_SPACING, GRID_SPACING, RECENT_FIELDS
 from semnav_env.maps.importers.documents import MAX_YAML_BYTES
 from semnav_env.maps.importers.drawing import MAX_SEGMENTS
 from semnav_env.maps.importers.dxf import MAX_BLOCKS, MAX_ENTITIES
 from semnav_env.maps.importers.raster import MAX_IMAGE_BYTES, MAX_PIXELS
 from semnav_env.maps.importers.svg import MAX_ELEMENTS
 from semnav_env.maps.library import MAX_KEPT_OFFICES
+from semnav_env.maps.reach import COARSEST_SPACING as COARSEST_REACH
+from semnav_env.rescue.visible_floor import STANDPOINT
 from tests.support.paths import ROOT
 
 PAGE = ROOT / "docs" / "reliability.md"
@@ -51,6 +54,24 @@ what was accepted works.
 ## Budgets of the readers
 
 {budgets}
+
+## Memory by geometry
+
+Grids and tables over a floor plan have one budget of {cells:,} cells
+(`semnav_env/maps/cell_budget.py`): ways, what a body reaches, the floor that is seen in a search,
+the walls near a lidar, points on walls. Where a plan needs more, the grid gets coarser, for ways
+up to {ways:g} m and for what a body reaches up to {reach:g} m; a plan for which that is too coarse
+to find doors, of more than {ways_area:,.0f} m2 and {reach_area:,.0f} m2, is refused in one line
+that names its extent. Plans of up to {usual:,.0f} m2 keep their grid of {spacing:g} m.
+Tests hold every use of such plans, among them an episode, below a gigabyte
+(`tests/reliability/test_geometry_budgets.py`). Pictures have a fixed size, an exported map at most
+{pixels:,} pixels. Time has no such budget: a search looks around in every
+{standpoint:g} m of the floor.
+
+## Texts of files
+
+What a file says is printed as text: control characters, escape sequences and marks that turn the
+direction of writing are written out, such as `\\x1b` (`scripts/printable.py`).
 
 ## Bad inputs
 
@@ -100,6 +121,19 @@ BUDGETS = (
     ("trained agent", f"{MAX_FILE_SIZE:,} bytes"),
 )
 
+GEOMETRY = {
+    "cells": MAX_CELLS,
+    "ways": COARSEST_SPACING,
+    "reach": COARSEST_REACH,
+    "ways_area": MAX_CELLS * COARSEST_SPACING**2,
+    "reach_area": MAX_CELLS * COARSEST_REACH**2,
+    "usual": MAX_CELLS * GRID_SPACING**2,
+    "spacing": GRID_SPACING,
+    "pixels": MAX_PIXELS,
+    "standpoint": STANDPOINT,
+}
+"""Budgets of what follows from geometry, by their places in the page."""
+
 
 def rows(head: tuple[str, ...], body: list[tuple[str, ...]]) -> str:
     """A table in Markdown."""
@@ -124,6 +158,7 @@ def page(results: dict[str, Any]) -> str:
         inputs=counts("area, inputs", results["inputs"]),
         strikes=counts("command, strikes", results["strikes"]),
         kept=MAX_KEPT_OFFICES,
+        **GEOMETRY,
         fields=RECENT_FIELDS.max_bytes / 1e6,
         **results["steps"],
     )

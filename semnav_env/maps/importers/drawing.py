@@ -21,6 +21,7 @@ from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.importers.labels import DoorLabel
 from semnav_env.maps.importers.segments import Row, plan_of_segments
 from semnav_env.maps.rules import FloorPlanError
+from semnav_env.maps.units import unit_fault
 
 CURVE_TOLERANCE = 0.01
 """Largest distance of the lines that stand for a curve from the curve, metres."""
@@ -40,7 +41,7 @@ class Drawing:
     """Options for reading a line drawing (DXF, SVG).
 
     Attributes:
-        scale: metres a unit of the drawing, if the file does not say (0.001 for millimetres).
+        scale: metres a unit, if the file does not say (0.01 for centimetres).
         walls: layers with walls; all but those of doors if none are named.
         doors: layers with doors: arcs that leaves swing along, or on layers without an arc lines
             from jamb to jamb.
@@ -103,6 +104,8 @@ def plan_of_strokes(
     plan, report = plan_of_segments(rows, path, kind)
     drawn = [stroke for stroke in strokes if stroke.layer in drawing.doors]
     labels, passed = door_labels(drawn, corner, plan.solids)
+    if not labels and (fault := unit_fault(_widths(drawn))):
+        raise FloorPlanError(f"{path}: {fault}")
     plan, lost = with_doors(plan, labels, None)
     unused = [name for name in layers if name not in (*chosen, *drawing.doors)]
     left = tuple(f"layer {name}: {layers[name]} lines" for name in sorted(unused))
@@ -110,6 +113,12 @@ def plan_of_strokes(
     told = (f"lower left corner, now the origin, at {corner[0]:g}, {corner[1]:g} m", *notes)
     left_out = report.left_out + left + passed + lost
     return ImportedPlan(plan, replace(report, taken=taken, left_out=left_out, notes=told))
+
+
+def _widths(doors: Sequence[Stroke]) -> list[float]:
+    """Widths of doors by the radius of an arc, or the length of a line."""
+    ends = [(each.points[-1] if each.hinge is None else each.hinge) for each in doors]
+    return [math.dist(each.points[0], end) for each, end in zip(doors, ends, strict=True)]
 
 
 def door_labels(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
@@ -15,23 +16,29 @@ from semnav_env.maps.importers.dxf import load_dxf
 from semnav_env.maps.importers.house_expo import is_house, plan_of_house
 from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.importers.occupancy import IMAGE_SUFFIXES, read_occupancy
+from semnav_env.maps.importers.plan_file import load_plan_file
 from semnav_env.maps.importers.segments import load_csv, load_vector_map
 from semnav_env.maps.importers.svg import load_svg
 from semnav_env.maps.importers.tracing import Tracing, trace
 from semnav_env.maps.rules import FloorPlanError
+from semnav_env.maps.units import certain_unit_fault, unit_fault
 
 IMPORTED_FORMATS = (
     "a map_server map (.yaml, or its image with a resolution)",
     "a vector map or a house of HouseExpo (.json)",
     "a list of segments (.csv)",
     "a drawing (.dxf, .svg)",
+    "a floor plan of this project in another unit (.geojson)",
 )
 """Formats that can be imported, as an error lists them."""
 
 KNOWN_SUFFIXES = frozenset(
-    (".yaml", ".yml", ".dxf", ".svg", ".json", ".csv", ".txt", *IMAGE_SUFFIXES)
+    (".yaml", ".yml", ".dxf", ".svg", ".json", ".csv", ".txt", ".geojson", *IMAGE_SUFFIXES)
 )
 """Suffixes of the files that the package itself reads; nobody else may register them."""
+
+LARGE_EXTENT = 300.0
+"""Extent of an imported plan beyond which its unit is doubted, metres: few buildings are longer."""
 
 Importer: TypeAlias = Callable[[Path], ImportedPlan]
 """Reads a file into a floor plan and the report of what was understood."""
@@ -67,10 +74,10 @@ def import_map(
     Args:
         path: .yaml or .yml of ROS's map_server, with the labels beside it if there are any; its
             image alone; .json with the segments of a vector map or a house of HouseExpo; .csv or
-            .txt with segments; .dxf or .svg; or a kind of `register_importer`.
+            .txt with segments; .dxf or .svg; .geojson; or a kind of `register_importer`.
         resolution: metres per pixel of an image alone.
         tracing: options for tracing walls from the pixels of an occupancy map.
-        drawing: scale and layers of a drawing; of a house, only the scale is used.
+        drawing: scale and layers of a drawing; of other coordinates only the scale is used.
 
     Returns:
         The plan, and what was understood.
@@ -83,12 +90,30 @@ def import_map(
     if suffix in _registered:
         return _registered[suffix](where)
     try:
-        return _imported(where, suffix, resolution, tracing, drawing)
+        return _with_doubts(_imported(where, suffix, resolution, tracing, drawing), where)
     except (FloorPlanError, OSError, ImportError):
         raise
     except Exception as error:  # foreign bytes raise whatever a parser stumbles over
         said = (str(error) or type(error).__name__).splitlines()[0]
         raise FloorPlanError(f"{where}: cannot be read: {clipped(said)}") from error
+
+
+def _with_doubts(found: ImportedPlan, path: Path) -> ImportedPlan:
+    """The plan with a note where its size tells of another unit; refused where it is certain."""
+    plan, report = found
+    widths = [door.width for door in plan.doors]
+    if fault := certain_unit_fault(widths):
+        raise FloorPlanError(f"{path}: {fault}")
+    west, south, east, north = plan.boundary.bounds
+    doubt = unit_fault(widths)
+    if max(east - west, north - south) > LARGE_EXTENT:
+        doubt = doubt or (
+            f"it spans {east - west:,.0f} m x {north - south:,.0f} m; if that is too large, give "
+            "--drawing.scale, metres a unit, such as 0.01 for centimetres; or for images the "
+            "right resolution"
+        )
+    notes = (*report.notes, *filter(None, [doubt]))
+    return ImportedPlan(plan, replace(report, notes=notes))
 
 
 def _imported(
@@ -104,12 +129,15 @@ def _imported(
         raise FloorPlanError(f"{where}: only an image alone needs a resolution; leave it out")
     if suffix in (".yaml", ".yml"):
         return load_building(where, tracing)
+    scale = drawing.scale if drawing else None
     if suffix in (".dxf", ".svg"):
         return (load_dxf if suffix == ".dxf" else load_svg)(where, drawing)
     if suffix == ".json":
-        return _load_json(where, drawing.scale if drawing else None)
+        return _load_json(where, scale)
     if suffix in (".csv", ".txt"):
-        return load_csv(where)
+        return load_csv(where, scale)
+    if suffix == ".geojson":
+        return load_plan_file(where, scale)
     raise FloorPlanError(f"{where}: no map of a known kind; give {', '.join(IMPORTED_FORMATS)}")
 
 
@@ -120,4 +148,6 @@ def _load_json(path: Path, scale: float | None) -> ImportedPlan:
         content = json.loads(text)
     except (ValueError, RecursionError):
         content = None  # the reader of vector maps says what is wrong
-    return plan_of_house(content, path, scale) if is_house(content) else load_vector_map(path)
+    return (
+        plan_of_house(content, path, scale) if is_house(content) else load_vector_map(path, scale)
+    )

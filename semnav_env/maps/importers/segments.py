@@ -20,11 +20,15 @@ Row: TypeAlias = tuple[float, float, float, float]
 """The ends x1, y1, x2, y2 of a segment, metres."""
 
 
-def load_vector_map(path: str | Path) -> ImportedPlan:
+def load_vector_map(path: str | Path, scale: float | None = None) -> ImportedPlan:
     """The floor plan of a `.vectormap.json` file: walls only, no doors and no rooms.
 
     The file is a list of segments {"p0": {"x": ..., "y": ...}, "p1": {...}} in metres (the maps
     of the University of Texas AMRL).
+
+    Args:
+        path: the file.
+        scale: metres a unit of its coordinates; 1 if None.
 
     Raises:
         FloorPlanError: not such a file; names what is wrong.
@@ -44,13 +48,17 @@ def load_vector_map(path: str | Path) -> ImportedPlan:
             f'{where}: not a vector map ({error}); it must be a list of {{"p0": {{"x": 0.0, '
             '"y": 0.0}, "p1": {...}} in metres'
         ) from None
-    return plan_of_segments(ends, where, "vector map")
+    return plan_of_segments(ends, where, "vector map", scale)
 
 
-def load_csv(path: str | Path) -> ImportedPlan:
+def load_csv(path: str | Path, scale: float | None = None) -> ImportedPlan:
     """The floor plan of a CSV file: x1, y1, x2, y2 of one wall in each line, metres.
 
     A first line without numbers is a heading; empty lines and those that begin with # are skipped.
+
+    Args:
+        path: the file.
+        scale: metres a unit of its coordinates; 1 if None.
 
     Raises:
         FloorPlanError: not such a file; names the line, and what is wrong.
@@ -61,21 +69,24 @@ def load_csv(path: str | Path) -> ImportedPlan:
     rows = [(k, [cell.strip() for cell in next(csv.reader([line]))]) for k, line in told]
     if rows and not any(map(_is_number, rows[0][1])):
         rows = rows[1:]
-    return plan_of_segments([_row(where, *row) for row in rows], where, "list of segments")
+    return plan_of_segments([_row(where, *row) for row in rows], where, "list of segments", scale)
 
 
-def plan_of_segments(rows: Sequence[Row], path: Path, kind: str) -> ImportedPlan:
+def plan_of_segments(
+    rows: Sequence[Row], path: Path, kind: str, scale: float | None = None
+) -> ImportedPlan:
     """A plan whose walls are segments, without repeated ones and those of no length.
 
     Args:
-        rows: x1, y1, x2, y2 in metres.
+        rows: x1, y1, x2, y2 in units of the file.
         path: file that they were read from.
         kind: kind of file, in words.
+        scale: metres a unit; 1 if None.
 
     Raises:
         FloorPlanError: no wall is left.
     """
-    ends = np.array(rows, dtype=np.float64).reshape(-1, 4)
+    ends = np.array(rows, dtype=np.float64).reshape(-1, 4) * (scale or 1.0)
     long = np.hypot(*(ends[:, 2:] - ends[:, :2]).T) >= LEAST_SEGMENT_LENGTH
     kept = _without_repetition(ends[long])
     if not len(kept):
