@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -115,10 +115,12 @@ class GoToDoor(Spoken):
     Attributes:
         door: which door.
         approach: stop in front of it, stop in its doorway, or go through it.
+        by_default: the approach was not said; see `defaults`. It does not count in comparisons.
     """
 
     door: DoorReference
     approach: Approach = Approach.THROUGH
+    by_default: bool = field(default=False, compare=False, repr=False)
 
     def say(self, language: Language) -> str:
         """In the words of a language."""
