@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from semnav_env.features.frames import FloatArray
+from semnav_env.features.validation import as_float, require
 
 _MAX_FIRST_ANGLE = 8.0 * math.pi
 """A first direction beyond this is in degrees, not a heading that was not wrapped; radians."""
@@ -64,10 +65,10 @@ class Scan:
         stamp: float | None = None,
     ) -> None:
         values = dict(
-            angle_min=float(angle_min),
-            angle_increment=float(angle_increment),
-            range_min=float(range_min),
-            range_max=float(range_max),
+            angle_min=as_float("angle_min", angle_min),
+            angle_increment=as_float("angle_increment", angle_increment),
+            range_min=as_float("range_min", range_min),
+            range_max=as_float("range_max", range_max),
         )
         _check_numbers(values)
         array = _check_ranges(ranges, values["range_max"])
@@ -96,8 +97,7 @@ class Scan:
 
 def _check_numbers(values: dict[str, float]) -> None:
     for name, value in values.items():
-        if not math.isfinite(value):
-            raise ValueError(f"{name} is {value}; it must be a finite number")
+        require(math.isfinite(value), name, value, "a finite number")
     if not 0 <= values["range_min"] < values["range_max"]:
         raise ValueError(
             f"range_min {values['range_min']} and range_max {values['range_max']} must satisfy "

@@ -39,6 +39,18 @@ def shown(value: object) -> str:
         return f"a {type(value).__name__} that is too long to write"
 
 
+def as_float(name: str, value: float) -> float:
+    """A number as a float.
+
+    Raises:
+        ValueError: no float is as large.
+    """
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{name} is {shown(value)}; it must be a finite number") from None
+
+
 def clipped(text: str, most: int = SHOWN) -> str:
     """A text for a message, cut to a number of characters."""
     return text if len(text) <= most else f"{text[: most - 3]}..."

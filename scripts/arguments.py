@@ -7,9 +7,12 @@ import math
 import re
 from collections.abc import Sequence
 from contextlib import redirect_stderr
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Optional, Protocol, TypeAlias, cast
 
 import tyro
+
+from semnav_env.scripts.terminal_text import as_utf8
 
 if TYPE_CHECKING:  # `semnav doctor` must start without the compiled kernels
     from semnav_env.features.frames import Pose
@@ -45,11 +48,19 @@ def parse(arguments: Any, words: Sequence[str], prog: str) -> Runnable:
     box = io.StringIO()
     try:
         with redirect_stderr(box):
-            return cast(Runnable, tyro.cli(arguments, args=list(words), prog=prog))
+            return _with_said_command(tyro.cli(arguments, args=list(words), prog=prog))
     except SystemExit as stop:
         if not stop.code:
             raise HelpShown from None
         raise ValueError(f"{_unboxed(box.getvalue())} (see {prog} --help)") from None
+
+
+def _with_said_command(arguments: Any) -> Runnable:
+    """The arguments with their `command`, if they have one, as its words were typed."""
+    command = getattr(arguments, "command", None)
+    if isinstance(command, str):
+        arguments = replace(arguments, command=as_utf8(command))
+    return cast(Runnable, arguments)
 
 
 def _unboxed(box: str) -> str:

@@ -19,6 +19,7 @@ from typing import NoReturn
 
 from semnav_env.features.validation import clipped
 from semnav_env.scripts.printable import printable, printing_text
+from semnav_env.scripts.terminal_text import write_utf8
 
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO)
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE, TERMINATED = 2, 130, 141, 143
@@ -51,6 +52,7 @@ class CommandTable:
         Returns:
             The exit code.
         """
+        write_utf8(sys.stdout, sys.stderr)
         words = list(sys.argv[1:] if argv is None else argv)
         debug = "--debug" in words or os.environ.get("SEMNAV_DEBUG", "0") not in ("", "0")
         words = [word for word in words if word != "--debug"]

@@ -10,7 +10,6 @@ from tyro.conf import Positional
 
 from semnav_env.commands import (
     AmbiguousCommandError,
-    Approach,
     Clause,
     Command,
     CommandError,
@@ -84,7 +83,10 @@ class Arguments:
 
 def _in_words(because: str, clause: Clause, spoken: Language) -> str:
     """What was understood, in the language of the command; goals speak English alone."""
-    return because if spoken.code == "en" else clause.say(spoken)
+    if spoken.code == "en":
+        return because
+    unsaid = isinstance(clause, GoToDoor) and clause.by_default
+    return clause.say(spoken) + (spoken.say("by_default") if unsaid else "")
 
 
 def _line(row: dict[str, Any]) -> str:
@@ -101,11 +103,8 @@ def understood(text: str, language: str | None = None, rooms: tuple[str, ...] = 
     """
     try:
         return parse(text, language, rooms)
-    except AmbiguousCommandError as error:
-        to: list[Command] = [each for each in error.readings if _is_place(each)]
-        if len(to) != 1:
-            raise
-        return to[0]
+    except AmbiguousCommandError:
+        raise
     except CommandError as error:
         if language not in (None, "en"):
             raise
@@ -114,12 +113,3 @@ def understood(text: str, language: str | None = None, rooms: tuple[str, ...] = 
         except CommandError as place_error:
             further = (place_error.position or 0) - len("go to ") > (error.position or 0)
             raise place_error if further else error from None
-
-
-def _is_place(command: Command) -> bool:
-    """Whether a command only says to go to a door."""
-    match command.clauses:
-        case (GoToDoor(_, Approach.TO),):
-            return True
-        case _:
-            return False

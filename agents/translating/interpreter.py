@@ -9,9 +9,10 @@ from pathlib import Path
 from semnav_env.agents.translating.files import BUNDLED_FOLDER, load_translator
 from semnav_env.agents.translating.support import TextSupport
 from semnav_env.agents.translating.translator import TranslatedText, Translation, translate
-from semnav_env.commands.clauses import Stop
+from semnav_env.commands.clauses import GoToDoor, Stop
 from semnav_env.commands.command import Command
 from semnav_env.commands.corpora.meanings import meaning_of, normal
+from semnav_env.commands.defaults import decided
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.interpreters import Interpretation
 from semnav_env.commands.language import Language
@@ -96,38 +97,52 @@ class LearnedInterpreter:
             CommandError: the text is refused; it is the error of the grammar.
         """
         try:
-            found = readings(text, self.language, self.rooms)
+            every = readings(text, self.language, self.rooms)
         except AmbiguousCommandError as error:
             raise (self._refusal(text, error) or self._wider(text, error) or error) from None
         except CommandError as error:
             is_settled = error.problem.startswith(SETTLED)
             raise ((None if is_settled else self._question(text)) or error) from None
+        found = decided(every)
         spoken, (first, *more) = self._spoken(text), found
         if more:
-            others = self._others(text, found, 1)
+            others = self._others(text, every, 1)
             return Interpretation(text, (*found, *others), spoken, "grammar")
-        if not self._is_canonical(text, first) and (doubt := self._doubt(text, first)):
+        if not self._is_certain(text, first) and (doubt := self._doubt(text, first, every)):
             raise doubt
         return Interpretation(text, found, spoken, "grammar")
 
-    def _is_canonical(self, text: str, command: Command) -> bool:
-        """Whether a text is what the robot itself would say, which is never doubted."""
+    def _is_certain(self, text: str, command: Command) -> bool:
+        """Whether a text is never doubted: a stop, or what the robot itself would say.
+
+        A door alone in no more words than it has in canonical ones is that, too: "the door".
+        """
         spoken = self._spoken(text)
         said = normalise(text, spoken).text.rstrip(spoken.punctuation)
+        match command.clauses:
+            case clauses if all(clause == Stop() for clause in clauses):
+                return True
+            case (GoToDoor(door, _, True),) if len(said.split()) <= len(door.say(spoken).split()):
+                return True
         return said == normalise(command.say(spoken), spoken).text
 
-    def _doubt(self, text: str, command: Command) -> AmbiguousCommandError | None:
-        """The question whether a text means the grammar's reading; None to act on it."""
+    def _doubt(
+        self, text: str, command: Command, every: Sequence[Command]
+    ) -> AmbiguousCommandError | None:
+        """The question whether a text means the grammar's reading; None to act on it.
+
+        Readings between which it went without saying are not doubted against each other.
+        """
         translated = self._translated(text)
         if translated is None:
             return None
-        likeness = translated.likeness_of(command)
-        if likeness is None and translated.has_sides_of(command):
+        known = [n for each in every if (n := translated.likeness_of(each)) is not None]
+        if not known and translated.has_sides_of(command):
             return None  # such as a search, for which there are no symbols
-        likeness = likeness or 0.0
+        likeness = sum(known)
         if likeness >= self.limits.acting:
             return None
-        others = self._others(text, (command,), self.limits.choices - 1)
+        others = self._others(text, every, self.limits.choices - 1)
         found = (command, *others)
         spoken = self._spoken(text)
         said = differences(found, spoken) if others else (command.say(spoken),)

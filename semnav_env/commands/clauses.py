@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -20,6 +20,7 @@ from semnav_env.commands.references import (
     Spoken,
     check_room_name,
 )
+from semnav_env.features.validation import shown
 
 if TYPE_CHECKING:
     from semnav_env.commands.language import Language
@@ -95,7 +96,7 @@ class Turn(Spoken):
             raise ValueError("a turn by degrees is to the left or right, on the spot")
         if not 0 < self.degrees <= MAX_DEGREES or self.degrees % DEGREE_STEP:
             limits = f"{DEGREE_STEP} to {MAX_DEGREES} degrees in steps of {DEGREE_STEP}"
-            raise ValueError(f"a turn is by {limits}, not {self.degrees!r}")
+            raise ValueError(f"a turn is by {limits}, not {shown(self.degrees)}")
 
     def say(self, language: Language) -> str:
         """In the words of a language."""
@@ -115,10 +116,12 @@ class GoToDoor(Spoken):
     Attributes:
         door: which door.
         approach: stop in front of it, stop in its doorway, or go through it.
+        by_default: the approach was not said; see `defaults`. It does not count in comparisons.
     """
 
     door: DoorReference
     approach: Approach = Approach.THROUGH
+    by_default: bool = field(default=False, compare=False, repr=False)
 
     def say(self, language: Language) -> str:
         """In the words of a language."""
@@ -188,7 +191,7 @@ class Stop(Spoken):
 
     def __post_init__(self) -> None:
         if not isinstance(self.seconds, int) or not 0 <= self.seconds <= MAX_SECONDS:
-            raise ValueError(f"a wait is of 1 to {MAX_SECONDS} seconds, not {self.seconds!r}")
+            raise ValueError(f"a wait is of 1 to {MAX_SECONDS} seconds, not {shown(self.seconds)}")
 
     def say(self, language: Language) -> str:
         """In the words of a language."""

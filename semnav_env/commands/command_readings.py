@@ -8,10 +8,11 @@ from dataclasses import replace
 from itertools import pairwise, product
 from typing import Any
 
-from semnav_env.commands.clause_readings import ClauseReadings
+from semnav_env.commands.clause_readings import ClauseReadings, Readings
 from semnav_env.commands.clauses import (
     Approach,
     Clause,
+    Face,
     Follow,
     GoToDoor,
     IfThere,
@@ -19,12 +20,24 @@ from semnav_env.commands.clauses import (
     Turn,
     Turning,
 )
-from semnav_env.commands.command import Command, Link, links_of, may_count_on, reference_of
+from semnav_env.commands.command import (
+    MAX_CLAUSES,
+    Command,
+    Link,
+    links_of,
+    may_count_on,
+    reference_of,
+)
+from semnav_env.commands.defaults import decided, through
 from semnav_env.commands.one_reading import OutOfPlaceError, Reading, one_reading
 from semnav_env.commands.references import DoorReference, PlaceReference
 
 MAX_READINGS = 16
 """The most readings of a command; nobody would choose among more, so the text is refused."""
+
+
+MAX_TRIED = 2**MAX_CLAUSES
+"""The most readings that are made, which those of `MAX_CLAUSES` doors without a verb come to."""
 
 
 class TooAmbiguousError(ValueError):
@@ -41,13 +54,22 @@ def commands_of(found: Sequence[ClauseReadings]) -> tuple[Command, ...]:
         OutOfPlaceError: "go in" without a door before it, and the like.
         TooAmbiguousError: too many readings.
     """
-    _check_number(math.prod(len(each.readings) for each in found))
+    _check_number(math.prod(_choices(each.readings) for each in found))
+    _check_number(math.prod(len(each.readings) for each in found), MAX_TRIED)
     readings = [one_reading(found, choice) for choice in product(*(f.readings for f in found))]
     readings = [_with_dependent_turn(reading) for reading in readings]
     _check_conditions(readings, last=len(found) - 1)
     commands = [clauses for reading in readings if reading for clauses in _countings(reading)]
-    _check_number(len(commands))
-    return tuple(dict.fromkeys(Command(clauses) for clauses in commands))
+    found_commands = tuple(dict.fromkeys(map(Command, commands)))
+    if len(found_commands) > MAX_READINGS:
+        found_commands = decided(found_commands)
+    _check_number(len(found_commands))
+    return found_commands
+
+
+def _choices(readings: Readings) -> int:
+    """How many readings of a stretch differ in more than how they approach a door."""
+    return len({tuple(map(through, steps)) for steps in readings})
 
 
 def _with_dependent_turn(reading: Reading) -> Reading:
@@ -63,8 +85,8 @@ def _with_dependent_turn(reading: Reading) -> Reading:
     return reading
 
 
-def _check_number(readings: int) -> None:
-    if readings > MAX_READINGS:
+def _check_number(readings: int, most: int = MAX_READINGS) -> None:
+    if readings > most:
         raise TooAmbiguousError(readings)
 
 
@@ -95,6 +117,9 @@ def _countings(reading: Reading) -> list[tuple[Clause, ...]]:
     links = links_of([each.clause for each in reading])
     pairs = zip(pairwise(reading), links[1:], strict=True)
     for number, ((before, each), link) in enumerate(pairs, 1):
+        if link in (Link.THEN, Link.OTHERWISE):
+            countings = [(*all_, _in_case(all_, reading, link)) for all_ in countings]
+            continue
         choices, first = [each.clause], before.clause
         if link is Link.NEXT and may_count_on(first, each.clause) and not each.anew:
             choices.append(_counted_on(first, each.clause))
@@ -102,6 +127,14 @@ def _countings(reading: Reading) -> list[tuple[Clause, ...]]:
             choices.append(_as_first(each.clause))
         countings = [(*clauses, choice) for clauses in countings for choice in choices]
     return countings
+
+
+def _in_case(clauses: Sequence[Clause], reading: Reading, link: Link) -> Clause:
+    """The next clause, which depends on a condition, counted from where that is counted."""
+    at, clause = len(clauses) - (1 if link is Link.THEN else 2), reading[len(clauses)].clause
+    counts_on = clauses[at] != reading[at].clause
+    first = reading[at - 1].clause
+    return _counted_on(first, clause) if counts_on and may_count_on(first, clause) else clause
 
 
 def _is_next_door(reading: Reading, number: int) -> bool:
@@ -124,6 +157,6 @@ def _counted_on(before: Clause, clause: Any) -> Clause:
     assert first is not None
     assert second is not None
     reference: Any = replace(second, ordinal=second.ordinal - first.ordinal)
-    names: dict[type, str] = {GoToDoor: "door", Follow: "until"}
+    names: dict[type, str] = {GoToDoor: "door", Follow: "until", IfThere: "what", Face: "what"}
     changed: Any = replace(clause, **{names.get(type(clause), "at"): reference})
     return changed  # type: ignore[no-any-return]

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from semnav_env.commands.command import Command
+from semnav_env.commands.defaults import decided
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.language import Language
 from semnav_env.commands.languages import language_of
@@ -41,15 +42,16 @@ class Interpretation:
 
     @property
     def command(self) -> Command:
-        """The one reading.
+        """The one reading, with what goes without saying; see `defaults`.
 
         Raises:
             AmbiguousCommandError: there are several.
         """
-        command, *others = self.readings
+        found = decided(self.readings)
+        command, *others = found
         if others:
-            apart = differences(self.readings, self.language)
-            raise AmbiguousCommandError(self.text, self.readings, apart)
+            apart = differences(found, self.language)
+            raise AmbiguousCommandError(self.text, found, apart)
         return command
 
     @property

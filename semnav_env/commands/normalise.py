@@ -12,12 +12,17 @@ from semnav_env.commands.errors import CommandError, character_name
 from semnav_env.commands.language import Language
 from semnav_env.commands.references import DoorReference, Side
 from semnav_env.commands.rooms import without_accents
+from semnav_env.commands.words import pieces
 
-MAX_CHARACTERS = 20_000
+MAX_CHARACTERS = 4_000
 """The longest text that is read, characters; it bounds the time that a parse can take."""
 
-MAX_WORDS = 300
-"""The most words that are read; far above what `MAX_CLAUSES` clauses need."""
+MAX_WORDS = 150
+"""The most words, numbers and signs that are read. Those of 8,511 frozen texts and of 2,360 that
+people wrote have 73 at most; the time of a parse grows faster than their number."""
+
+MAX_WORD_LENGTH = 80
+"""The longest word, number or quoted name that is read, characters; no known word is longer."""
 
 INVISIBLE = frozenset("\u00ad\u200b\u200c\u200d\u200e\u200f\u061c\u2060\ufeff")
 """Soft hyphen, zero-width spaces and joiners, direction marks. They are dropped, because they
@@ -70,12 +75,30 @@ def normalise(original: str, language: Language) -> NormalisedText:
         origin.append(index)
     text = "".join(characters).rstrip()
     if not text:
-        example = GoToDoor(DoorReference(2, Side.RIGHT)).say(language)
-        raise CommandError("the command is empty", hint=f'for example: "{example}"')
-    if (words := text.count(" ") + 1) > MAX_WORDS:
-        raise CommandError(f"the command has {words} words; at most {MAX_WORDS} are read")
+        raise empty_command(language)
     end = origin[len(text) - 1] + 1
-    return NormalisedText(original, text, (*origin[: len(text)], end))
+    normalised = NormalisedText(original, text, (*origin[: len(text)], end))
+    _check_words(normalised)
+    return normalised
+
+
+def empty_command(language: Language) -> CommandError:
+    """The error for a text without words."""
+    example = GoToDoor(DoorReference(2, Side.RIGHT)).say(language)
+    return CommandError("the command is empty", hint=f'for example: "{example}"')
+
+
+def _check_words(normalised: NormalisedText) -> None:
+    """Refuse what would take long to read, before it is read."""
+    found = pieces(normalised.text)
+    if len(found) > MAX_WORDS:
+        problem = f"the command has {len(found)} words and signs; at most {MAX_WORDS} are read"
+        raise CommandError(problem)
+    for piece in found:
+        if len(piece.text) > MAX_WORD_LENGTH:
+            problem = f"a word has {len(piece.text)} characters; at most {MAX_WORD_LENGTH} are read"
+            position, length = normalised.span(piece.start, piece.stop)
+            raise CommandError(problem, normalised.original, position, length)
 
 
 def _check_size(original: str) -> None:

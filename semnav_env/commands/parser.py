@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from semnav_env.commands.command import Command, room_of
+from semnav_env.commands.defaults import decided
 from semnav_env.commands.errors import AmbiguousCommandError, CommandError
 from semnav_env.commands.language import Language
 from semnav_env.commands.languages import english, language_of
@@ -29,7 +30,7 @@ def parse(text: str, language: str | Language | None = None, rooms: Sequence[str
         AmbiguousCommandError: it can mean several commands, which are `error.readings`.
         ValueError: there is no such language.
     """
-    found = readings(text, language, rooms)
+    found = decided(readings(text, language, rooms))
     command, *others = found
     if others:
         spoken = english() if language is None else language_of(language)
@@ -51,7 +52,10 @@ def correct(command: Command, text: str, language: str | Language = "en") -> Com
 def readings(
     text: str, language: str | Language | None = None, rooms: Sequence[str] = ()
 ) -> tuple[Command, ...]:
-    """Every command that a text can mean; like `parse`, but several readings are no error."""
+    """Every command that a text can mean; like `parse`, but several readings are no error.
+
+    What goes without saying (`defaults`) is not decided here.
+    """
     from semnav_env.commands.spoken_text import readings_of_text  # here, as it is large
 
     found = readings_of_text(text, None if language is None else language_of(language), rooms)

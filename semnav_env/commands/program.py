@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import fields
+from dataclasses import Field, fields
 from enum import Enum
 from typing import Any, get_args
 
@@ -51,11 +51,16 @@ def from_program(program: object) -> Command:
 
 def _plain(value: Any) -> dict[str, Any]:
     plain: dict[str, Any] = {"kind": type(value).__name__}
-    for field in fields(value):
+    for field in _compared(value):
         part = getattr(value, field.name)
         referring = isinstance(part, tuple(REFERENCE_KINDS.values()))
         plain[field.name] = _plain(part) if referring else getattr(part, "value", part)
     return plain
+
+
+def _compared(value: Any) -> list[Field[Any]]:
+    """The fields that say what is to be done, and not how that was found out."""
+    return [field for field in fields(value) if field.compare]
 
 
 def _value(plain: object, kinds: Mapping[str, Any], where: str) -> Any:
@@ -66,7 +71,7 @@ def _value(plain: object, kinds: Mapping[str, Any], where: str) -> Any:
     kind = kinds.get(str(given.pop("kind", None)))
     if kind is None:
         raise ValueError(f"the kind of {where} is one of {', '.join(kinds)}: {plain!r}")
-    known = {field.name for field in fields(kind)}
+    known = {field.name for field in _compared(kind)}
     if not set(given) <= known:
         strange = ", ".join(map(repr, sorted(set(map(str, given)) - known)))
         raise ValueError(f"{where}, a {kind.__name__}, has no {strange}")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
 from numbers import Integral
 from typing import TYPE_CHECKING, TypeAlias
+
+from semnav_env.features.validation import shown
 
 if TYPE_CHECKING:
     from semnav_env.commands.language import Language
@@ -168,10 +169,9 @@ class Distance(Spoken):
 
     def __post_init__(self) -> None:
         quantum, most = AMOUNT_STEP[self.unit], MAX_AMOUNT[self.unit]
-        whole = math.isfinite(self.amount) and self.amount % quantum == 0
-        if not whole or not quantum <= self.amount <= most:
-            problem = f"a distance is {quantum:g} to {most:g} {self.unit}"
-            raise ValueError(f"{problem} in steps of {quantum:g}, not {self.amount:g}")
+        if not quantum <= self.amount <= most or self.amount % quantum:
+            problem = f"a distance is {quantum:g} to {most:g} {self.unit} in steps of {quantum:g}"
+            raise ValueError(f"{problem}, not {shown(self.amount).removesuffix('.0')}")
 
     @property
     def metres(self) -> float:
@@ -214,11 +214,11 @@ def check_room_name(name: str) -> None:
         ValueError: it has other characters than small letters, digits and what parts them.
     """
     if not isinstance(name, str) or not _NAME.fullmatch(name):
-        raise ValueError(f"a room's name is of small letters and digits, not {name!r}")
+        raise ValueError(f"a room's name is of small letters and digits, not {shown(name)}")
 
 
 def _check_ordinal(what: str, ordinal: int) -> None:
     whole = isinstance(ordinal, Integral) and ordinal != OTHER
     if not whole or not -MAX_FROM_END <= ordinal <= MAX_ORDINAL:
         words = f"1 to {MAX_ORDINAL}, or LAST ({LAST}) down to {-MAX_FROM_END}"
-        raise ValueError(f"the ordinal of a {what} is {words}, not {ordinal!r}")
+        raise ValueError(f"the ordinal of a {what} is {words}, not {shown(ordinal)}")

@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 
 from semnav_env.commands.clauses import Stop
 from semnav_env.commands.command import Command
+from semnav_env.commands.defaults import decided
 from semnav_env.commands.errors import AmbiguousCommandError
 from semnav_env.commands.language import Language
 from semnav_env.commands.languages import english
-from semnav_env.commands.normalise import normalise
+from semnav_env.commands.normalise import empty_command, normalise
 from semnav_env.commands.repeats import told_once
 from semnav_env.commands.speech.items import ItemKind
 from semnav_env.commands.speech.lexicon import (
@@ -45,6 +46,8 @@ def readings_of_text(
     lexicon = lexicon_of(spoken) if language else lexicon_for(words, spoken)
     names = name_phrases(rooms)
     said = with_room_names(spoken_pieces(found, lexicon), lexicon, names)
+    if not said:
+        raise empty_command(lexicon.language)
     understood = _understood(said, lexicon, names)
     if not understood.commands:
         from semnav_env.commands.refusal import refusal  # here, as most texts are understood
@@ -98,7 +101,7 @@ def _without_slips(
     corrected = corrected_words(words, lexicon.words.union(*names))
     if corrected is None:
         return None
-    meant = understand(corrected[0], lexicon, names).commands
+    meant = decided(understand(corrected[0], lexicon, names).commands)
     if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
         return None
     right = ", ".join(dict.fromkeys(corrected[1].values()))
@@ -119,7 +122,7 @@ def _ask_without_unread(
         AmbiguousCommandError: it would mean something.
     """
     words = [piece.text for piece in said]
-    meant = understand(words, lexicon, names, leave_out=True).commands
+    meant = decided(understand(words, lexicon, names, leave_out=True).commands)
     if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
         return
     unread = next((i for i in understood.items if i.kind is ItemKind.UNKNOWN), None)

@@ -139,6 +139,14 @@ def _frozen(value: Any) -> Any:
     return float(value) if isinstance(value, int) else value
 
 
+MAX_DIGITS = 18
+"""The most digits of an episode's number, which is the seed of its noise: 63 bits hold them."""
+
+
+def _is_seed(digits: str) -> bool:
+    return digits.isdecimal() and len(digits) <= MAX_DIGITS
+
+
 def _is_text(value: object) -> bool:
     return isinstance(value, str) and bool(value.strip())
 
@@ -161,8 +169,8 @@ def _all(value: object, fits: Callable[[Any], bool]) -> bool:
 
 FIELDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "id": (
-        lambda v: _is_text(v) and v.rpartition("-")[2].isdecimal() and v.isascii(),
-        'a split and a number, as "train-00017"',
+        lambda v: _is_text(v) and v.isascii() and _is_seed(v.rpartition("-")[2]),
+        f'a split and a number of at most {MAX_DIGITS} digits, as "train-00017"',
     ),
     "floor_plan": (_is_text, "the name or path of a floor plan"),
     "plan_hash": (lambda v: _is_text(v) and len(v) == 16, "16 hexadecimal digits"),

@@ -47,7 +47,7 @@ def door_goal(clause: GoToDoor, situation: Situation) -> Goal:
     found = find_door(clause.door, situation)
     if isinstance(found, Searching):
         return search_goal(found)
-    door, because = found.value, str(clause.door)
+    door, because = found.value, _because(clause)
     across = door.side in (Side.BEHIND, Side.OPPOSITE)  # not along the corridor
     corridor = None if across else situation.corridor
     stand_off = situation.rules.grounding.stand_off
@@ -63,6 +63,13 @@ def door_goal(clause: GoToDoor, situation: Situation) -> Goal:
         door.door,
         corridor=corridor,
     )
+
+
+def _because(clause: GoToDoor) -> str:
+    """The door, and that nothing was said of how to approach it."""
+    from semnav_env.commands.languages import english  # read when first spoken
+
+    return str(clause.door) + (english().say("by_default") if clause.by_default else "")
 
 
 def leave_goal(situation: Situation) -> Goal:

@@ -18,7 +18,6 @@ from tests.support.command_strategies import commands
 
 AMBIGUOUS = {
     "en": (
-        "the second door on the left",
         "go back",
         "turn 90 degrees",
         "turn left at the second door",
@@ -27,7 +26,6 @@ AMBIGUOUS = {
         "take the second door, left",
     ),
     "de": (
-        "die zweite Tür links",
         "geh zurück",
         "dreh dich um 90 Grad",
         "nimm die zweite Tür, links",
@@ -63,9 +61,9 @@ def test_what_tells_the_readings_apart_is_said(code: str, text: str) -> None:
 
 
 def test_the_clauses_that_all_readings_share_are_left_out() -> None:
-    error = error_of("stop, turn left, the first door on the right, turn around and stop")
-    to, through = "go to the first door on the right", "go through the first door on the right"
-    assert [each.split(", ")[-1].split(" and ")[-1] for each in error.differences] == [to, through]
+    error = error_of("stop, turn left, turn 90 degrees, turn around and stop")
+    left, right = "turn left by 90 degrees", "turn right by 90 degrees"
+    assert [each.split(", ")[-1].split(" and ")[-1] for each in error.differences] == [left, right]
     assert all("around" not in each for each in error.differences)
 
 
@@ -92,7 +90,7 @@ def test_canonical_words_are_never_ambiguous(code: str) -> None:
     check()
 
 
-@given(st.lists(st.sampled_from(("go back", "the door", "turn 45 degrees", "stop")), min_size=1))
+@given(st.lists(st.sampled_from(("go back", "turn 45 degrees", "stop")), min_size=1))
 def test_any_heap_of_ambiguous_clauses_is_answered(clauses: list[str]) -> None:
     text, ways = ", ".join(clauses), 2 ** sum(clause != "stop" for clause in clauses)
     if ways <= 16 and len(clauses) + clauses.count("go back") <= 8:

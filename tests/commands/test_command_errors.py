@@ -125,13 +125,16 @@ def test_a_command_that_is_no_text_is_refused(text: object) -> None:
 def test_a_megabyte_is_refused_by_its_length_alone(unit: str) -> None:
     text = unit * (1_000_000 // len(unit))
     error = error_of(text)
-    assert error.summary == f"the command has {len(text)} characters; at most 20000 are read"
+    assert (
+        error.summary
+        == f"the command has {len(text)} characters; at most {MAX_CHARACTERS} are read"
+    )
     assert error.text == ""
 
 
 def test_too_many_words_are_refused() -> None:
     assert str(error_of("go " * (MAX_WORDS + 1))).startswith(
-        "the command has 301 words; at most 300"
+        f"the command has {MAX_WORDS + 1} words and signs; at most {MAX_WORDS}"
     )
 
 

@@ -102,7 +102,7 @@ def test_a_wrong_reading_is_misread_and_an_infeasible_text_is_refused() -> None:
     )
     assert judge(sentence("turn left", "infeasible"), ()).outcome is ParseOutcome.MISREAD
     assert judge(sentence("fly", "infeasible"), ()).outcome is ParseOutcome.REFUSED
-    asked = sentence("the first door", "feasible", "through door(1)")
+    asked = sentence("turn 90 degrees", "feasible", "turn left 90")
     assert judge(asked, ()).outcome is ParseOutcome.ASKED
 
 

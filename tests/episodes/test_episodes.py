@@ -63,6 +63,8 @@ def test_episode_files_round_trip_to_the_same_bytes(name: str, tmp_path: Path) -
     ("change", "problem"),
     [
         ({"id": "seven"}, r'id is "seven"; it must be a split and a number'),
+        ({"id": "train-" + "9" * 30}, "id is .* of at most 18 digits"),
+        ({"id": "train-" + "9" * 5000}, "id is .* of at most 18 digits"),
         ({"start": [0.0, 1.0]}, r"start is \[0.0, 1.0\]; it must be \[x, y, heading\]"),
         ({"start": [0.0, 1.0, None]}, "start is"),
         ({"language": "xx"}, 'language is "xx"; it must be the code of a language'),

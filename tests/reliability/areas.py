@@ -34,6 +34,7 @@ from semnav_env.tasks.request import OPTIONS
 from semnav_env.world import World
 from tests.reliability.children import PROCESSOR_SECONDS, Outcome, in_child, outcome_of
 from tests.reliability.hostile import VALUES, constructed, drawn, settings_classes, settings_of
+from tests.reliability.long_texts import RUNS, read_run
 from tests.reliability.mutations import write_mutated
 from tests.reliability.readers import READERS, Reader
 from tests.support.episodes import START
@@ -213,6 +214,7 @@ AREAS = (
     Area("actions", ACTIONS, act),
     Area("options of `reset`", ASKED, begin, 0.5),
     Area("texts as commands", SAYINGS, understand, 0.3),
+    Area("long runs as commands", RUNS, read_run, 0.05),
     Area("command lines", LINES, call, 0.1),
     *(Area(f"damaged: {r.name}", SEEDS, read_damaged(r), 0.25) for r in READERS),
 )

@@ -171,7 +171,9 @@ def test_what_is_grounded_stands_under_headings_with_units(capsys):
     _, text, _ = run(capsys, "ground", "the second door on the right", pose)
     headings, row = text.splitlines()
     assert headings.split() == ["goal", "x,", "m", "y,", "m", "heading,", "rad", "clause"]
-    assert row.endswith("  the second door on the right  (door south_2)")
+    assert row.startswith("pass")
+    unsaid = "through it, as nothing else was said"
+    assert row.endswith(f"  the second door on the right, {unsaid}  (door south_2)")
     assert headings.index("clause") == row.index("the second")
     assert headings.index("x, m") + len("x, m") == row.index(row.split()[1]) + len(row.split()[1])
 

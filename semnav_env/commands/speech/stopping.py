@@ -19,6 +19,7 @@ from semnav_env.commands.clauses import (
     GoToRoom,
     Stop,
 )
+from semnav_env.commands.command import MAX_CLAUSES
 from semnav_env.commands.references import (
     DoorReference,
     Side,
@@ -49,6 +50,8 @@ def read_wait(frame: ClauseFrame) -> Readings | None:
     seconds = sum(item.value for item in amounts)
     if seconds != int(seconds) or seconds < 1:
         raise ValueError(f"one waits for whole seconds, not {seconds:g}")
+    if seconds > MAX_SECONDS * MAX_CLAUSES:
+        raise ValueError(f"one waits for {MAX_SECONDS * MAX_CLAUSES} seconds at most")
     if frame.verbs - {"stop", "wait", "go", "continue", "make"} or frame.sides:
         raise NoMeaningError("a time and something else")
     if frame.verbs and not frame.verbs - {"go", "continue"}:

@@ -1,0 +1,30 @@
+"""Text of a terminal whose locale knows ASCII alone, such as LC_ALL=C: it is UTF-8 all the same."""
+
+from __future__ import annotations
+
+import codecs
+import io
+import os
+from typing import TextIO
+
+
+def as_utf8(word: str) -> str:
+    """A word of the command line with the characters that the locale could not decode.
+
+    Python keeps such bytes as surrogates (PEP 383), which names of files need and no text has. A
+    word that is not UTF-8 is left as it is.
+    """
+    if word.isascii():
+        return word
+    try:
+        return os.fsencode(word).decode("utf-8")
+    except UnicodeError:
+        return word
+
+
+def write_utf8(*streams: TextIO) -> None:
+    """Let streams that can write ASCII alone write UTF-8."""
+    for stream in streams:
+        encoding = getattr(stream, "encoding", None) or "utf-8"
+        if isinstance(stream, io.TextIOWrapper) and codecs.lookup(encoding).name == "ascii":
+            stream.reconfigure(encoding="utf-8")

@@ -1,0 +1,58 @@
+"""Long runs of one character or one short token, as commands."""
+
+from __future__ import annotations
+
+import contextlib
+import string
+import time
+from collections.abc import Callable
+
+from hypothesis import strategies as st
+
+from semnav_env.agents.translating.interpreter import understand
+from semnav_env.commands import CommandError, parse
+
+CHARACTERS = (
+    *string.printable,
+    *"äöüßéÅ°²½①𝟙ﷺ가\u00a0\u00ad\u0301\u0316\u200b\u202e\u3000\ufeff\ud800",
+)
+"""Every character of a keyboard, and others that normalisation treats apart."""
+
+TOKENS = (
+    *("twenty-", "twenty ", "a ", "a-", "-a", "a'", "'s", "the ", "door ", "and ", "no ", "not "),
+    *("left,", "left ", "go ", "if ", "stop ", "stop,", "half ", "zwanzig", "und ", "die ", "Tür "),
+    *("rein", "zu", "nein, ", "wenn ", "1.", "1,", "1 ", '"a"', '""', "()", "[{", "... ", "? "),
+    *("e\u0301", "\r\n", "the door, ", "go back, ", "turn 45 degrees, ", "next "),
+)
+"""Short tokens of both languages, and of punctuation."""
+
+LENGTHS = (1, 9, 80, 81, 300, 3_999, 4_000, 10_000, 19_900)
+"""Lengths of the runs, characters; some at the limits of the parser."""
+
+MOST_SECONDS = 2.0
+"""Longest processor time for one run that is no hang, seconds; most take less than 0.05 s."""
+
+READERS: tuple[tuple[Callable[[str, str | None], object], str | None], ...] = (
+    (parse, "en"),
+    (parse, "de"),
+    (understand, None),
+)
+"""What reads them, and the language that it is told."""
+
+RUNS = st.tuples(st.sampled_from(CHARACTERS + TOKENS), st.sampled_from(LENGTHS))
+
+
+def run_of(token: str, length: int) -> str:
+    """A token again and again, of so many characters."""
+    return (token * length)[:length]
+
+
+def read_run(run: tuple[str, int]) -> None:
+    """A run is read or refused in one short line, by all readers, in little time."""
+    text = run_of(*run)
+    for reader, language in READERS:
+        begun = time.process_time()
+        with contextlib.suppress(CommandError):
+            reader(text, language)
+        used = time.process_time() - begun
+        assert used < MOST_SECONDS, f"a run of {run[0]!r} takes {used:.1f} s"
