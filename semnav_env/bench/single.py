@@ -43,6 +43,29 @@ def step_parts(steps: int, **options: Any) -> list[Part]:
     ]
 
 
+def training_step_part(steps: int, episodes: str, **options: Any) -> Part:
+    """A step on the episodes of a split, each begun anew when it is over; the clock runs then, too.
+
+    Args:
+        steps: calls in a timing.
+        episodes: name of the split, or path of a file.
+        options: of `SemNavEnv`.
+    """
+    env = gym.make("semnav_env:SemNav-v0", episodes=episodes, **options)
+    env.reset(seed=0)
+    actions = cruising_actions(steps, env.action_space.shape or ())
+
+    def drive() -> float:
+        begin = time.perf_counter()
+        for action in actions:
+            _, _, terminated, truncated, _ = env.step(action)
+            if terminated or truncated:
+                env.reset()
+        return (time.perf_counter() - begin) / len(actions)
+
+    return Part(f"step, on {episodes} with resets", drive)
+
+
 def kernel_parts(steps: int, **options: Any) -> list[Part]:
     """What a step is made of, each part by itself where the robot happens to stand."""
     env = SemNavEnv(**options)
