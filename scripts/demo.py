@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -45,7 +45,7 @@ class _Told:
         options: for `env.reset`.
         seed: for `env.reset`.
         searches: whether it is a search for people.
-        max_seconds: limit of the episode; that of the environment if None.
+        limits: of the episode, as arguments of the environment; its own if empty.
         infeasible: whether the right answer is to say that the command is impossible.
     """
 
@@ -54,7 +54,7 @@ class _Told:
     options: dict[str, Any]
     seed: int
     searches: bool = False
-    max_seconds: float | None = None
+    limits: dict[str, Any] = field(default_factory=dict)
     infeasible: bool = False
 
 
@@ -156,20 +156,19 @@ class Arguments:
         spoken = language_of_text(episode.command, episode.language)
         infeasible = episode.expected is Expected.INFEASIBLE
         told = _Told(episode.plan(), spoken, {"episode": episode}, episode.number)
-        return replace(told, max_seconds=EPISODE_SECONDS, infeasible=infeasible)
+        return replace(told, limits={"max_seconds": EPISODE_SECONDS}, infeasible=infeasible)
 
     def _environment(self, told: _Told, agent: Agent) -> SemNavEnv:
         """The environment for a command: that of a search has a person detector and victims."""
         mode = "human" if self.show else "rgb_array" if self._filmed else None
         if not told.searches:
-            limit = {} if told.max_seconds is None else {"max_seconds": told.max_seconds}
             return SemNavEnv(
                 self.robot,
                 told.plan,
                 observation=agent.observation,
                 dynamics=self.dynamics,
                 render_mode=mode,
-                **limit,
+                **told.limits,
             )
         from semnav_env.rescue.environment import VICTIMS, search_and_rescue
 

@@ -130,4 +130,4 @@ def _final_belief(env: SemNavEnv, agent: Agent) -> FinalBelief:
     odometry_frame = compose(env.world.pose, relative(env.belief.pose, ORIGIN))
     own = agent.own_goal() if isinstance(agent, GoalHolder) else env.belief.goal.pose
     doors = env.tracker.scene().placed(odometry_frame).doors
-    return FinalBelief(doors, to_parent(odometry_frame, own[:2]))
+    return FinalBelief(tuple(doors), to_parent(odometry_frame, own[:2]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from semnav_env.bench.single import cruising_actions
+from semnav_env.bench.single import cruising_actions, on_split
 from semnav_env.bench.timing import Part
 from semnav_env.vector import SemNavVectorEnv
 
@@ -53,8 +53,8 @@ def training_part(steps: int, robots: int, threads: int, episodes: str, **option
         episodes: name of the split, or path of a file.
         options: of `SemNavEnv`.
     """
-    mode = {"threads": threads, "autoreset_mode": "SameStep"}
-    envs = SemNavVectorEnv(robots, episodes=episodes, **mode, **options)
+    options = on_split(episodes) | {"threads": threads, "autoreset_mode": "SameStep"} | options
+    envs = SemNavVectorEnv(robots, **options)
     envs.reset(seed=0)
     shape = envs.single_action_space.shape or ()
     actions = cruising_actions(max(1, steps // robots), (robots, *shape))
