@@ -9,6 +9,7 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.features.frames import Pose
 from semnav_env.maps import FloorPlan
 from semnav_env.observations import ObservationType
 
@@ -46,6 +47,15 @@ class PlanReader(Protocol):
 
     def read_plan(self, floor_plan: FloorPlan) -> None:
         """Learn the floor plan of the next episode, before `reset`."""
+
+
+@runtime_checkable
+class GoalHolder(Protocol):
+    """An agent that finds the goal itself, and does not drive to that of the belief."""
+
+    def own_goal(self) -> Pose:
+        """The goal that it drives to, odometry frame."""
+        ...
 
 
 class Step(NamedTuple):

@@ -10,7 +10,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from semnav_env.bench.suite import benchmark, growth, starting
+from semnav_env.bench.suite import benchmark, growth, starting, training
 from semnav_env.bench.timing import Timing
 from semnav_env.features.validation import check_count
 from semnav_env.maps import load_floor_plan
@@ -28,6 +28,8 @@ class Arguments:
         observation: semantic, raw, truth or all.
         robots: number of robots in the vector environment.
         threads: most threads to drive them in.
+        episodes: time instead steps on the episodes of this split, such as train, resets included,
+            beside the plain step.
         growth: time instead how a step grows with the building, the beams and the robots.
         start: time instead how long processes take that import, ground, or make an environment.
         cold: with --start, also compile all kernels into an empty folder, about a minute.
@@ -41,6 +43,7 @@ class Arguments:
     observation: str = "semantic"
     robots: int = 64
     threads: int = min(2, os.cpu_count() or 1)
+    episodes: str | None = None
     growth: bool = False
     start: bool = False
     cold: bool = False
@@ -74,6 +77,8 @@ class Arguments:
         if self.growth:
             return growth(plan, self.threads, self.runs, self.steps, **kind)
         counts = (self.robots, self.threads, self.runs, self.steps)
+        if self.episodes is not None:
+            return training(self.episodes, *counts, floor_plan=plan, **kind)
         return benchmark(*counts, floor_plan=plan, **kind)
 
 

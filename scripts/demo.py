@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
-from numpy.typing import NDArray
 from tyro.conf import Positional, arg
 
 from semnav_env.agents.base import Agent, steps
+from semnav_env.agents.evaluation.drive import recognised_impossible
 from semnav_env.agents.registry import make_agent
 from semnav_env.agents.translating.interpreter import understand
 from semnav_env.commands import SearchHouse
+from semnav_env.commands.language import Language
 from semnav_env.commands.speech.recognition import language_of_text
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.dynamics.social import for_json
 from semnav_env.env import SemNavEnv
 from semnav_env.maps import FloorPlan, load_floor_plan
+from semnav_env.rendering.film import STEPS_PER_FRAME, Film
 from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.progress import tracked
@@ -27,14 +28,34 @@ from semnav_env.scripts.progress import tracked
 DEFAULT_MAP = "heidelberg_hallway"
 """The floor plan where none is named."""
 
-STEPS_PER_FRAME = 3
-"""Steps of the environment for each frame of a film: 5 frames a second are enough to follow it."""
-
 STEPS_PER_SEARCH_FRAME = 60
 """The same for a search, which takes minutes: the film is twenty times as fast."""
 
 KNOWS_THE_PLAN = "agent searcher, which knows the floor plan; --agent explorer does without"
 """What is said of the agent of a search where none is named."""
+
+
+@dataclass(frozen=True)
+class _Told:
+    """What a robot is told, where.
+
+    Attributes:
+        plan: the floor plan.
+        spoken: language of the command.
+        options: for `env.reset`.
+        seed: for `env.reset`.
+        searches: whether it is a search for people.
+        limits: of the episode, as arguments of the environment; its own if empty.
+        infeasible: whether the right answer is to say that the command is impossible.
+    """
+
+    plan: FloorPlan
+    spoken: Language
+    options: dict[str, Any]
+    seed: int
+    searches: bool = False
+    limits: dict[str, Any] = field(default_factory=dict)
+    infeasible: bool = False
 
 
 @dataclass(frozen=True)
@@ -46,6 +67,8 @@ class Arguments:
 
     Attributes:
         command: what to say to the robot.
+        episode: instead of a command the id of a frozen episode, such as val_unseen-00246, or
+            FILE:ID for one of a file; the same agent drives it as in `semnav evaluate`.
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path;
             heidelberg_hallway if not given, for a search a generated house.
         language: of the command: en or de (english, german); recognised if not given.
@@ -54,7 +77,7 @@ class Arguments:
             folder of a trained agent, or package.module:Class; searcher (knows the plan) or
             explorer for a search. If not given: scripted, for a search searcher.
         pose: where the robot starts, x,y,heading in metres and radians; random if not given.
-        seed: of everything that is random.
+        seed: of everything that is random; 0 if not given.
         dynamics: what else moves.
         save: film to write (.gif or .mp4).
         picture: picture of the end to write (.png).
@@ -62,13 +85,14 @@ class Arguments:
         json: print the outcome as JSON.
     """
 
-    command: Positional[str]
+    command: Positional[str | None] = None
+    episode: str | None = None
     map: str | None = None
     language: str | None = None
     robot: str = "wheelchair"
     agent: str | None = None
     pose: str | None = None
-    seed: int = 0
+    seed: int | None = None
     dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
     save: Path | None = None
     picture: Path | None = None
@@ -77,55 +101,81 @@ class Arguments:
 
     def run(self) -> int:
         """Drive, film and report."""
-        if self.seed < 0:
+        if self.seed is not None and self.seed < 0:
             raise ValueError(f"seed is {self.seed}; it must be 0 or more")
         self._check_files()
-        plan = load_floor_plan(self.map or DEFAULT_MAP)
-        command = understand(self.command, self.language, plan.room_names)
-        searches = SearchHouse() in command.clauses
-        agent = make_agent(self.agent or ("searcher" if searches else "scripted"))
-        filmed = self.save is not None or self.picture is not None
-        env = self._environment(plan, agent, searches, filmed)
-        frames_apart = STEPS_PER_SEARCH_FRAME if searches else STEPS_PER_FRAME
-        spoken = language_of_text(self.command, self.language)
-        options: dict[str, Any] = {"command": command, "language": spoken.code}
-        if self.pose is not None:
-            options["pose"] = parse_pose(self.pose)
-        observation, start = env.reset(seed=self.seed, options=options)
-        frames: list[NDArray[np.uint8]] = []
+        told = self._told() if self.episode is None else self._frozen(self.episode)
+        agent = make_agent(self.agent or ("searcher" if told.searches else "scripted"))
+        env = self._environment(told, agent)
+        film = Film(env, STEPS_PER_SEARCH_FRAME if told.searches else STEPS_PER_FRAME)
+        observation, start = env.reset(seed=told.seed, options=told.options)
         info: dict[str, Any] = {}
         driven = tracked(
             steps(env, agent, observation, start), lambda _: f"{env.seconds:.0f} s", lambda: None
         )
-        for number, step in enumerate(driven):
+        for step in driven:
             info = step.info
-            if filmed and (number % frames_apart == 0 or "is_success" in info):
-                frames.append(env.render())  # type: ignore[arg-type]
-        echo = env.judge.verifier.mission.command.say(spoken)
+            if self._filmed:
+                film.note("is_success" in info)
+        verifier = env.judge.verifier
+        if told.infeasible:
+            info["is_success"] = recognised_impossible(verifier, info["impossible"])
+        echo = verifier.mission.command.say(told.spoken)
         env.close()
-        self._save(frames, env.metadata["render_fps"] / STEPS_PER_FRAME)
+        self._save(film)
         self._report(start, echo, info, env.seconds, for_json(env.world.social()))
         return 0 if info["is_success"] else 1
 
-    def _environment(
-        self, plan: FloorPlan, agent: Agent, searches: bool, filmed: bool
-    ) -> SemNavEnv:
+    @property
+    def _filmed(self) -> bool:
+        return self.save is not None or self.picture is not None
+
+    def _told(self) -> _Told:
+        """What is to be done, from a command."""
+        if self.command is None:
+            raise ValueError("say what the robot is to do, or give --episode ID")
+        plan = load_floor_plan(self.map or DEFAULT_MAP)
+        command = understand(self.command, self.language, plan.room_names)
+        spoken = language_of_text(self.command, self.language)
+        options: dict[str, Any] = {"command": command, "language": spoken.code}
+        if self.pose is not None:
+            options["pose"] = parse_pose(self.pose)
+        searches = SearchHouse() in command.clauses
+        return _Told(plan, spoken, options, self.seed or 0, searches)
+
+    def _frozen(self, name: str) -> _Told:
+        """What is to be done in a frozen episode, with the noise and the limit of `evaluate`."""
+        from semnav_env.agents.evaluation.runner import EPISODE_SECONDS
+        from semnav_env.episodes import Expected, find_episode
+
+        others = ("command", "map", "language", "pose", "seed")
+        for other in (other for other in others if getattr(self, other) is not None):
+            option = other if other == "command" else f"--{other}"
+            raise ValueError(f"--episode says it all; leave out {option} {getattr(self, other)!r}")
+        episode = find_episode(name)
+        spoken = language_of_text(episode.command, episode.language)
+        infeasible = episode.expected is Expected.INFEASIBLE
+        told = _Told(episode.plan(), spoken, {"episode": episode}, episode.number)
+        return replace(told, limits={"max_seconds": EPISODE_SECONDS}, infeasible=infeasible)
+
+    def _environment(self, told: _Told, agent: Agent) -> SemNavEnv:
         """The environment for a command: that of a search has a person detector and victims."""
-        mode = "human" if self.show else "rgb_array" if filmed else None
-        if not searches:
+        mode = "human" if self.show else "rgb_array" if self._filmed else None
+        if not told.searches:
             return SemNavEnv(
                 self.robot,
-                plan,
+                told.plan,
                 observation=agent.observation,
                 dynamics=self.dynamics,
                 render_mode=mode,
+                **told.limits,
             )
         from semnav_env.rescue.environment import VICTIMS, search_and_rescue
 
         return search_and_rescue(
             observation=agent.observation,
             robot=self.robot,
-            floor_plan=plan if self.map else f"office:house:{self.seed}",
+            floor_plan=told.plan if self.map else f"office:house:{told.seed}",
             dynamics=replace(self.dynamics, victims=self.dynamics.victims or VICTIMS),
             render_mode=mode,
         )
@@ -143,13 +193,13 @@ class Arguments:
         if self.picture is not None:
             check_suffix(self.picture, (".png",))
 
-    def _save(self, frames: list[NDArray[np.uint8]], rate: float) -> None:
-        from semnav_env.rendering.video import save_png, save_video
+    def _save(self, film: Film) -> None:
+        from semnav_env.rendering.video import save_png
 
         if self.save is not None:
-            save_video(self.save, frames, rate)
+            film.save(self.save)
         if self.picture is not None:
-            save_png(self.picture, frames[-1])
+            save_png(self.picture, film.frames[-1])
 
     def _report(
         self,
@@ -160,6 +210,7 @@ class Arguments:
         social: dict[str, Any],
     ) -> None:
         outcome = {
+            **({"episode": self.episode} if self.episode else {}),
             "command": start["command"],
             "floor_plan": start["floor_plan"],
             "pose": start["pose"],

@@ -6,13 +6,11 @@ import json
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass
-from math import isnan
 from pathlib import Path
 from statistics import fmean, median
-from typing import Annotated
+from typing import Annotated, Any
 
 from rich.console import Console
-from rich.table import Table
 from tyro.conf import Positional, arg
 
 from semnav_env.agents.evaluation import (
@@ -27,23 +25,15 @@ from semnav_env.agents.evaluation import (
     suite,
     summarise,
 )
+from semnav_env.agents.evaluation.provenance import provenance
 from semnav_env.agents.learned import agent_label
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.episodes import Episode, Expected, evenly, is_episodes, load_episodes
-from semnav_env.metrics import WORST_SHARES
+from semnav_env.rendering.backend import load_pygame
+from semnav_env.scripts.evaluation_tables import commands_table, headings, measures_table
 from semnav_env.scripts.jsonl import JsonLines
 from semnav_env.scripts.outputs import check_file, check_folder, counted
 from semnav_env.scripts.progress import tracked
-
-SHOWN_MEASURES = {
-    "success": "success",
-    "contact_free": "no contact",
-    "spl": "SPL",
-    "ndtw": "nDTW",
-    "clauses": "clauses",
-    "seconds": "seconds",
-}
-"""The measures that are shown for each command, and their headings in both tables."""
 
 USUAL_SEEDS = 20
 """Seeds of a suite where their number is not given."""
@@ -52,6 +42,9 @@ USUAL_SEEDS = 20
 @dataclass(frozen=True)
 class Arguments:
     """Run a suite of commands many times, or the episodes of a split once, and count.
+
+    Printed are agent, body, split, version and rules, shares with intervals of 95 %, all measures,
+    and the failures.
 
     Attributes:
         suite: heidelberg, office_cross, or "all" of these; a split (`semnav episodes list`); or a
@@ -66,6 +59,7 @@ class Arguments:
         workers: number of processes.
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
+        films: folder for a film (.gif) of each failure, which is driven a second time for it.
         dynamics: what else moves.
         out: file for the episodes, one JSON object a line, written as they are driven; its name
             ends in `.part` until the end or an interruption.
@@ -81,6 +75,7 @@ class Arguments:
     workers: int = 1
     recheck: bool = False
     pictures: Path | None = None
+    films: Path | None = None
     dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
     out: Path | None = None
     json: bool = False
@@ -97,29 +92,37 @@ class Arguments:
             raise ValueError(f"--episodes is {self.episodes}; it must be at least 1")
         check_file(self.out, "--out")
         check_folder(self.pictures, "--pictures")
+        check_folder(self.films, "--films")
+        if self.films is not None:
+            load_pygame()  # says at once where it is missing
         trials = self._trials()
         if any(isinstance(t, Episode) and t.expected is Expected.AMBIGUOUS for t in trials):
             return self._ask([trial for trial in trials if isinstance(trial, Episode)])
         seeds = range(first, first + count)
         total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
-        extras = Extras(self.recheck, self.pictures)
+        extras = Extras(self.recheck, self.pictures, self.films)
         how = self.workers, extras, self.dynamics
-        results = self._drive(run_suite(trials, self.agent, self.robot, seeds, *how), total)
+        who = self._who()
+        results = self._drive(run_suite(trials, self.agent, self.robot, seeds, *how), total, who)
         groups = list(dict.fromkeys(trial.group for trial in trials))
         if isinstance(trials[0], Episode):
             groups.sort()
-        self._show([_summary(group, results) for group in groups], results)
+        self._show([_summary(group, results) for group in groups], results, who)
         if self.out is not None and not self.json:
             print(f"wrote {self.out}")
         return 0
 
-    def _drive(self, episodes: Iterator[Result], total: int) -> list[Result]:
-        """All results; each is written at once, so that an interruption loses none."""
-        results: list[Result] = []
+    def _who(self) -> dict[str, Any]:
+        """What every row says: who drove, where, with which body, and by which rules."""
         who = agent_label(self.agent) | {"split": Path(self.suite).name, "robot": self.robot}
         usual, chosen = asdict(NO_DYNAMICS), asdict(self.dynamics)
         if moved := {name: value for name, value in chosen.items() if value != usual[name]}:
             who |= {"dynamics": moved}
+        return who | provenance().row()
+
+    def _drive(self, episodes: Iterator[Result], total: int, who: dict[str, Any]) -> list[Result]:
+        """All results; each is written at once, so that an interruption loses none."""
+        results: list[Result] = []
         with JsonLines(self.out) if self.out else nullcontext() as out:
             for result in tracked(
                 episodes, lambda n: f"{n} episodes", lambda: len(results) / total
@@ -156,15 +159,18 @@ class Arguments:
         print("\n".join([said, *failures]))
         return 0
 
-    def _show(self, summaries: list[Summary], results: list[Result]) -> None:
+    def _show(self, summaries: list[Summary], results: list[Result], who: dict[str, Any]) -> None:
         everything = summarise("all", results)
         if self.json:
-            print(json.dumps([summary.row() for summary in (*summaries, everything)]))
+            print(json.dumps([who | summary.row() for summary in (*summaries, everything)]))
             return
         console = Console()
-        console.print(_commands_table([*summaries, everything]))
+        for line in headings(who, everything):
+            console.print(line, highlight=False, soft_wrap=True)
         console.print()
-        console.print(_measures_table(everything))
+        console.print(commands_table([*summaries, everything]))
+        console.print()
+        console.print(measures_table(everything))
         for cause, count in common_causes(results):
             console.print(f"{count} x {cause}", highlight=False)
         for row in summaries:
@@ -187,43 +193,12 @@ class Arguments:
             for result in odd:
                 said = f"{' / '.join(result.verdicts)}, second opinion: {result.rechecked}"
                 print(f"{result.command}: seed {result.seed}: {said}")
-        if self.pictures is not None:
-            drawn = sum(not result.success for result in results)
-            into = f"drew {counted(drawn, 'failure')} into {self.pictures}"
-            print(into if drawn else "nothing failed, so there are no pictures")
-
-
-def _commands_table(summaries: list[Summary]) -> Table:
-    """A row for each command; numbers come first, so that only the words wrap in narrow windows."""
-    table = Table("n", box=None, padding=(0, 1, 0, 0))
-    for heading in SHOWN_MEASURES.values():
-        table.add_column(heading, width=7, justify="right")
-    table.add_column("command")
-    for row in summaries:
-        table.add_row(
-            str(row.episodes), *(_written(row.means[name]) for name in SHOWN_MEASURES), row.name
-        )
-    return table
-
-
-def _measures_table(everything: Summary) -> Table:
-    """Every measure over all episodes: its mean, and its mean over its worst episodes."""
-    table = Table(
-        "all episodes",
-        "mean",
-        *(f"worst {share:.0%}" for share in WORST_SHARES),
-        box=None,
-        padding=(0, 2, 0, 0),
-    )
-    for name, mean in everything.means.items():
-        worst = (_written(row[name]) for row in everything.worst)
-        heading = SHOWN_MEASURES.get(name, name.replace("_", " "))
-        table.add_row(heading, _written(mean), *worst)
-    return table
-
-
-def _written(value: float) -> str:
-    return "" if isnan(value) else f"{value:.1f}" if abs(value) >= 10.0 else f"{value:.3f}"
+        failed = sum(not result.success for result in results)
+        outputs = ("drew", self.pictures, "pictures"), ("filmed", self.films, "films")
+        for done, folder, things in outputs:
+            if folder is not None:
+                into = f"{done} {counted(failed, 'failure')} into {folder}"
+                print(into if failed else f"nothing failed, so there are no {things}")
 
 
 def _summary(group: str, results: list[Result]) -> Summary:

@@ -9,13 +9,22 @@ from pathlib import Path
 from tyro.conf import Positional
 
 from semnav_env.agents.evaluation.attempts import Attempt, read_attempts, write_attempts
-from semnav_env.agents.evaluation.leaderboard import Estimate, Standing, standings
+from semnav_env.agents.evaluation.leaderboard import (
+    Estimate,
+    Standing,
+    check_one_rules,
+    standings,
+)
+from semnav_env.agents.evaluation.provenance import UNKNOWN
 
 HEADINGS = (
     *("split", "robot", "agent", "n", "trainings"),
-    *("success", "no contact", "SPL", "worst 5 %", "IQM"),
+    *("success", "no contact", "SPL", "worst 5 %", "IQM", "version, rules"),
 )
 """Headings of the table."""
+
+SHOWN_DIGITS = 8
+"""Digits of a fingerprint in the table; files and JSON have all of them."""
 
 KEPT_SUFFIX = ".jsonl.gz"
 """Ending of the names of kept results."""
@@ -27,16 +36,19 @@ class Arguments:
 
     Each file is of one evaluation: one agent, one split, one body. Trainings of one preset with
     different seeds are one row. In brackets are intervals of 95 %: of a bootstrap, or Wilson's
-    where all episodes agree.
+    where all episodes agree. The last column says the version, and the first digits of the
+    fingerprint of the rules; results under different rules are refused.
 
     Attributes:
         files: results, JSON Lines, or such compressed by gzip.
+        mixed: take results under different rules into one table.
         markdown: print the table as Markdown.
         json: print it as JSON.
         keep: folder into which what the table needs is written, a small file for each evaluation.
     """
 
     files: Positional[tuple[Path, ...]]
+    mixed: bool = False
     markdown: bool = False
     json: bool = False
     keep: Path | None = None
@@ -49,6 +61,8 @@ class Arguments:
             )
         attempts = [attempt for file in self.files for attempt in read_attempts(file)]
         rows = standings(attempts)
+        if not self.mixed:
+            check_one_rules(rows)
         if self.keep is not None:
             _keep(attempts, self.keep)
         if self.json:
@@ -84,6 +98,7 @@ def _cells(row: Standing, quote: str = "") -> tuple[str, ...]:
         *(map(_written, (row.success, row.contact_free, row.spl))),
         f"{row.worst:.2f}",
         "" if row.interquartile is None else f"{row.interquartile:.3f}",
+        row.rules if row.rules == UNKNOWN else f"{row.version}, {row.rules[:SHOWN_DIGITS]}",
     )
 
 

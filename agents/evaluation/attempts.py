@@ -10,9 +10,13 @@ from math import isnan, nan
 from pathlib import Path
 from typing import Any
 
+from semnav_env.agents.evaluation.provenance import UNKNOWN, Provenance
 from semnav_env.features.decompression import read_lines
 from semnav_env.features.validation import clipped, shown
 from semnav_env.features.writing import write_file
+
+NOT_KNOWN = Provenance(UNKNOWN, "", UNKNOWN).row()
+"""What results say that were kept before they said by what they were made."""
 
 MAX_BYTES = 64_000_000
 """Size of the largest file of results that is read, bytes, also when decompressed."""
@@ -32,6 +36,9 @@ class Attempt:
         success: whether the command was carried out.
         contact_free: whether nothing was touched.
         spl: success weighted by path length; NaN, in files null, if the command is impossible.
+        version: of semnav-env; `UNKNOWN` in files that do not say it.
+        commit: of its checkout; empty without one, see `Provenance`.
+        rules: their fingerprint; `UNKNOWN` in files that do not say it.
     """
 
     agent: str
@@ -43,6 +50,9 @@ class Attempt:
     success: bool
     contact_free: bool
     spl: float
+    version: str
+    commit: str
+    rules: str
 
 
 def read_attempts(path: str | Path) -> list[Attempt]:
@@ -96,8 +106,13 @@ def _attempt(line: str, place: str) -> Attempt:
 
 
 def _completed(row: dict[str, Any]) -> dict[str, Any]:
-    """A row with what follows from the rest: the number of clauses, and the id of a trial."""
+    """A row with what follows from the rest: the number of clauses, and the id of a trial.
+
+    Rows that say nothing of what they were made by were written before 0.2.
+    """
     verdicts = row.get("verdicts")
+    if row.keys().isdisjoint(NOT_KNOWN):
+        row = row | NOT_KNOWN
     if "spl" in row and row["spl"] is None:
         row = row | {"spl": nan}
     if "clauses" in row and isinstance(verdicts, list):  # there it is the share that was done

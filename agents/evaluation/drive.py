@@ -7,12 +7,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from semnav_env.agents.base import Agent, steps
+from semnav_env.agents.base import Agent, GoalHolder, steps
 from semnav_env.agents.evaluation.causes import cause_of
 from semnav_env.env import SemNavEnv
+from semnav_env.features.frames import ORIGIN, compose, relative, to_parent
 from semnav_env.metrics import Metrics, Recorder, Recording, measure
 from semnav_env.metrics.event_log import events_of
 from semnav_env.metrics.events import Event
+from semnav_env.metrics.final_belief import FinalBelief
+from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
 from semnav_env.verifier import Verdict, Verifier
 from semnav_env.verifier.recheck import recheck
@@ -31,6 +34,7 @@ class Drive:
         social: how near people came, see `World.social`.
         impossible: why the robot believed at the end that the command is impossible; empty if it
             did not believe so.
+        belief: what it remembered, and where it was going, at the end.
     """
 
     recording: Recording
@@ -40,6 +44,7 @@ class Drive:
     robot: RobotSpec
     social: dict[str, float]
     impossible: str = ""
+    belief: FinalBelief | None = None
 
     @property
     def kind(self) -> str:
@@ -54,7 +59,7 @@ class Drive:
         It is a success if the robot stood still, said that the command is impossible, and had made
         no mistake before. There is no true route to weigh it by, so it has no SPL and SDTW.
         """
-        right = bool(self.impossible) and self.verifier.verdict is Verdict.STOPPED_SHORT
+        right = recognised_impossible(self.verifier, self.impossible)
         said = self.impossible or "did not say that it is impossible"
         cause = "" if right else f"{self.verifier.verdict}; robot: {said}"
         near = right or self.metrics.oracle_success
@@ -74,15 +79,27 @@ class Drive:
         return events_of(self.recording, self.verifier.mission.floor_plan)
 
     def save_picture(self, path: str | Path, title: str = "") -> None:
-        """Write a picture of the plan, the true route, the path driven, contacts and goals."""
+        """Write a picture: plan, true route, path driven, contacts, goals, what was believed."""
         from semnav_env.metrics.picture import save_episode  # matplotlib only when it is wanted
 
         mission = self.verifier.mission
         plan, route, goals = mission.floor_plan, mission.route, mission.goals
-        save_episode(path, plan, self.recording, self.robot, route, goals, title)
+        save_episode(path, plan, self.recording, self.robot, route, goals, title, self.belief)
 
 
-def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> Drive:
+def recognised_impossible(verifier: Verifier, impossible: str | None) -> bool:
+    """Whether a robot answered an impossible command rightly, see `Drive.as_infeasible`.
+
+    Args:
+        verifier: the judge, after the end.
+        impossible: why the robot believes that the command is impossible.
+    """
+    return bool(impossible) and verifier.verdict is Verdict.STOPPED_SHORT
+
+
+def drive(
+    env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any], film: Film | None = None
+) -> Drive:
     """Let an agent drive one episode to its end.
 
     Args:
@@ -90,15 +107,27 @@ def drive(env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any]) -> D
         agent: the driver.
         seed: of the episode.
         options: for `env.reset`: "command", "pose", "floor_plan"; or "episode".
+        film: takes frames on the way.
     """
     observation, info = env.reset(seed=seed, options=options)
     recorder = Recorder(env.world)
     for step in steps(env, agent, observation, info):
         recorder.note()
         info = step.info
+        if film is not None:
+            film.note(step.terminated or step.truncated)
     verifier, recording = env.judge.verifier, recorder.recording()
     metrics = measure(recording, verifier, env.robot)
     impossible = info["impossible"]
     cause = cause_of(verifier, metrics, impossible)
     social = env.world.social()
-    return Drive(recording, verifier, metrics, cause, env.robot, social, impossible or "")
+    believed = _final_belief(env, agent)
+    return Drive(recording, verifier, metrics, cause, env.robot, social, impossible or "", believed)
+
+
+def _final_belief(env: SemNavEnv, agent: Agent) -> FinalBelief:
+    """What the robot believes now; its believed pose is put where it truly is."""
+    odometry_frame = compose(env.world.pose, relative(env.belief.pose, ORIGIN))
+    own = agent.own_goal() if isinstance(agent, GoalHolder) else env.belief.goal.pose
+    doors = env.tracker.scene().placed(odometry_frame).doors
+    return FinalBelief(tuple(doors), to_parent(odometry_frame, own[:2]))

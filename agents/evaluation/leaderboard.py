@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from math import isnan, sqrt
+from math import isnan
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.agents.evaluation.attempts import Attempt
+from semnav_env.agents.evaluation.intervals import wilson_interval
 from semnav_env.features.frames import FloatArray
 from semnav_env.metrics import cvar
 
@@ -19,9 +20,6 @@ RESAMPLES = 2000
 
 INTERVAL = (2.5, 97.5)
 """Percentiles of the resampled means between which a mean lies, of 95 %."""
-
-DEVIATIONS = 1.96
-"""Standard deviations of a normal distribution on each side of the mean that hold 95 %."""
 
 WORST_SHARE = 0.05
 """Share of the episodes over which the worst are averaged."""
@@ -51,6 +49,9 @@ class Standing:
         worst: mean success over the worst twentieth of the episodes (CVaR).
         interquartile: mean success of the trainings without the best and the worst quarter of
             them; None for one training.
+        version: of semnav-env with which it drove; several are joined by commas.
+        commit: of its checkout, likewise; empty without one.
+        rules: fingerprint of the rules under which it drove, or `UNKNOWN`.
     """
 
     agent: str
@@ -63,20 +64,42 @@ class Standing:
     spl: Estimate | None
     worst: float
     interquartile: float | None
+    version: str
+    commit: str
+    rules: str
 
 
 def standings(attempts: Iterable[Attempt]) -> list[Standing]:
     """The rows of the leaderboard, by split and body, the highest success first.
 
+    What an agent did under other rules is a row of its own.
+
     Raises:
         ValueError: an episode that the same agent drove twice.
     """
-    groups: dict[tuple[str, str, str], list[Attempt]] = {}
+    groups: dict[tuple[str, ...], list[Attempt]] = {}
     for attempt in sorted(attempts):
-        key = attempt.split, attempt.robot, attempt.agent
+        key = attempt.split, attempt.robot, attempt.agent, attempt.rules
         groups.setdefault(key, []).append(attempt)
     rows = [_standing(group) for group in groups.values()]
-    return sorted(rows, key=lambda row: (row.split, row.robot, -row.success.mean, row.agent))
+    return sorted(
+        rows, key=lambda row: (row.split, row.robot, -row.success.mean, row.agent, row.rules)
+    )
+
+
+def check_one_rules(rows: Iterable[Standing]) -> None:
+    """Refuse rows that were driven under different rules: they are no comparison of agents.
+
+    Raises:
+        ValueError: there are several fingerprints; names the rows of each.
+    """
+    under: dict[str, list[str]] = {}
+    for row in rows:
+        named = f"{row.agent} ({row.split}, {row.robot})"
+        under.setdefault(row.rules, []).append(named)
+    if len(under) > 1:
+        told = "; ".join(f"rules {rules}: {', '.join(named)}" for rules, named in under.items())
+        raise ValueError(f"different rules are not compared unless --mixed is given: {told}")
 
 
 def _standing(attempts: Sequence[Attempt]) -> Standing:
@@ -102,7 +125,14 @@ def _standing(attempts: Sequence[Attempt]) -> Standing:
         spl=None if any(isnan(each.spl) for each in attempts) else _estimate(groups, "spl"),
         worst=cvar([each.success for each in attempts], WORST_SHARE),
         interquartile=float(np.mean(means[cut : len(means) - cut])) if len(means) > 1 else None,
+        version=_joined(each.version for each in attempts),
+        commit=_joined(each.commit for each in attempts),
+        rules=first.rules,
     )
+
+
+def _joined(texts: Iterable[str]) -> str:
+    return ", ".join(sorted({text for text in texts if text}))
 
 
 def _estimate(trainings: Sequence[Sequence[Attempt]], name: str) -> Estimate:
@@ -121,14 +151,6 @@ def _estimate(trainings: Sequence[Sequence[Attempt]], name: str) -> Estimate:
     if low == high:
         low, high = wilson_interval(mean, sum(map(len, trainings)))
     return Estimate(mean, low, high)
-
-
-def wilson_interval(share: float, count: int) -> tuple[float, float]:
-    """Interval of 95 % of a share that was measured on `count` episodes (Wilson 1927)."""
-    weight = DEVIATIONS**2 / count
-    centre = (share + weight / 2.0) / (1.0 + weight)
-    half = sqrt(share * (1.0 - share) * weight + weight**2 / 4.0) / (1.0 + weight)
-    return max(0.0, centre - half), min(1.0, centre + half)
 
 
 def _resampled(

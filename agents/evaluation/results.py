@@ -7,9 +7,13 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 
+from semnav_env.agents.evaluation.intervals import wilson_interval
 from semnav_env.dynamics.social import for_json
 from semnav_env.metrics import WORST_SHARES, Metrics, means, worst
 from semnav_env.verifier import FAILURES
+
+INTERVAL_MEASURES = ("success", "contact_free")
+"""Measures that are shares of episodes, and so have an interval."""
 
 
 @dataclass(frozen=True)
@@ -76,12 +80,18 @@ class Summary:
     failures: tuple[Result, ...]
     disagreements: int
 
+    @property
+    def intervals(self) -> dict[str, tuple[float, float]]:
+        """Wilson's interval of 95 % of each share of episodes, by the name of the measure."""
+        return {n: wilson_interval(self.means[n], self.episodes) for n in INTERVAL_MEASURES}
+
     def row(self) -> dict[str, object]:
         """The summary as one object: means by name, then means of the worst episodes by share."""
         return {
             "name": self.name,
             "episodes": self.episodes,
             **for_json(self.means),
+            "intervals": self.intervals,
             "cvar": {
                 f"{share:.0%}": for_json(row)
                 for share, row in zip(WORST_SHARES, self.worst, strict=True)

@@ -9,6 +9,7 @@ import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from semnav_env.episodes import Episode, Expected
 from semnav_env.features.frames import Pose
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import MAX_DRAWS, has_room, placement_error
+from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
 
 
@@ -33,10 +35,12 @@ class Extras:
     Attributes:
         recheck: judge it a second time, by other code.
         pictures: folder for a picture of each failure.
+        films: folder for a film of each failure, for which it is driven a second time.
     """
 
     recheck: bool = False
     pictures: Path | None = None
+    films: Path | None = None
 
 
 NO_EXTRAS = Extras()
@@ -44,6 +48,10 @@ NO_EXTRAS = Extras()
 
 TRIAL_SECONDS, EPISODE_SECONDS = 120.0, 300.0
 """Time limits of a trial and of a frozen episode, whose ways are longer; simulated seconds."""
+
+STEPS_PER_FILM_FRAME = 15
+"""Steps between the frames of a failure's film, one second: it runs five times as fast as the
+robot, and the longest has 300 frames of 2 MB in memory."""
 
 MAX_NAME_LENGTH = 90
 """Characters of a command in the name of a picture; file names end at 255 bytes."""
@@ -105,37 +113,62 @@ class SuiteRunner:
     def __init__(self, setup: SuiteSetup) -> None:
         self._setup = setup
         self._agent = make_agent(setup.agent)
-        self._envs: dict[float, SemNavEnv] = {}
+        self._envs: dict[tuple[float, str | None], SemNavEnv] = {}
 
     def run(self, trial: Trial | Episode, seed: int) -> Result:
         """The result of a trial with that seed, or of a frozen episode."""
+        limit = EPISODE_SECONDS if isinstance(trial, Episode) else TRIAL_SECONDS
+        extras, env = self._setup.extras, self._env(limit)
         if isinstance(trial, Episode):
-            env = self._env(EPISODE_SECONDS)
-            return run_frozen(env, self._agent, trial, self._setup.extras)
-        env = self._env(TRIAL_SECONDS)
-        return run_trial(env, self._agent, trial, seed, self._setup.extras)
+            result = run_frozen(env, self._agent, trial, extras)
+        else:
+            result = run_trial(env, self._agent, trial, seed, extras)
+        if extras.films is not None and not result.success:
+            self._film(trial, seed, self._env(limit, "rgb_array"), extras.films)
+        return result
 
-    def _env(self, max_seconds: float) -> SemNavEnv:
+    def _film(self, trial: Trial | Episode, seed: int, env: SemNavEnv, folder: Path) -> None:
+        """Drive a failure once more, which goes the same way, and film it."""
+        film = Film(env, STEPS_PER_FILM_FRAME)
+        driven = drive(env, self._agent, seed, reset_options(trial, seed, env), film)
+        name = trial.id if isinstance(trial, Episode) else trial.command
+        film.save(folder / f"{file_stem(driven, name, seed)}.gif")
+
+    def _env(self, max_seconds: float, render_mode: str | None = None) -> SemNavEnv:
         """The environment with that limit, kept from one episode to the next."""
-        if max_seconds not in self._envs:
+        kind = max_seconds, render_mode
+        if kind not in self._envs:
             setup = self._setup
-            self._envs[max_seconds] = SemNavEnv(
+            self._envs[kind] = SemNavEnv(
                 setup.robot,
                 observation=self._agent.observation,
                 dynamics=setup.dynamics,
                 max_seconds=max_seconds,
+                render_mode=render_mode,
             )
-        return self._envs[max_seconds]
+        return self._envs[kind]
+
+
+def reset_options(trial: Trial | Episode, seed: int, env: SemNavEnv) -> dict[str, Any]:
+    """The options with which an environment begins a trial or a frozen episode.
+
+    Args:
+        trial: what is to be driven.
+        seed: scatters the start of a trial.
+        env: the environment.
+    """
+    if isinstance(trial, Episode):
+        return {"episode": trial}
+    drawn = env.plan_source.plan(trial.floor_plan)  # furniture keeps off the pose
+    pose = scattered(trial, drawn, env.robot, np.random.default_rng(seed))
+    return {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
 
 
 def run_trial(
     env: SemNavEnv, agent: Agent, trial: Trial, seed: int, extras: Extras = NO_EXTRAS
 ) -> Result:
     """Drive a trial once; the seed scatters its start pose."""
-    drawn = env.plan_source.plan(trial.floor_plan)  # furniture keeps off the pose
-    pose = scattered(trial, drawn, env.robot, np.random.default_rng(seed))
-    options = {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
-    driven = drive(env, agent, seed, options)
+    driven = drive(env, agent, seed, reset_options(trial, seed, env))
     return conclude(driven, trial.command, seed, extras, group=trial.group)
 
 
@@ -184,18 +217,20 @@ def conclude(
         floor_plan=driven.verifier.mission.floor_plan.name,
     )
     if extras.pictures is not None and not result.success:
-        name = picture_name(driven, episode or command, seed)
+        name = file_stem(driven, episode or command, seed)
         said = failure_line(result)
-        driven.save_picture(extras.pictures / name, said if episode else f"{command}: {said}")
+        driven.save_picture(
+            extras.pictures / f"{name}.png", said if episode else f"{command}: {said}"
+        )
     return result
 
 
-def picture_name(driven: Drive, command: str, seed: int) -> str:
-    """The file name of the picture of an episode; a long command is cut and gets a checksum."""
+def file_stem(driven: Drive, command: str, seed: int) -> str:
+    """The name of files about an episode; a long command is cut and gets a checksum."""
     words = re.sub("[^a-z0-9]+", "_", command.lower()).strip("_")
     if len(words) > MAX_NAME_LENGTH:
         words = f"{words[:MAX_NAME_LENGTH]}_{zlib.crc32(command.encode()):08x}"
-    return f"{driven.verifier.mission.floor_plan.name}-{words}-{driven.robot.name}-seed{seed}.png"
+    return f"{driven.verifier.mission.floor_plan.name}-{words}-{driven.robot.name}-seed{seed}"
 
 
 def scattered(

@@ -114,6 +114,10 @@ class HearingAgent:
         goal = _seen_from(pose, self._pose, self._goal)
         return self._driver.act({**observation, "goal": goal.values})
 
+    def own_goal(self) -> Pose:
+        """The goal that the network gave last, odometry frame."""
+        return compose(self._pose, self._goal.pose)
+
     def _decide(self, observation: Observation, state: ClauseState, pose: Pose) -> SeenGoal:
         """Where to drive, robot frame; goes on to the clause that is under way by now."""
         while not state.done:

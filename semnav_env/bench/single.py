@@ -22,6 +22,10 @@ from semnav_env.simulator.sensing import sense
 RESETS = 20
 """Resets timed in a run; one takes as long as many steps."""
 
+MEAN_DRIVE_SECONDS = 19.0
+"""Limit of an episode in timings of training, simulated seconds: so long a drive of `train` takes
+on average (`semnav evaluate train --agent scripted --episodes 60`), so that there are as many
+resets for a step as in training."""
 
 RARE = 10
 """Calls timed of what takes milliseconds."""
@@ -41,6 +45,34 @@ def step_parts(steps: int, **options: Any) -> list[Part]:
         Part("step", lambda: _drive(env, actions)),
         Part("reset", lambda: seconds_per_call(env.reset, RESETS)),
     ]
+
+
+def training_step_part(steps: int, episodes: str, **options: Any) -> Part:
+    """A step on the episodes of a split, each begun anew when it is over; the clock runs then, too.
+
+    Args:
+        steps: calls in a timing.
+        episodes: name of the split, or path of a file.
+        options: of `SemNavEnv`.
+    """
+    env = gym.make("semnav_env:SemNav-v0", **on_split(episodes), **options)
+    env.reset(seed=0)
+    actions = cruising_actions(steps, env.action_space.shape or ())
+
+    def drive() -> float:
+        begin = time.perf_counter()
+        for action in actions:
+            _, _, terminated, truncated, _ = env.step(action)
+            if terminated or truncated:
+                env.reset()
+        return (time.perf_counter() - begin) / len(actions)
+
+    return Part(f"step, on {episodes} with resets", drive)
+
+
+def on_split(episodes: str) -> dict[str, Any]:
+    """Arguments of an environment whose episodes are of a split and of usual length."""
+    return {"episodes": episodes, "max_seconds": MEAN_DRIVE_SECONDS}
 
 
 def kernel_parts(steps: int, **options: Any) -> list[Part]:

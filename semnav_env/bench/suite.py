@@ -9,16 +9,20 @@ from typing import Any
 from semnav_env.bench.brute_force import yardstick, yardstick_alone
 from semnav_env.bench.peers import peer_parts
 from semnav_env.bench.plans import repeated
-from semnav_env.bench.single import kernel_parts, step_parts
+from semnav_env.bench.single import kernel_parts, step_parts, training_step_part
 from semnav_env.bench.start_up import compile_seconds, start_parts
 from semnav_env.bench.timing import Timing, timings
-from semnav_env.bench.vector import vector_part
+from semnav_env.bench.vector import training_part, vector_part
 from semnav_env.env import SemNavEnv
 from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.maps import FloorPlan
 
 COPIES, BEAMS, ROBOTS = (1, 2, 10, 29), (201, 405, 811, 1621), (1, 8, 64, 256)
 """Sizes at which growth is timed: copies of the plan, beams of the lidar, robots."""
+
+
+TRAINING_LENGTH = 10
+"""A timing of steps with resets has so many times as many steps: each needs ends of episodes."""
 
 
 def benchmark(robots: int, threads: int, runs: int, steps: int, **options: Any) -> list[Timing]:
@@ -56,6 +60,35 @@ def growth(plan: FloorPlan, threads: int, runs: int, steps: int, **options: Any)
         parts.append(step._replace(name=f"step, {beams} beams"))
     for count in range(1, threads + 1):
         parts += [vector_part(steps, n, count, floor_plan=plan, **options) for n in ROBOTS]
+    return timings(parts, runs)
+
+
+def training(
+    episodes: str,
+    robots: int,
+    threads: int,
+    runs: int,
+    steps: int,
+    floor_plan: FloorPlan,
+    **options: Any,
+) -> list[Timing]:
+    """Time steps on a split, resets included, each after the plain step; the yardstick first.
+
+    Args:
+        episodes: name of the split, or path of a file.
+        robots: in the vector environment.
+        threads: most threads to drive them in.
+        runs: how often each part is timed; the median counts.
+        steps: calls in a timing of the plain step; of `TRAINING_LENGTH` times as many in training.
+        floor_plan: of the plain step.
+        options: of `SemNavEnv`.
+    """
+    longer = TRAINING_LENGTH * steps
+    plain = step_parts(steps, floor_plan=floor_plan, **options)[0]
+    parts = [yardstick(), plain, training_step_part(longer, episodes, **options)]
+    for count in range(1, threads + 1):
+        parts.append(vector_part(steps, robots, count, floor_plan=floor_plan, **options))
+        parts.append(training_part(longer, robots, count, episodes, **options))
     return timings(parts, runs)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from semnav_env.bench.single import cruising_actions
+from semnav_env.bench.single import cruising_actions, on_split
 from semnav_env.bench.timing import Part
 from semnav_env.vector import SemNavVectorEnv
 
@@ -38,5 +38,36 @@ def vector_part(steps: int, robots: int, threads: int, **options: Any) -> Part:
                 begin += time.perf_counter() - paused
         return (time.perf_counter() - begin) / actions[..., 0].size
 
+    return Part(_name(robots, threads), drive)
+
+
+def training_part(steps: int, robots: int, threads: int, episodes: str, **options: Any) -> Part:
+    """The step of a vector environment that begins the episodes of a split itself, as in training.
+
+    The clock runs during resets, and while buildings that were not met before are made ready.
+
+    Args:
+        steps: of one robot in a timing, about.
+        robots: how many there are.
+        threads: in which they are driven.
+        episodes: name of the split, or path of a file.
+        options: of `SemNavEnv`.
+    """
+    options = on_split(episodes) | {"threads": threads, "autoreset_mode": "SameStep"} | options
+    envs = SemNavVectorEnv(robots, **options)
+    envs.reset(seed=0)
+    shape = envs.single_action_space.shape or ()
+    actions = cruising_actions(max(1, steps // robots), (robots, *shape))
+
+    def drive() -> float:
+        begin = time.perf_counter()
+        for action in actions:
+            envs.step(action)
+        return (time.perf_counter() - begin) / actions[..., 0].size
+
+    return Part(f"{_name(robots, threads)}, on {episodes} with resets", drive)
+
+
+def _name(robots: int, threads: int) -> str:
     among = "threads" if threads > 1 else "thread"
-    return Part(f"step of one of {robots} robots, {threads} {among}", drive)
+    return f"step of one of {robots} robots, {threads} {among}"

@@ -7,7 +7,14 @@ from semnav_env.features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_env.episodes.files import EpisodeFileError, read_episodes, write_episodes
-    from semnav_env.episodes.splits import SPLITS, Split, evenly, is_episodes, load_episodes
+    from semnav_env.episodes.splits import (
+        SPLITS,
+        Split,
+        evenly,
+        find_episode,
+        is_episodes,
+        load_episodes,
+    )
 
 __all__ = [
     "SPLITS",
@@ -17,6 +24,7 @@ __all__ = [
     "Split",
     "StaleEpisodeError",
     "evenly",
+    "find_episode",
     "is_episodes",
     "load_episodes",
     "read_episodes",
@@ -27,6 +35,6 @@ __getattr__ = lazy_names(
     __name__,
     {
         "files": ("EpisodeFileError", "read_episodes", "write_episodes"),
-        "splits": ("SPLITS", "Split", "evenly", "is_episodes", "load_episodes"),
+        "splits": ("SPLITS", "Split", "evenly", "find_episode", "is_episodes", "load_episodes"),
     },
 )

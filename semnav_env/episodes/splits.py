@@ -118,6 +118,25 @@ def load_episodes(name: str | Path) -> tuple[Episode, ...]:
     )
 
 
+def find_episode(name: str) -> Episode:
+    """The frozen episode of an id, such as "val_unseen-00246".
+
+    Args:
+        name: the id in a split, or FILE:ID for an episode of a file.
+
+    Raises:
+        ValueError: no such split or episode; names those there are.
+        EpisodeFileError: the file is none of episodes.
+    """
+    file, _, wanted = name.rpartition(":")
+    split = wanted.rpartition("-")[0]
+    episodes = {each.id: each for each in load_episodes(file or split or wanted)}
+    if wanted not in episodes:
+        first, *_, last = (*episodes, *episodes)
+        raise ValueError(f"no episode {wanted!r:.80}; there are: {first} to {last}")
+    return episodes[wanted]
+
+
 def is_episodes(name: str | Path) -> bool:
     """Whether a name is that of a split, or may be the path of a file of episodes."""
     return isinstance(name, Path) or name in SPLITS or name.endswith((".jsonl", ".gz"))

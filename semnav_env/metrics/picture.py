@@ -20,6 +20,7 @@ from semnav_env.features.writing import replacing
 from semnav_env.grounding.goal import Goal
 from semnav_env.maps.draw import draw_floor_plan
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.metrics.final_belief import FinalBelief
 from semnav_env.metrics.motion import footprints
 from semnav_env.metrics.recording import Recording
 from semnav_env.robots import RobotSpec
@@ -36,6 +37,9 @@ CONTACT_COLOUR = "#d62728"
 
 GOAL_COLOUR = "#8e3bb8"
 """Colour of the numbered goals."""
+
+REMEMBERED_COLOUR = "#00a6a6"
+"""Colour of the doors that the robot remembered, and of its agent's own goal."""
 
 PERSON_COLOUR = "#e07b00"
 """Colour of people and of where they came from."""
@@ -67,6 +71,7 @@ def save_episode(
     route: FloatArray,
     goals: Sequence[Goal] = (),
     title: str = "",
+    belief: FinalBelief | None = None,
 ) -> None:
     """Write a picture of an episode: the plan, the true route, the way driven, contacts, goals.
 
@@ -81,6 +86,7 @@ def save_episode(
         route: the true route, shape (k, 2).
         goals: goals of the clauses, drawn with numbers.
         title: above it, wrapped.
+        belief: what the robot remembered, and where its agent was driving to, at the end.
     """
     low, high = _extent(floor_plan, np.vstack((recording.path, route)))
     width, height = high - low
@@ -92,6 +98,8 @@ def save_episode(
     hung = recording.leaves is not None and len(recording.leaves)
     draw_floor_plan(swinging_leaves(floor_plan)[1] if hung else floor_plan, ax, names=False)
     draw_episode(ax, recording, robot, route, goals)
+    if belief is not None:
+        draw_belief(ax, belief)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     _name_doors(ax, floor_plan, low, high)
     figure.suptitle("\n".join(textwrap.wrap(title, int(10 * size[0]))), fontsize=10)
@@ -117,9 +125,26 @@ def draw_episode(
         ax.plot(*touched.T, "x", color=CONTACT_COLOUR, markersize=6, label="in contact", zorder=6)
     for number, goal in enumerate(goals, start=1):
         x, y = place(goal)
-        label = "goals" if number == 1 else None
+        label = "true goals" if number == 1 else None
         ax.plot(x, y, "o", color=GOAL_COLOUR, markersize=14, alpha=0.8, label=label, zorder=7)
         ax.text(x, y, str(number), color="white", size=8, ha="center", va="center", zorder=8)
+
+
+def draw_belief(ax: Axes, belief: FinalBelief) -> None:
+    """Draw the doors that a robot remembered at the end, and the goal of its agent then."""
+    for number, door in enumerate(belief.doors):
+        label = "remembered doors" if number == 0 else None
+        ends = zip(door.start, door.end, strict=True)
+        ax.plot(*ends, color=REMEMBERED_COLOUR, linewidth=4.0, alpha=0.8, label=label, zorder=6)
+    ax.plot(
+        *belief.goal,
+        "*",
+        color=REMEMBERED_COLOUR,
+        markersize=16,
+        markeredgecolor="black",
+        label="the robot's own goal at the end",
+        zorder=10,
+    )
 
 
 def _draw_moved(ax: Axes, recording: Recording) -> None:

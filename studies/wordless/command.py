@@ -10,6 +10,7 @@ import numpy as np
 import torch
 
 from semnav_env.agents.evaluation import run_suite
+from semnav_env.agents.evaluation.provenance import provenance
 from semnav_env.agents.hearing.card import CARD_FILE
 from semnav_env.episodes import evenly, load_episodes
 from semnav_env.scripts.jsonl import JsonLines
@@ -55,6 +56,7 @@ class Arguments:
 
     def _drive(self, agent: partial[WordlessAgent], robot: str) -> None:
         who = {"agent": "wordless", "training_seed": self.seed, "split": self.split, "robot": robot}
+        who |= provenance().row()
         done = []
         with JsonLines(self.out / f"wordless.{self.split}.{robot}.jsonl") as file:
             for result in run_suite(evenly(load_episodes(self.split), self.measured), agent, robot):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -13,13 +14,26 @@ import pytest
 from PIL import Image
 
 from semnav_env.agents.evaluation import SUITES, Result, misreading, runner, suite, summarise
+from semnav_env.agents.evaluation.drive import drive
+from semnav_env.agents.evaluation.intervals import wilson_interval
+from semnav_env.agents.evaluation.provenance import provenance
 from semnav_env.agents.evaluation.suites import Trial
+from semnav_env.agents.hearing.agent import HearingAgent
+from semnav_env.agents.registry import make_agent
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Expected, StaleEpisodeError, load_episodes, write_episodes
+from semnav_env.episodes import (
+    Expected,
+    StaleEpisodeError,
+    find_episode,
+    load_episodes,
+    write_episodes,
+)
+from semnav_env.features.frames import compose, relative, to_parent
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.metrics import METRIC_NAMES, Metrics
+from semnav_env.metrics.final_belief import FinalBelief
 from semnav_env.robots import ROBOTS, RobotSpec
 from semnav_env.scripts.main import main
 from semnav_env.verifier import plan_goals
@@ -156,6 +170,97 @@ def test_a_split_is_evaluated_by_number_of_clauses(
     assert len(list(tmp_path.glob("*test_real_00000*.png"))) == 1
     rows = [json.loads(line) for line in out.read_text().splitlines()]
     assert [row["episode"] for row in rows] == ["test_real-00000", "test_real-00100"]
+
+
+def test_the_output_says_who_drove_where_and_how_sure_it_is(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    words = ["evaluate", "test_real", "--episodes", "2", "--robot", "spot", "--agent", "blind"]
+    assert main([*words, "--json"]) == 0
+    *_, everything = json.loads(capsys.readouterr().out)
+    who = {"agent": "blind", "robot": "spot", "split": "test_real"}
+    assert everything.items() >= (who | provenance().row()).items()
+    low, high = everything["intervals"]["success"]
+    assert (low, high) == wilson_interval(everything["success"], 2)
+    assert main(words) == 0
+    first, second, third, *_ = capsys.readouterr().out.splitlines()
+    assert first == "agent blind, robot spot, test_real, 2 episodes"
+    assert second.startswith(f"semnav-env {provenance().version}")
+    assert second.endswith(f"rules {provenance().rules}")
+    assert third.endswith(f"(95 % interval {low:.3f} to {high:.3f}, Wilson)")
+
+
+def test_a_failure_is_filmed_and_its_picture_shows_what_was_believed(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    shown: list[FinalBelief] = []
+    monkeypatch.setattr("semnav_env.metrics.picture.draw_belief", lambda _, it: shown.append(it))
+    folders = ["--films", str(tmp_path / "films"), "--pictures", str(tmp_path / "pictures")]
+    assert main(["evaluate", "test_real", "--episodes", "1", *folders]) == 0
+    assert "filmed 1 failure into" in capsys.readouterr().out
+    [film] = (tmp_path / "films").iterdir()
+    assert film.stem == next((tmp_path / "pictures").iterdir()).stem
+    with Image.open(film) as image:
+        assert image.size == (960, 720)
+    [belief] = shown
+    plan = load_floor_plan("heidelberg_hallway")
+    assert belief.doors
+    for door in belief.doors:  # the statue observes the truth, so it remembers doors of the plan
+        assert min(math.dist(door.midpoint, each.midpoint) for each in plan.doors) < 0.2
+
+
+def test_a_listener_is_drawn_with_the_goal_that_it_found_itself() -> None:
+    agent = make_agent("listener")
+    env = SemNavEnv(observation=agent.observation, max_seconds=2.0)
+    episode = load_episodes("test_real")[0]
+    driven = drive(env, agent, episode.number, {"episode": episode})
+    assert isinstance(agent, HearingAgent)
+    odometry_frame = compose(env.world.pose, relative(env.belief.pose, (0.0, 0.0, 0.0)))
+    assert driven.belief is not None
+    assert driven.belief.goal == to_parent(odometry_frame, agent.own_goal()[:2])
+
+
+def test_a_demo_of_an_episode_is_what_evaluate_drives(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file, out = tmp_path / "one.jsonl", tmp_path / "out.jsonl"
+    write_episodes([find_episode("test_real-00130")], file)
+    assert main(["evaluate", str(file), "--agent", "blind", "--out", str(out)]) == 0
+    row = json.loads(out.read_text())
+    capsys.readouterr()
+    for name in ("test_real-00130", f"{file}:test_real-00130"):
+        code = main(["demo", "--episode", name, "--agent", "blind", "--json"])
+        shown = json.loads(capsys.readouterr().out)
+        assert code == (0 if row["success"] else 1)
+        assert shown["verdicts"] == row["verdicts"]
+        assert shown["path_length"] == round(row["path_length"], 3)
+        assert shown["seconds"] == round(row["seconds"], 2)
+
+
+def test_a_demo_of_an_impossible_episode_succeeds_by_saying_so(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["demo", "--episode", "test_infeasible-00000"]) == 0
+    assert "the robot took it for impossible: no fourth door" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--episode", "test_real-00200"], "there are: test_real-00000 to test_real-00199"),
+        (["--episode", "test_rael-00000"], "no split 'test_rael'"),
+        (["--episode", "seven"], "no split 'seven'"),
+        (["stop", "--episode", "test_real-00000"], "leave out command 'stop'"),
+        (["--episode", "test_real-00000", "--seed", "1"], "leave out --seed 1"),
+        ([], "say what the robot is to do, or give --episode ID"),
+    ],
+)
+def test_a_demo_has_a_command_or_an_episode(
+    capsys: pytest.CaptureFixture[str], words: list[str], message: str
+) -> None:
+    assert main(["demo", *words]) == 2
+    assert message in capsys.readouterr().err
 
 
 def test_an_interrupted_evaluation_keeps_driven_episodes(

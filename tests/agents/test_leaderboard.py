@@ -12,13 +12,16 @@ import pytest
 
 from semnav_env.agents.evaluation.attempts import Attempt, read_attempts, write_attempts
 from semnav_env.agents.evaluation.leaderboard import Standing, standings
+from semnav_env.agents.evaluation.provenance import UNKNOWN, provenance
 from semnav_env.scripts.main import main
 
+RULES = "0123456789abcdef"
 DOCS = Path(__file__).parents[2] / "docs"
 
 
 def attempts(successes: list[int], clauses: int = 1, **changes: object) -> list[Attempt]:
-    first = Attempt("drive", 0, "val_seen", "spot", "", clauses, True, True, 0.0)
+    drive = "drive", 0, "val_seen", "spot", "", clauses
+    first = Attempt(*drive, True, True, 0.0, version="0.2.0", commit="", rules=RULES)
     return [
         replace(first, episode=f"e{clauses}-{k}", success=bool(won), spl=0.5 * won, **changes)  # type: ignore[arg-type]
         for k, won in enumerate(successes)
@@ -154,6 +157,65 @@ def test_what_evaluate_wrote_becomes_a_table(
         assert main(["leaderboard", str(file), *words]) == 0
         assert capsys.readouterr().out == shown
         assert "test_real" in shown
+
+
+def test_rows_say_by_which_version_and_rules_they_were_made(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """Also after `--keep`, and in the table."""
+    out, kept = tmp_path / "random.jsonl", tmp_path / "kept"
+    words = ["evaluate", "test_real", "--agent", "random", "--episodes", "1", "--out", str(out)]
+    assert main(words) == 0
+    now = provenance().row()
+    assert json.loads(out.read_text()).items() >= now.items()
+    capsys.readouterr()
+    assert main(["leaderboard", str(out), "--json", "--keep", str(kept)]) == 0
+    assert json.loads(capsys.readouterr().out)[0].items() >= now.items()
+    [file] = kept.iterdir()
+    assert [asdict(each).items() >= now.items() for each in read_attempts(file)] == [True]
+    assert main(["leaderboard", str(file)]) == 0
+    assert f"{now['version']}, {str(now['rules'])[:8]}" in capsys.readouterr().out
+
+
+def test_rows_that_say_nothing_of_it_are_unknown(tmp_path: Path) -> None:
+    path = tmp_path / "old.jsonl"
+    row = asdict(attempts([1])[0])
+    path.write_text(json.dumps({n: row[n] for n in row if n not in ("version", "commit", "rules")}))
+    [old] = read_attempts(path)
+    assert (old.version, old.commit, old.rules) == ("unknown, before 0.2", "", UNKNOWN)
+    path.write_text(json.dumps({n: row[n] for n in row if n != "rules"}))
+    with pytest.raises(ValueError, match=":1: rules is None, not of type str; evaluate anew"):
+        read_attempts(path)
+
+
+def test_different_rules_are_not_compared_unless_asked(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    now, then = tmp_path / "now.jsonl.gz", tmp_path / "then.jsonl.gz"
+    write_attempts(attempts([1, 0]), now)
+    write_attempts(attempts([1, 1], rules=UNKNOWN, agent="scripted"), then)
+    assert main(["leaderboard", str(now), str(then)]) == 2
+    said = capsys.readouterr().err
+    assert "different rules are not compared unless --mixed is given" in said
+    assert f"rules {RULES}: drive (val_seen, spot)" in said
+    assert f"rules {UNKNOWN}: scripted (val_seen, spot)" in said
+    assert main(["leaderboard", str(now), str(then), "--mixed"]) == 0
+    table = capsys.readouterr().out
+    assert re.search(r"drive .* 0\.2\.0, 01234567\n", table)
+    assert re.search(rf"scripted .* {UNKNOWN}\n", table)
+
+
+def test_an_agent_under_other_rules_is_another_row() -> None:
+    """It may drive the same episodes again."""
+    before, after = standings(attempts([1, 0]) + attempts([1, 1], rules="f" * 16))
+    assert (before.rules, before.success.mean) == ("f" * 16, 1.0)
+    assert (after.rules, after.success.mean) == (RULES, 0.5)
+
+
+def test_commits_under_the_same_rules_are_joined() -> None:
+    some = zip(attempts([1] * 3), "bab", strict=True)
+    row = only(standings([replace(attempt, commit=commit) for attempt, commit in some]))
+    assert row.commit == "a, b"
 
 
 def test_a_run_among_people_is_not_compared_with_runs_without(

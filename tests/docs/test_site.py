@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import inspect
 import re
+import subprocess
+import sys
+from html import unescape
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +17,10 @@ from semnav_env.plain_settings import SETTINGS
 from tests.support.paths import ROOT
 
 DOCS = ROOT / "docs"
+PAGES = {path.relative_to(DOCS).with_suffix("").as_posix() for path in DOCS.rglob("*.md")}
+SPHINX_PAGES = {"search", "genindex", "modindex", "py-modindex"}
+"""Pages that Sphinx writes itself, over a page of that name."""
+
 LISTED = re.findall(r"^[\w/]+$", (DOCS / "index.md").read_text(), re.MULTILINE)
 NAMED = [
     (page.stem, kind, *target.rsplit(".", 1))
@@ -23,9 +31,37 @@ NAMED = [
 
 def test_every_page_is_in_the_index() -> None:
     """A page that is missing there is found by nobody, and ends the build with `-W`."""
-    pages = {path.relative_to(DOCS).with_suffix("").as_posix() for path in DOCS.rglob("*.md")}
-    assert pages - {"index"} == set(LISTED)
+    assert PAGES - {"index"} == set(LISTED)
     assert len(LISTED) == len(set(LISTED))
+
+
+def test_no_page_has_a_name_that_sphinx_writes_over() -> None:
+    assert not PAGES & SPHINX_PAGES
+
+
+@pytest.mark.slow
+def test_every_source_becomes_a_page_with_its_own_heading(tmp_path: Path) -> None:
+    """The file alone proves nothing: Sphinx's search page has the name of a page `search`."""
+    for needed in ("sphinx", "furo", "myst_parser"):
+        pytest.importorskip(needed, reason='pip install "semnav-env[docs]"')
+    words = ["-W", "-q", "-b", "html", "-d", str(tmp_path / "doctrees"), str(DOCS), str(tmp_path)]
+    subprocess.run([sys.executable, "-m", "sphinx", *words], check=True, cwd=ROOT)
+    headings = {page: _heading(DOCS / f"{page}.md") for page in PAGES}
+    built = {page: (tmp_path / f"{page}.html").read_text("utf-8") for page in PAGES}
+    assert {page: _first_heading(html) for page, html in built.items()} == headings
+
+
+def _heading(source: Path) -> str:
+    """The words of the first heading of a page."""
+    found = re.search(r"^# (.+)$", source.read_text("utf-8"), re.MULTILINE)
+    assert found, source
+    return found[1].replace("`", "").replace("'", "\u2019")  # Sphinx sets curly quotes
+
+
+def _first_heading(html: str) -> str:
+    """The words of the first heading of a built page, without the link to itself."""
+    found = re.search(r"<h1>(.*?)<a class=\"headerlink\"", html, re.DOTALL)
+    return unescape(re.sub("<[^>]+>", "", found[1])) if found else "no heading"
 
 
 @pytest.mark.parametrize(("page", "kind", "module", "name"), NAMED)

@@ -12,9 +12,11 @@ from matplotlib.patches import Circle
 
 from semnav_env.dynamics import Dynamics
 from semnav_env.features.frames import path_length
+from semnav_env.features.scene import Door
 from semnav_env.maps import load_floor_plan
 from semnav_env.metrics import Recorder, Recording
-from semnav_env.metrics.picture import TRAIL_LENGTH, draw_episode, save_episode
+from semnav_env.metrics.final_belief import FinalBelief
+from semnav_env.metrics.picture import TRAIL_LENGTH, draw_belief, draw_episode, save_episode
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.world import World
 
@@ -62,6 +64,14 @@ def test_doors_stand_as_they_did_at_the_end(recording: Recording) -> None:
     lines = [np.asarray(line.get_xydata()) for line in ax.lines]
     for leaf in recording.leaves.reshape(-1, 2, 2):
         assert any(np.array_equal(line, leaf) for line in lines)
+
+
+def test_what_the_robot_believed_is_drawn() -> None:
+    ax = Figure().add_subplot()
+    doors = Door((1.0, 0.0), (1.9, 0.0)), Door((4.0, 0.0), (4.9, 0.0))
+    draw_belief(ax, FinalBelief(doors, (2.0, 3.0)))
+    lines = [np.asarray(line.get_xydata()).tolist() for line in ax.lines]
+    assert lines == [[[1.0, 0.0], [1.9, 0.0]], [[4.0, 0.0], [4.9, 0.0]], [[2.0, 3.0]]]
 
 
 def test_a_recording_among_people_is_drawn_and_read_back(

@@ -170,5 +170,6 @@ def make_inputs(folder: Path) -> None:
         place = " ".join(f"{value:.3f}" for value in pose)
         lines.append(f"FLASER {len(ranges.split())} {ranges} {place} {place} {k} robot {k}\n")
     (folder / "drive.log").write_text("".join(lines))
-    attempt = Attempt("random", -1, SPLIT, "wheelchair", "one", 1, True, True, 1.0)
+    drive = "random", -1, SPLIT, "wheelchair", "one", 1
+    attempt = Attempt(*drive, True, True, 1.0, version="0.2.0", commit="", rules="0" * 16)
     write_attempts([attempt], folder / "results.jsonl.gz")

@@ -20,6 +20,20 @@ def test_the_benchmark_times_steps_parts_and_a_reset(capsys):
         assert row["ratio"] == pytest.approx(scan / row["microseconds"])
 
 
+def test_training_on_a_split_is_timed_beside_plain_steps(capsys):
+    code, out, _ = run(capsys, "bench", *FEW, "--episodes", "test_real", "--json")
+    names = [row["name"] for row in json.loads(out)]
+    assert code == 0
+    plain = ["step", "step of one of 2 robots, 1 thread"]
+    assert names[1:] == [n for p in plain for n in (p, f"{p}, on test_real with resets")]
+
+
+def test_a_split_that_is_not_there_is_no_benchmark(capsys):
+    code, _, err = run(capsys, "bench", *FEW, "--episodes", "tran")
+    assert code == 2
+    assert "no split 'tran'" in err
+
+
 @pytest.mark.parametrize(("ratio", "said"), [(20.0, "1/20.0"), (1.0, "1.0"), (0.5, "2.0")])
 def test_a_part_is_told_in_brute_force_scans(ratio, said):
     assert _in_scans(ratio) == said

@@ -1,0 +1,123 @@
+"""What results say of what they were made by: version, commit, fingerprint of the rules."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Callable
+from importlib import metadata
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+from semnav_env.agents.evaluation import provenance as made_by
+
+MODULE = '''"""Of a module."""
+
+TOLERANCE = 0.5
+"""Of the tolerance."""
+
+
+def near(text: str = "# no comment") -> bool:
+    """Whether it is near."""
+    return len(text) < TOLERANCE
+'''
+
+REWORDED = '''"""Of the same
+module."""
+
+# A remark.
+TOLERANCE = 0.5  # metres
+"""Of the tolerance."""
+
+def near(text: str = "# no comment") -> bool:
+    """Whether it is not far."""
+    # Another remark.
+    return len(text) < TOLERANCE
+'''
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the sources, of which the fingerprint is taken."""
+    copy = tmp_path / "semnav_env"
+    left_out = shutil.ignore_patterns("frozen", "pretrained", "bundled", "__pycache__", "scripts")
+    shutil.copytree(str(files("semnav_env")), copy, ignore=left_out)
+    monkeypatch.setattr(made_by, "files", lambda _: copy)
+    return copy
+
+
+def fingerprint() -> str:
+    return made_by.rules_fingerprint.__wrapped__()
+
+
+def edited(path: Path, change: Callable[[str], str]) -> None:
+    before = path.read_text("utf-8")
+    after = change(before)
+    assert after != before
+    path.write_text(after, "utf-8")
+
+
+def test_rewording_a_module_changes_nothing_that_counts() -> None:
+    assert made_by.bare(REWORDED) == made_by.bare(MODULE)
+    assert made_by.bare(MODULE.replace("0.5", "0.6")) != made_by.bare(MODULE)
+    assert made_by.bare(MODULE.replace("# no", "# a")) != made_by.bare(MODULE)
+
+
+def test_a_copy_of_the_sources_has_their_fingerprint(package: Path) -> None:
+    assert fingerprint() == made_by.rules_fingerprint()
+
+
+@pytest.mark.parametrize(
+    ("file", "before", "after"),
+    [
+        ("rules.py", "stand_off: Length = 0.9", "stand_off: Length = 0.8"),
+        ("grounding/goals.py", "import annotations", "import annotations, division"),
+        ("verifier/verifier.py", "import annotations", "import annotations, division"),
+        ("features/extraction.py", "import annotations", "import annotations, division"),
+        ("features/kernels/doors.py", "import annotations", "import annotations, division"),
+        ("commands/english.json", "door", "gate"),
+    ],
+)
+def test_what_decides_changes_the_fingerprint(
+    package: Path, file: str, before: str, after: str
+) -> None:
+    edited(package / file, lambda text: text.replace(before, after, 1))
+    assert fingerprint() != made_by.rules_fingerprint()
+
+
+def test_words_and_agents_do_not_change_the_fingerprint(package: Path) -> None:
+    edited(package / "rules.py", lambda text: f"# A remark.\n{text}")
+    edited(package / "agents" / "scripted.py", lambda text: f"{text}\nMORE = 1\n")
+    assert fingerprint() == made_by.rules_fingerprint()
+
+
+def test_the_commit_is_that_of_the_checkout_of_the_package(package: Path) -> None:
+    """A package that lies in somebody's checkout, but is not kept there, has no commit."""
+
+    def git(*words: str) -> str:
+        named = ("-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "commit.gpgsign=false")
+        command = ["git", "-C", str(package.parent), *named, *words]
+        return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+    git("init")
+    git("commit", "--allow-empty", "-m", "another project")
+    assert made_by.commit.__wrapped__() == ""
+    git("add", "semnav_env")
+    git("commit", "-m", "the package")
+    assert made_by.commit.__wrapped__() == git("rev-parse", "HEAD")
+    edited(package / "rules.py", lambda text: f"{text}\n")
+    assert made_by.commit.__wrapped__() == f"{git('rev-parse', 'HEAD')}-dirty"
+
+
+def test_without_git_there_is_no_commit(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(package))
+    assert made_by.commit.__wrapped__() == ""
+
+
+def test_results_of_now_are_of_this_version() -> None:
+    row = made_by.provenance().row()
+    assert row["version"] == metadata.version("semnav-env")
+    assert row["rules"] == made_by.rules_fingerprint()
+    assert len(made_by.rules_fingerprint()) == made_by.FINGERPRINT_DIGITS
