@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from semnav_env.features.frames import FloatArray
-from semnav_env.features.validation import as_float, require
+from semnav_env.features.validation import finite_float
 
 _MAX_FIRST_ANGLE = 8.0 * math.pi
 """A first direction beyond this is in degrees, not a heading that was not wrapped; radians."""
@@ -65,12 +65,14 @@ class Scan:
         stamp: float | None = None,
     ) -> None:
         values = dict(
-            angle_min=as_float("angle_min", angle_min),
-            angle_increment=as_float("angle_increment", angle_increment),
-            range_min=as_float("range_min", range_min),
-            range_max=as_float("range_max", range_max),
+            angle_min=finite_float("angle_min", angle_min),
+            angle_increment=finite_float("angle_increment", angle_increment),
+            range_min=finite_float("range_min", range_min),
+            range_max=finite_float("range_max", range_max),
         )
-        _check_numbers(values)
+        if stamp is not None:
+            finite_float("stamp", stamp)
+        _check_limits(values)
         array = _check_ranges(ranges, values["range_max"])
         _check_angles(values["angle_min"], values["angle_increment"], len(array))
         if values["angle_increment"] < 0:
@@ -95,9 +97,7 @@ class Scan:
             return beyond_least & (self.ranges < self.range_max)
 
 
-def _check_numbers(values: dict[str, float]) -> None:
-    for name, value in values.items():
-        require(math.isfinite(value), name, value, "a finite number")
+def _check_limits(values: dict[str, float]) -> None:
     if not 0 <= values["range_min"] < values["range_max"]:
         raise ValueError(
             f"range_min {values['range_min']} and range_max {values['range_max']} must satisfy "
@@ -153,15 +153,20 @@ def check_unit(ranges: FloatArray, range_max: float) -> None:
     far = 20.0 * range_max
     if not (ranges > far).any():  # spares most scans the sorting
         return
-    measured = ranges[(ranges > 0) & (ranges < _NO_LENGTH)]
-    lengths = np.unique(measured)
-    if len(lengths) == 0 or len(lengths) == 1 < len(measured):
-        return
-    if (typical := lengths[(len(lengths) - 1) // 2]) > far:
+    if (typical := typical_length(ranges)) > far:
         raise ValueError(
             f"ranges have a median of {typical:.0f} but range_max is {range_max} m; "
             "they look like millimetres: divide them by 1000"
         )
+
+
+def typical_length(ranges: FloatArray) -> float:
+    """Median of the different lengths of a scan; 0 if there are none, or one of many beams."""
+    measured = ranges[(ranges > 0) & (ranges < _NO_LENGTH)]
+    lengths = np.unique(measured)
+    if len(lengths) == 0 or len(lengths) == 1 < len(measured):
+        return 0.0
+    return float(lengths[(len(lengths) - 1) // 2])
 
 
 def plain_codes(ranges: ArrayLike, range_min: float, range_max: float) -> FloatArray:

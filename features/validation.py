@@ -39,18 +39,6 @@ def shown(value: object) -> str:
         return f"a {type(value).__name__} that is too long to write"
 
 
-def as_float(name: str, value: float) -> float:
-    """A number as a float.
-
-    Raises:
-        ValueError: no float is as large.
-    """
-    try:
-        return float(value)
-    except OverflowError:
-        raise ValueError(f"{name} is {shown(value)}; it must be a finite number") from None
-
-
 def clipped(text: str, most: int = SHOWN) -> str:
     """A text for a message, cut to a number of characters."""
     return text if len(text) <= most else f"{text[: most - 3]}..."
@@ -121,3 +109,34 @@ def finite_floats(values: object) -> tuple[float, ...] | None:
         return None
     known = all(isinstance(each, Real) and not isinstance(each, bool | np.bool_) for each in given)
     return numbers if known and all(map(math.isfinite, numbers)) else None
+
+
+def finite_triple(name: str, value: object) -> tuple[float, float, float]:
+    """A pose, a velocity or a contact as three floats.
+
+    Raises:
+        ValueError: it is not three finite numbers.
+    """
+    numbers = finite_floats(value)
+    require(numbers is not None and len(numbers) == 3, name, value, "three finite numbers")
+    x, y, third = numbers or (0.0, 0.0, 0.0)
+    return x, y, third
+
+
+def finite_float(name: str, value: Any, right: str = "a finite number") -> float:
+    """A finite number as a float.
+
+    Args:
+        name: of the value.
+        value: to look at.
+        right: what would be right, for the message.
+
+    Raises:
+        ValueError: it is none.
+    """
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    require(math.isfinite(number), name, value, right)
+    return number

@@ -11,12 +11,12 @@ from tyro.conf import OmitArgPrefixes, Positional
 
 from semnav_env.features import ExtractorSettings, Scan, Scene, extract
 from semnav_env.features.plot import check_suffix, save_page
-from semnav_env.features.readers import Geometry, ScanLog, TruncatedLogError, open_log
+from semnav_env.features.readers import Geometry, LogCheck, ScanLog, TruncatedLogError, open_log
 from semnav_env.scripts.jsonl import JsonLines
 from semnav_env.scripts.outputs import check_distinct, check_file
 from semnav_env.scripts.progress import tracked
 from semnav_env.scripts.sampling import EvenSample
-from semnav_env.scripts.scene_report import ExtractionTally, document
+from semnav_env.scripts.scene_report import ExtractionTally, document, print_notes
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Arguments:
 
     It reads CARMEN logs, CSV and BreezySLAM's logs (text or gz), npz archives, ROS 1 bags, and
     ROS 2 bags (folder, .db3 or .mcap). A log that is cut short is processed up to its last whole
-    scan; the exit code is then 2.
+    scan; the exit code is then 2. Notes on stderr say what looks wrong in the log.
 
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag.
@@ -57,9 +57,9 @@ class Arguments:
         page = EvenSample[tuple[str, Scan, Scene]](self.scans)
         damage: TruncatedLogError | None = None
         with open_log(self.log, self.geometry, self.topic) as log:
-            tally = ExtractionTally(log)
+            tally, check = ExtractionTally(log), LogCheck(log.unit)
             try:
-                self._extract(log, tally, page)
+                self._extract(log, tally, check, page)
             except TruncatedLogError as error:
                 damage = error
         written = [self.out] if self.out and tally.scenes else []
@@ -67,18 +67,23 @@ class Arguments:
             save_page(self.plot, page.items())
             written.append(self.plot)
         if self.json:
-            print(tally.as_json(damage is None, written))
+            print(tally.as_json(damage is None, written, check.notes()))
         else:
             print("\n".join([tally.as_text(), *(f"wrote {path}" for path in written)]))
+        print_notes(check.notes())
         if damage:
             raise damage
         return 0
 
     def _extract(
-        self, log: ScanLog, tally: ExtractionTally, page: EvenSample[tuple[str, Scan, Scene]]
+        self,
+        log: ScanLog,
+        tally: ExtractionTally,
+        check: LogCheck,
+        page: EvenSample[tuple[str, Scan, Scene]],
     ) -> None:
         stop = None if self.limit is None else (self.limit - 1) * self.every + 1
-        records = islice(log, 0, stop, self.every)
+        records = check.watched(islice(log, 0, stop, self.every))
         with JsonLines(self.out) if self.out else nullcontext() as out:
             for record in tracked(records, tally.label, lambda: log.fraction):
                 scene = extract(record.scan, self.settings)

@@ -12,18 +12,21 @@ from typing import Any
 from tyro.conf import OmitArgPrefixes, Positional
 
 from semnav_env.belief import Belief
-from semnav_env.belief.log_following import follow_log
+from semnav_env.belief.log_following import PoseChoice, follow_log
 from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import Pose
+from semnav_env.features.mapping import ScanOdometry
+from semnav_env.features.mapping.matched_log import loss_of
 from semnav_env.features.plot import check_suffix
-from semnav_env.features.readers import Geometry, LogRecord, TruncatedLogError, open_log
+from semnav_env.features.readers import Geometry, LogCheck, LogRecord, TruncatedLogError, open_log
+from semnav_env.features.readers.log_check import PoseSource
 from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.ground import understood
 from semnav_env.scripts.outputs import check_file
 from semnav_env.scripts.printable import printable
 from semnav_env.scripts.progress import tracked
-from semnav_env.scripts.scene_report import bad_text
+from semnav_env.scripts.scene_report import bad_text, print_notes
 
 
 @dataclass(frozen=True)
@@ -32,14 +35,19 @@ class Arguments:
 
     The robot is told the command at the first scan. Each line is a moment in which its clause or
     its goal changed. The frame is that of odometry and begins at the first scan. The exit code is
-    0 if the robot believes in the end that it has carried out the whole command, and 1 if not. A
-    log that is cut short is followed up to its last whole scan; the exit code is then 2.
+    0 if the robot believes in the end that it has carried out the whole command, and 1 if not, or
+    if so many scans found no match that its poses are not to be trusted. A log that is cut short
+    is followed up to its last whole scan; the exit code is then 2. Notes on stderr say what looks
+    wrong in the log.
 
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag; see `semnav extract --help`.
         command: what the robot is told; rooms cannot be named, because nobody points them out.
         language: of the command: en or de (english, german); recognised if not given.
         mount: pose of the lidar on the robot, x,y,heading in metres and radians.
+        poses: where the robot was: "log" takes the poses of the log, "odometry" its wheel
+            odometry, and "match" matches each scan with the earlier ones, with wheel odometry as a
+            guess if the log has it; odometry, or else the log's poses, if not given.
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
         first: number of the first scan, from 1.
         limit: stop after so many scans.
@@ -53,6 +61,7 @@ class Arguments:
     command: Positional[str]
     language: str | None = None
     mount: str = "0,0,0"
+    poses: PoseChoice | None = None
     topic: str | None = None
     first: int = 1
     limit: int | None = None
@@ -71,7 +80,8 @@ class Arguments:
         check_file(self.plot, "--plot")
         if self.plot is not None:
             check_suffix(self.plot)
-        beliefs, damage = self._follow(command, mount)
+        matcher = ScanOdometry()
+        beliefs, damage = self._follow(command, mount, matcher)
         done = beliefs[-1].clause
         if not self.json:
             print(f"believed to be done: {done} of {len(command.clauses)} clauses")
@@ -83,18 +93,22 @@ class Arguments:
                 print(f"wrote {self.plot}")
         if damage:
             raise damage
-        return 0 if done == len(command.clauses) else 1
+        if loss := loss_of(matcher, len(beliefs)):
+            print(loss, file=sys.stderr)
+        return 0 if done == len(command.clauses) and not loss else 1
 
     def _follow(
-        self, command: Command, mount: Pose
+        self, command: Command, mount: Pose, matcher: ScanOdometry
     ) -> tuple[list[Belief], TruncatedLogError | None]:
         """Print each change of mind; returns all beliefs, and what ended the log too early."""
         beliefs: list[Belief] = []
         damage: TruncatedLogError | None = None
         with open_log(self.log, self.geometry, self.topic) as log:
             stop = None if self.limit is None else self.first - 1 + self.limit
-            records = islice(log, self.first - 1, stop)
-            followed = follow_log(records, command, mount=mount, extractor=self.settings)
+            check = LogCheck(log.unit, _WATCHED[self.poses])
+            records = check.watched(islice(log, self.first - 1, stop))
+            options: Any = {"mount": mount, "extractor": self.settings, "poses": self.poses}
+            followed = follow_log(records, command, matcher=matcher, **options)
             try:
                 for record, belief in tracked(
                     followed, lambda n: f"{n} scans", lambda: log.fraction
@@ -106,6 +120,7 @@ class Arguments:
                 damage = error
             if log.bad:
                 print(printable(bad_text(log)), file=sys.stderr)
+            print_notes(check.notes())
         if not beliefs:
             raise damage or ValueError(f"{self.log} has no scan {self.first}")
         return beliefs, damage
@@ -130,6 +145,15 @@ class Arguments:
         if over:
             return f"{at}  all clauses done"
         return f"{at}  clause {said['clause']}  {said['goal']:<5} {'; '.join(belief.reasons)}"
+
+
+_WATCHED: dict[PoseChoice | None, tuple[PoseSource, ...]] = {
+    "log": ("pose",),
+    "odometry": ("odometry",),
+    "match": ("odometry",),
+    None: ("pose", "odometry"),
+}
+"""Fields of a record in which something may look wrong, by where the poses come from."""
 
 
 def _mind(belief: Belief) -> tuple[int, str, tuple[str, ...]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+import sys
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
@@ -12,11 +12,13 @@ from typing import Literal
 from tyro.conf import OmitArgPrefixes, Positional
 
 from semnav_env.features import ExtractorSettings, extract
-from semnav_env.features.frames import Pose, compose, relative
+from semnav_env.features.frames import Pose
 from semnav_env.features.mapping import LineMap, MapSettings, ScanOdometry
+from semnav_env.features.mapping.matched_log import loss_of, matched
 from semnav_env.features.plot import check_suffix
 from semnav_env.features.readers import (
     Geometry,
+    LogCheck,
     LogRecord,
     ScanLog,
     TruncatedLogError,
@@ -27,7 +29,7 @@ from semnav_env.maps.line_map_plan import plan_of_scene
 from semnav_env.scripts.arguments import parse_pose
 from semnav_env.scripts.outputs import check_distinct, check_file
 from semnav_env.scripts.progress import tracked
-from semnav_env.scripts.scene_report import bad_text
+from semnav_env.scripts.scene_report import bad_text, print_notes
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,8 @@ class Arguments:
     """Build a floor plan of walls and doors from a log of lidar scans.
 
     It reads the same logs as `semnav extract`. A log that is cut short is mapped up to its last
-    whole scan; the exit code is then 2.
+    whole scan; the exit code is then 2. It is 1 if so many scans found no match that the plan is
+    not to be trusted. Notes on stderr say what looks wrong in the log.
 
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag.
@@ -75,25 +78,39 @@ class Arguments:
         line_map, odometry = LineMap(self.map_settings), ScanOdometry()
         damage: TruncatedLogError | None = None
         with open_log(self.log, self.geometry, self.topic) as log:
+            check = LogCheck(log.unit, ["odometry" if self.poses == "match" else "pose"])
             try:
-                self._fill(line_map, odometry, log, mount)
+                self._fill(line_map, odometry, log, check, mount)
             except TruncatedLogError as error:
                 damage = error
         plan = plan_of_scene(line_map.scene, self.out.stem, f"mapped from {self.log.name}")
-        self._write(plan, line_map, odometry.lost, log)
+        loss = loss_of(odometry, line_map.scans + line_map.repeated)
+        self._write(plan, line_map, odometry.lost, log, check)
+        print_notes(check.notes())
         if damage:
             raise damage
-        return 0
+        if loss:
+            print(loss, file=sys.stderr)
+        return 1 if loss else 0
 
-    def _fill(self, line_map: LineMap, odometry: ScanOdometry, log: ScanLog, mount: Pose) -> None:
+    def _fill(
+        self,
+        line_map: LineMap,
+        odometry: ScanOdometry,
+        log: ScanLog,
+        check: LogCheck,
+        mount: Pose,
+    ) -> None:
         stop = None if self.limit is None else (self.limit - 1) * self.every + 1
-        records = islice(log, 0, stop, self.every)
+        records = check.watched(islice(log, 0, stop, self.every))
         matches = self.poses == "match"
         placed = matched(records, odometry, mount) if matches else map(_as_logged, records)
         for record, pose in tracked(placed, lambda n: f"{n} scans", lambda: log.fraction):
             line_map.add(extract(record.scan, self.settings), record.scan, pose)
 
-    def _write(self, plan: FloorPlan, line_map: LineMap, lost: int, log: ScanLog) -> None:
+    def _write(
+        self, plan: FloorPlan, line_map: LineMap, lost: int, log: ScanLog, check: LogCheck
+    ) -> None:
         save_floor_plan(plan, self.out)
         if self.picture:
             from semnav_env.maps.draw import save_picture
@@ -106,6 +123,7 @@ class Arguments:
             "bad_lines": dict(log.bad.most_common()),
             "walls": len(line_map.walls),
             "doors": len(plan.doors),
+            "notes": check.notes(),
             "out": str(self.out),
         }
         if self.json:
@@ -139,21 +157,3 @@ def _as_logged(record: LogRecord) -> tuple[LogRecord, Pose]:
     if record.pose is None:
         raise ValueError("the log has no poses; find them with --poses match")
     return record, record.pose
-
-
-def matched(
-    records: Iterator[LogRecord], odometry: ScanOdometry, mount: Pose
-) -> Iterator[tuple[LogRecord, Pose]]:
-    """The records with poses of the lidar from their scans, in the frame of the first scan.
-
-    Args:
-        records: of a log, in order.
-        odometry: by which scans are matched, before its first.
-        mount: pose of the lidar on the robot, to which wheel odometry belongs.
-    """
-    wheels: Pose | None = None
-    for record in records:
-        lidar = compose(record.odometry, mount) if record.odometry else None
-        moved = relative(wheels, lidar) if wheels and lidar else None
-        wheels = lidar
-        yield record, odometry.update(record.scan, moved)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import sys
 import time
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -12,6 +14,7 @@ from typing import Any
 from semnav_env.features import Scene
 from semnav_env.features.readers import LogRecord, ScanLog
 from semnav_env.features.scene import Door
+from semnav_env.scripts.printable import printable
 
 _KINDS = ("walls", "doors", "corners", "corridors", "arcs")
 
@@ -57,6 +60,12 @@ def bad_text(log: ScanLog) -> str:
     return "\n".join([f"{log.bad.total()} bad {log.unit}s", *reasons])
 
 
+def print_notes(notes: Iterable[str]) -> None:
+    """Say on stderr what looks wrong in a log."""
+    for note in notes:
+        print(printable(f"note: {note}"), file=sys.stderr)
+
+
 class ExtractionTally:
     """Counts of what a run has found, and its speed.
 
@@ -94,8 +103,14 @@ class ExtractionTally:
         found = ", ".join(f"{self.found[kind]} {kind}" for kind in _KINDS)
         return "\n".join([f"{self.scenes} scans{rate}", found, bad_text(self._log)])
 
-    def as_json(self, whole: bool, written: list[Path]) -> str:
-        """The summary for programs, with whether the log was whole and which files were written."""
+    def as_json(self, whole: bool, written: list[Path], notes: list[str]) -> str:
+        """The summary for programs.
+
+        Args:
+            whole: whether the log was.
+            written: files.
+            notes: what looks wrong in the log.
+        """
         return json.dumps(
             {
                 "scans": self.scenes,
@@ -103,6 +118,7 @@ class ExtractionTally:
                 "found": {kind: self.found[kind] for kind in _KINDS},
                 "bad_lines": dict(self._log.bad.most_common()),
                 "log_whole": whole,
+                "notes": notes,
                 "wrote": [str(path) for path in written],
             }
         )

@@ -8,10 +8,12 @@ from semnav_env.features.readers.log import (
     ScanLog,
     TruncatedLogError,
 )
+from semnav_env.features.readers.log_check import LogCheck
 from semnav_env.features.readers.opening import open_log
 
 __all__ = [
     "Geometry",
+    "LogCheck",
     "LogError",
     "LogReader",
     "LogRecord",

@@ -27,8 +27,12 @@ _MEANINGS = {
     "range_min": ("range_min",),
     "range_max": ("range_max",),
 }
-_RANGE = re.compile(r"(r|ranges?|beams?|d|dist|distances?)?[\W_]*\d+\]?\Z")
-_NUMBER_IN_NAME = re.compile(r"(-?(?:\d+\.)?\d+)\W*\Z")
+_RANGE = re.compile(r"(r|ranges?|beams?|d|dist|distances?)?[\W_]*[0-9]{1,9}\]?\Z")
+_NUMBER_IN_NAME = re.compile(r"(-?(?:[0-9]+\.)?[0-9]+)\W*\Z")
+_NAME_END = 40
+"""Last characters of a column's name in which its number is looked for: the search takes time that
+grows with the square of their count."""
+
 _SEPARATORS = (b",", b";", b"\t")
 _DECIMAL_COMMA = re.compile(rb"\s*\"?[+-]?\d*,\d+([eE][+-]?\d+)?\"?\s*\Z")
 _NO_COMMA = re.compile(rb"[^,]*\Z")
@@ -185,9 +189,10 @@ def _is_in_order(names: list[bytes]) -> bool:
 
     A minus sign may belong to a number, as in degrees, or part it from the name.
     """
-    signed = [_NUMBER_IN_NAME.search(name.decode("utf-8", "replace")) for name in names]
+    ends = [name.decode("utf-8", "replace").strip(" \"'")[-_NAME_END:] for name in names]
+    signed = [_NUMBER_IN_NAME.search(end) for end in ends]
     degrees = [float(found[1]) if found else np.nan for found in signed]
-    counts = [float(re.findall(rb"\d+", name)[-1]) for name in names]
+    counts = [float(re.findall(r"[0-9]+", end)[-1]) for end in ends]
     return len(names) == 1 or any(
         min(steps) > 0 and max(steps) < 2 * min(steps)
         for steps in (np.diff(degrees), np.diff(counts))

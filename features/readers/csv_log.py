@@ -18,6 +18,7 @@ from semnav_env.features.readers.geometry import Geometry, checked_scan
 from semnav_env.features.readers.log import BadRecordError, LogError, LogRecord
 from semnav_env.features.readers.text import TextFile, TextLog
 from semnav_env.features.scan import Scan
+from semnav_env.features.validation import shown
 
 _ANGLES = ("angle_min", "angle_increment")
 _SETTING = re.compile(
@@ -81,9 +82,9 @@ class CsvLog(TextLog):
             try:
                 self._said[name.decode()] = float(value.replace(b",", b"."))
             except ValueError:
-                said = value.decode("ascii", "replace")
+                said = shown(value.decode("ascii", "replace"))
                 raise LogError(
-                    f"{self.path}, line {number}: {name.decode()} is {said!r}; it must be a "
+                    f"{self.path}, line {number}: {name.decode()} is {said}; it must be a "
                     "number, in metres or radians"
                 ) from None
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
+from typing import Literal, TypeAlias
 
 from semnav_env.belief.belief import Belief
 from semnav_env.belief.tracker import NO_WAYS, BeliefTracker
@@ -10,8 +12,13 @@ from semnav_env.commands import Command
 from semnav_env.features import ExtractorSettings, Scan
 from semnav_env.features.frames import ORIGIN, Pose, compose, relative, wrap_angle
 from semnav_env.features.lidar_spec import LidarSpec, most_beams
+from semnav_env.features.mapping import ScanOdometry
+from semnav_env.features.mapping.matched_log import matched
 from semnav_env.features.readers import LogError, LogRecord
 from semnav_env.grounding.ways import Way
+
+PoseChoice: TypeAlias = Literal["log", "odometry", "match"]
+"""Where the poses of a robot come from: the log's own, its wheels, or its scans."""
 
 
 def follow_log(
@@ -21,12 +28,13 @@ def follow_log(
     mount: Pose = ORIGIN,
     extractor: ExtractorSettings = ExtractorSettings(),
     corrects_drift: bool = True,
+    poses: PoseChoice | None = None,
+    matcher: ScanOdometry | None = None,
 ) -> Iterator[tuple[LogRecord, Belief]]:
     """The records of a log, each with the belief after it.
 
     The odometry frame begins at the first record that says where it was taken; those before it
-    are passed over, as a bag may begin with scans. If that one has no odometry, the poses of all
-    records count instead: the two may have been counted from different places.
+    are passed over, as a bag may begin with scans.
 
     Args:
         records: of a log, in order.
@@ -35,20 +43,21 @@ def follow_log(
         mount: pose of the lidar in the robot frame.
         extractor: limits of the feature extractor.
         corrects_drift: whether walls that are seen again correct the odometry.
+        poses: "odometry" takes the odometry of all records, "log" their poses, and "match" matches
+            each scan with the earlier ones; None takes what the first record has, odometry before
+            poses: the two may have been counted from different places.
+        matcher: by which scans are matched, before its first; one of its own if None.
 
     Raises:
         LogError: a record does not say where it was taken, or scans of several lidars are mixed.
     """
+    if poses == "match":
+        placed = _matched(records, matcher or ScanOdometry(), mount)
+    else:
+        placed = _as_recorded(records, mount, poses)
     tracker: BeliefTracker | None = None
-    start, last, by_odometry = ORIGIN, None, True
-    lost: LogRecord | None = None
-    for record in records:
-        if tracker is None:
-            if record.odometry is None and record.pose is None:
-                lost = lost or record
-                continue
-            by_odometry = record.odometry is not None
-        robot = _robot_pose(record, mount, by_odometry)
+    start, last = ORIGIN, None
+    for record, robot in placed:
         if tracker is None:
             tracker = BeliefTracker(lidar_of(record.scan), mount, extractor, corrects_drift)
             tracker.begin(command, ways)
@@ -63,8 +72,6 @@ def follow_log(
         seconds = _elapsed(last, record.stamp)
         yield record, tracker.update(ranges, relative(start, robot), seconds=seconds)
         last = record.stamp
-    if tracker is None and lost is not None:
-        _robot_pose(lost, mount, by_odometry)
 
 
 def lidar_of(scan: Scan, rate_hz: float = 15.0) -> LidarSpec:
@@ -102,12 +109,44 @@ def _check_directions(record: LogRecord, lidar: LidarSpec) -> None:
         )
 
 
+def _matched(
+    records: Iterable[LogRecord], matcher: ScanOdometry, mount: Pose
+) -> Iterator[tuple[LogRecord, Pose]]:
+    """The records with poses of the robot from their scans."""
+    for record, lidar in matched(records, matcher, mount):
+        yield record, compose(lidar, relative(mount, ORIGIN))
+
+
+def _as_recorded(
+    records: Iterable[LogRecord], mount: Pose, poses: Literal["log", "odometry"] | None
+) -> Iterator[tuple[LogRecord, Pose]]:
+    """The records from the first one that says where it was taken, with poses of the robot."""
+    lost: LogRecord | None = None
+    remaining = iter(records)
+    for record in remaining:
+        if _source_of(record, poses):
+            by_odometry = _source_of(record, poses) == "odometry"
+            for each in chain([record], remaining):
+                yield each, _robot_pose(each, mount, by_odometry)
+            return
+        lost = lost or record
+    if lost is not None:
+        _robot_pose(lost, mount, poses != "log")
+
+
+def _source_of(record: LogRecord, chosen: PoseChoice | None) -> PoseChoice | None:
+    """Where the poses of a log with such a first record come from; None if it has none."""
+    if chosen != "log" and record.odometry is not None:
+        return "odometry"
+    return "log" if chosen != "odometry" and record.pose is not None else None
+
+
 def _robot_pose(record: LogRecord, mount: Pose, by_odometry: bool) -> Pose:
     given = record.odometry if by_odometry else record.pose
     if given is None:
         raise LogError(
             f"scan {record.line} has no {'odometry' if by_odometry else 'pose'}: a command needs "
-            "odometry at every scan, or a pose at every scan"
+            "odometry at every scan, or a pose at every scan; find them with --poses match"
         )
     return given if by_odometry else compose(given, relative(mount, ORIGIN))
 

@@ -2,24 +2,40 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 
-from semnav_env.features.validation import finite_floats, require
+import numpy as np
+from numpy.typing import ArrayLike
+
+from semnav_env.features.validation import finite_float, finite_triple, require
 
 
-def check_sensed(
-    odometry: object, velocity: object, bumps: Iterable[object], seconds: float
-) -> None:
+def checked_ranges(ranges: ArrayLike, beams: int, lidar: str) -> np.ndarray:
+    """The ranges of a scan as an array.
+
+    Raises:
+        ValueError: another number of them, or what is no real number.
+    """
+    array = np.asarray(ranges)
+    if array.shape != (beams,):
+        raise ValueError(f"ranges have shape {array.shape}; {lidar} gives {(beams,)}")
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"ranges have dtype {array.dtype}; they must be real numbers in metres")
+    return array
+
+
+def check_sensed(odometry: object, velocity: object, bumps: object, seconds: object) -> None:
     """Check what comes with a scan; see `BeliefTracker.update`.
 
     Raises:
         ValueError: three numbers that are not finite, or a time that is not above 0; names it.
     """
-    triples = [("odometry", odometry), *(("a bump", each) for each in bumps)]
+    finite_triple("odometry", odometry)
+    known = isinstance(bumps, Sequence | np.ndarray)
+    require(known, "bumps", bumps, "a list of contacts, of three finite numbers each")
+    for each in bumps:  # type: ignore[attr-defined]
+        finite_triple("a bump", each)
     if velocity is not None:
-        triples.append(("velocity", velocity))
-    for name, value in triples:
-        numbers = finite_floats(value)
-        require(numbers is not None and len(numbers) == 3, name, value, "three finite numbers")
-    require(0.0 < seconds < math.inf, "seconds", seconds, "finite and above 0")
+        finite_triple("velocity", velocity)
+    right = "finite and above 0"
+    require(finite_float("seconds", seconds, right) > 0.0, "seconds", seconds, right)

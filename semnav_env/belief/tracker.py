@@ -32,6 +32,7 @@ from semnav_env.features.kernels.scratch import Features, allocate_features, all
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.memory import SceneMemory
 from semnav_env.features.scene import Scene
+from semnav_env.features.validation import finite_triple
 from semnav_env.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, goal_bytes, put_goal
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.ways import KnownWays, Way
@@ -88,7 +89,7 @@ class BeliefTracker:
         rules: Rules = Rules(),
         observes_features: bool = True,
     ) -> None:
-        self.lidar, self.mount = lidar_spec(lidar), mount
+        self.lidar, self.mount = lidar_spec(lidar), finite_triple("mount", mount)
         self.corrects_drift, self.known_scene = corrects_drift, known_scene
         self.ranges = np.zeros(self.lidar.beams)
         self._features, self._observes_features = allocate_features(), observes_features
@@ -200,18 +201,15 @@ class BeliefTracker:
         """Check what was sensed and write it into the senses; as `update`."""
         if not self._begun:
             raise RuntimeError("call begin(command) before update()")
-        array, own = np.asarray(ranges), self.ranges
-        if array.shape != own.shape:
-            raise ValueError(
-                f"ranges have shape {array.shape}; {self.lidar.name} gives {own.shape}"
-            )
-        from semnav_env.belief.sensed_check import check_sensed  # a simulated robot needs none
+        from semnav_env.belief import sensed_check  # a simulated robot needs none
         from semnav_env.features.scan import check_unit, plain_codes
 
+        own = self.ranges
+        array = sensed_check.checked_ranges(ranges, len(own), self.lidar.name)
         if self._is_first:
             check_unit(array, self.lidar.range_max)
         seconds = self._period if seconds is None else seconds
-        check_sensed(odometry, velocity, bumps, seconds)
+        sensed_check.check_sensed(odometry, velocity, bumps, seconds)
         x, y, heading = odometry
         if velocity is None:
             velocity = mean_velocity(self._estimate[0], odometry, seconds)

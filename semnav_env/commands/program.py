@@ -18,6 +18,7 @@ from semnav_env.commands.references import (
     Side,
     Unit,
 )
+from semnav_env.features.validation import shown
 
 CLAUSE_KINDS: dict[str, Any] = {
     kind.__name__: kind for kind in get_args(Clause) if kind is not OwnClause
@@ -66,11 +67,11 @@ def _compared(value: Any) -> list[Field[Any]]:
 def _value(plain: object, kinds: Mapping[str, Any], where: str) -> Any:
     """The clause or reference of a dictionary."""
     if not isinstance(plain, Mapping):
-        raise ValueError(f"{where} is a dictionary with a kind, not {plain!r}")
+        raise ValueError(f"{where} is a dictionary with a kind, not {shown(plain)}")
     given = dict(plain)
     kind = kinds.get(str(given.pop("kind", None)))
     if kind is None:
-        raise ValueError(f"the kind of {where} is one of {', '.join(kinds)}: {plain!r}")
+        raise ValueError(f"the kind of {where} is one of {', '.join(kinds)}: {shown(plain)}")
     known = {field.name for field in _compared(kind)}
     if not set(given) <= known:
         strange = ", ".join(map(repr, sorted(set(map(str, given)) - known)))
@@ -93,11 +94,12 @@ def _read(name: str, part: object, where: str) -> Any:
     if name in _ENUM_FIELDS:
         members = [member.value for member in _ENUM_FIELDS[name]]
         if part not in members:
-            raise ValueError(f"{inside} is one of {', '.join(map(repr, members))}, not {part!r}")
+            known = ", ".join(map(repr, members))
+            raise ValueError(f"{inside} is one of {known}, not {shown(part)}")
         return _ENUM_FIELDS[name](part)
     check = _FIELD_CHECKS[name]
     if not check(part):
-        raise ValueError(f"{inside} cannot be {part!r}")
+        raise ValueError(f"{inside} cannot be {shown(part)}")
     return part
 
 

@@ -19,10 +19,20 @@ from semnav_env.maps.importers.documents import MAX_YAML_BYTES
 from semnav_env.maps.importers.drawing import MAX_SEGMENTS
 from semnav_env.maps.importers.dxf import MAX_BLOCKS, MAX_ENTITIES
 from semnav_env.maps.importers.raster import MAX_IMAGE_BYTES, MAX_PIXELS
-from semnav_env.maps.importers.svg import MAX_ELEMENTS
+from semnav_env.maps.importers.svg_budget import (
+    MAX_ARCS,
+    MAX_CLOSINGS,
+    MAX_DIGITS,
+    MAX_ELEMENTS,
+    MAX_NUMBERS,
+    MAX_STYLE_SHEET,
+    MAX_TRANSFORM,
+)
 from semnav_env.maps.library import MAX_KEPT_OFFICES
 from semnav_env.maps.reach import COARSEST_SPACING as COARSEST_REACH
 from semnav_env.rescue.visible_floor import STANDPOINT
+from tests.reliability.children import PROCESSOR_SECONDS
+from tests.reliability.long_runs import RUN_BYTES, TOKENS
 from tests.support.paths import ROOT
 
 PAGE = ROOT / "docs" / "reliability.md"
@@ -103,7 +113,9 @@ finite. It took {seconds:,.0f} s on a busy machine; [Speed](speed.md) says how f
 
 `make soak` measures all of it anew and writes this page; `make soak COUNT=100000 STRIKES=100
 STEPS=50000000` tries more. A share of it is part of the tests (`tests/reliability`), with the
-bombs: small files that ask for endless time or gigabytes.
+bombs: small files that ask for endless time or gigabytes. In each place of a file of each text
+format they try runs of {run:,} bytes of one character or one short token, of which there are
+{tokens}: none takes longer than {seconds_each:.0f} s of processor time.
 """
 
 BUDGETS = (
@@ -111,7 +123,15 @@ BUDGETS = (
     ("YAML of a map or its labels", f"{MAX_YAML_BYTES:,} bytes, no aliases"),
     ("image of a map", f"{MAX_IMAGE_BYTES:,} bytes, {MAX_PIXELS:,} pixels"),
     ("DXF", f"{MAX_ENTITIES:,} entities, {MAX_BLOCKS:,} inserted blocks"),
-    ("SVG", f"{MAX_ELEMENTS:,} elements, those of `<use>` included"),
+    (
+        "SVG, what `<use>` repeats included",
+        f"{MAX_ELEMENTS:,} elements, {MAX_NUMBERS:,} numbers in outlines, {MAX_ARCS:,} arcs",
+    ),
+    (
+        "an element of an SVG",
+        f"numbers of {MAX_DIGITS} characters, transforms of {MAX_TRANSFORM:,}, a style sheet of "
+        f"{MAX_STYLE_SHEET:,}, {MAX_CLOSINGS} closings of one line",
+    ),
     ("walls of a drawing", f"{MAX_SEGMENTS:,} segments"),
     ("episodes", f"{MAX_EPISODES:,} bytes, also when decompressed"),
     ("text log", f"a line at a time; in gzip at most {MAX_EXPANSION} times the size of the file"),
@@ -160,6 +180,9 @@ def page(results: dict[str, Any]) -> str:
         kept=MAX_KEPT_OFFICES,
         **GEOMETRY,
         fields=RECENT_FIELDS.max_bytes / 1e6,
+        run=RUN_BYTES,
+        tokens=len(TOKENS),
+        seconds_each=PROCESSOR_SECONDS,
         **results["steps"],
     )
 

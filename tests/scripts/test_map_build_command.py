@@ -11,9 +11,9 @@ import pytest
 from semnav_env.features import Scan
 from semnav_env.features.frames import compose, relative
 from semnav_env.features.mapping import ScanOdometry
+from semnav_env.features.mapping.matched_log import matched
 from semnav_env.features.readers import LogRecord
 from semnav_env.maps import load_floor_plan
-from semnav_env.scripts.map_build import matched
 from tests.support.command_line import run
 
 ANGLES = np.linspace(-math.pi, math.pi, 720, endpoint=False)

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
-from xml.etree.ElementTree import Element, ParseError, fromstring
+from xml.etree.ElementTree import ParseError, fromstring
 
 import numpy as np
 
@@ -23,10 +23,11 @@ from semnav_env.maps.importers.drawing import (
     plan_of_strokes,
 )
 from semnav_env.maps.importers.imported import ImportedPlan
+from semnav_env.maps.importers.svg_budget import MAX_ELEMENTS, check_budget
 from semnav_env.maps.rules import FloorPlanError
 
-MAX_ELEMENTS = 60_000
-"""Number of elements beyond which a drawing is refused."""
+MAX_STEPS = 200
+"""Largest number of lines that stand for a piece of a curve."""
 
 LABEL_ATTRIBUTE = "{http://www.inkscape.org/namespaces/inkscape}label"
 """Attribute in which Inkscape keeps the name of a layer."""
@@ -77,39 +78,15 @@ def _read(path: Path) -> Any:
     if text.count("<") > 4 * MAX_ELEMENTS:
         raise FloorPlanError(f"{path}: more than {MAX_ELEMENTS:,} elements; export the walls alone")
     try:
-        if not expanded_size(fromstring(text)) <= MAX_ELEMENTS:
-            raise FloorPlanError(
-                f"{path}: more than {MAX_ELEMENTS:,} elements, those that <use> repeats "
-                "included; export the walls alone"
-            )
+        check_budget(fromstring(text))
         picture = SVG.parse(io.StringIO(text))
+    except FloorPlanError as error:
+        raise FloorPlanError(f"{path}: {error}") from None
     except (ParseError, ValueError, TypeError, AttributeError, IndexError, RecursionError) as error:
         raise FloorPlanError(f"{path}: no SVG drawing: {clipped(str(error))}") from None
     if not isinstance(picture, SVG):
         raise FloorPlanError(f"{path}: no SVG drawing: its outermost element is not <svg>")
     return picture
-
-
-def expanded_size(root: Element) -> float:
-    """Number of elements once each <use> is replaced by what it refers to; infinite in a circle."""
-    named = {each.get("id"): each for each in root.iter() if each.get("id")}
-    sizes: dict[Element, float] = {}
-
-    def size(element: Element) -> float:
-        if element not in sizes:
-            sizes[element] = math.inf  # until it is known: what contains itself has no end
-            target = named.get(_reference(element)) if element.tag.endswith("use") else None
-            inner = sum(map(size, element)) + (0 if target is None else size(target))
-            sizes[element] = 1 + inner
-        return sizes[element]
-
-    return size(root)
-
-
-def _reference(element: Element) -> str:
-    """The id that a <use> refers to; empty if it says none."""
-    links = (value for name, value in element.attrib.items() if name.endswith("href"))
-    return next(links, "").removeprefix("#")
 
 
 def _pixels_per_unit(picture: Any) -> float:
@@ -157,17 +134,21 @@ def _without_repetition(points: FloatArray) -> FloatArray:
 
 def _flattened(piece: Any, unit: float) -> FloatArray:
     """A piece of a path flattened to points, metres."""
-    from svgelements import Close, Line
+    from svgelements import Close, Line, Move
 
+    if isinstance(piece, Move):
+        return np.array([_placed(piece.end, unit)])
     if isinstance(piece, Line | Close):
         return np.array([_placed(piece.start, unit), _placed(piece.end, unit)])
     west, south, east, north = piece.bbox()
     extent = unit * max(east - west, north - south)
     if not extent <= MAX_DRAWING_EXTENT:
         return np.array([_placed(piece.start, unit), _placed(piece.end, unit)])
-    length = unit * float(piece.length(error=1e-3))
-    steps = min(200, max(2, math.ceil(length / math.sqrt(8.0 * CURVE_TOLERANCE))))
-    return np.array([_placed(piece.point(k / steps), unit) for k in range(steps + 1)])
+    finest = piece.npoint(np.linspace(0.0, 1.0, MAX_STEPS + 1))
+    length = unit * float(np.hypot(*np.diff(finest, axis=0).T).sum())
+    steps = min(MAX_STEPS, max(2, math.ceil(length / math.sqrt(8.0 * CURVE_TOLERANCE))))
+    points: FloatArray = piece.npoint(np.arange(steps + 1) / steps) * (unit, -unit)
+    return points
 
 
 def _placed(point: Any, unit: float) -> Point:
