@@ -18,6 +18,7 @@ from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 
 from semnav_env.features.kernels.cache_folder import cache_folder
+from semnav_env.features.kernels.cache_key import compiler_settings
 
 CHECKSUM_BYTES = 4
 """Size of the checksum that a file begins with."""
@@ -127,6 +128,7 @@ class KernelCache(_Cache):
                 path.unlink()
 
     def _entry(self, sig: Any, codegen: Any) -> tuple[Path, str]:
-        """The file for a signature on this processor, and all that it depends on."""
-        key = repr((self._name, sig, codegen.magic_tuple(), self._code))
+        """The file for a signature and these settings, and all that it depends on."""
+        settings = *codegen.magic_tuple(), *compiler_settings()
+        key = repr((self._name, sig, settings, self._code))
         return cache_folder() / f"{self._name}.{sha256(key.encode()).hexdigest()[:20]}.bin", key
