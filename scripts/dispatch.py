@@ -1,7 +1,7 @@
 """A command with sub-commands: runs one of them and returns an exit code.
 
 Exit codes: 0 done; 1 not achieved; 2 bad input, with one line on stderr that names what is wrong
-and what would be right; 130 interrupted.
+and what would be right; 130 interrupted, 143 terminated.
 """
 
 from __future__ import annotations
@@ -11,18 +11,27 @@ import errno
 import os
 import signal
 import sys
+import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from typing import TYPE_CHECKING
 
+from semnav_env.features.interruption import SIGNALS, Terminated, interrupt, interruption_in
 from semnav_env.features.validation import clipped
 
+if TYPE_CHECKING:  # known to type checkers alone
+    from sys import UnraisableHookArgs
+
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO)
-BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
-"""Exit codes; the last two are those of a shell for SIGINT and SIGPIPE."""
+BAD_INPUT, INTERRUPTED, BROKEN_PIPE, TERMINATED = 2, 130, 141, 143
+"""Exit codes; the last three are those of a shell for SIGINT, SIGPIPE and SIGTERM."""
 
 LONGEST_LINE = 1000
 """Largest number of characters of an error that are shown."""
+
+RETRY_SECONDS = 0.01
+"""Time after which a signal comes again whose exception was dropped, seconds."""
 
 
 @dataclass(frozen=True)
@@ -53,19 +62,23 @@ class CommandTable:
         words = [word for word in words if word != "--debug"]
         try:
             return self._run(words)
-        except BrokenPipeError:
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            return BROKEN_PIPE
-        except (KeyboardInterrupt, SystemError) as stop:
-            if isinstance(stop, SystemError) and not isinstance(stop.__cause__, KeyboardInterrupt):
-                raise  # otherwise Ctrl-C came while a compiled kernel ran
-            print(_with_notes(f"{self.prog}: interrupted", stop), file=sys.stderr)
-            return INTERRUPTED
-        except (ValueError, OSError, ImportError) as error:
-            if debug:
+        except BaseException as error:
+            if (stop := interruption_in(error)) is not None:
+                return self._interrupted(stop, error)
+            if isinstance(error, BrokenPipeError):
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+                return BROKEN_PIPE
+            if debug or not isinstance(error, ValueError | OSError | ImportError):
                 raise
             print(_with_notes(f"{self.prog}: {in_one_line(error)}", error), file=sys.stderr)
             return BAD_INPUT
+
+    def _interrupted(self, stop: KeyboardInterrupt, error: BaseException) -> int:
+        """Say that a signal ended the command, and where what it had so far is kept."""
+        by_sigterm = isinstance(stop, Terminated)
+        said = f"{self.prog}: {'terminated' if by_sigterm else 'interrupted'}"
+        print(_with_notes(said, error), file=sys.stderr)
+        return TERMINATED if by_sigterm else INTERRUPTED
 
     def _run(self, words: list[str]) -> int:
         known = ", ".join(self.commands)
@@ -110,9 +123,24 @@ class CommandTable:
 
 
 def _end_loading() -> None:
-    """From here on Ctrl-C is an exception, so that a command can put away what it has begun."""
-    if getattr(signal.getsignal(signal.SIGINT), "__name__", "") == "leave_at_once":
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    """From here on signals are exceptions, so that a command can put away what it has begun."""
+    for number in SIGNALS:
+        if getattr(signal.getsignal(number), "__name__", "") == "leave_at_once":
+            signal.signal(number, interrupt)
+    if hasattr(signal, "pthread_kill"):
+        sys.unraisablehook = _interrupt_again
+
+
+def _interrupt_again(lost: UnraisableHookArgs) -> None:
+    """Send a signal again that came where Python only tells of exceptions, such as in `__del__`."""
+    if not isinstance(lost.exc_value, KeyboardInterrupt):
+        sys.__unraisablehook__(lost)
+        return
+    number = signal.SIGTERM if isinstance(lost.exc_value, Terminated) else signal.SIGINT
+    main_thread = threading.main_thread().ident or 0
+    again = threading.Timer(RETRY_SECONDS, signal.pthread_kill, (main_thread, number))
+    again.daemon = True
+    again.start()
 
 
 def in_one_line(error: Exception) -> str:
@@ -133,6 +161,10 @@ def _first_line(error: Exception) -> str:
     return lines[0] if lines else type(error).__name__
 
 
-def _with_notes(said: str, error: BaseException) -> str:
-    """The message with the notes of the error, such as where the results so far are."""
-    return "; ".join([said, *getattr(error, "__notes__", ())])
+def _with_notes(said: str, error: BaseException | None) -> str:
+    """The message with the notes of an error and its causes: where the results so far are."""
+    parts = [said]
+    while error is not None:
+        parts += getattr(error, "__notes__", ())
+        error = error.__cause__ or error.__context__
+    return "; ".join(parts)

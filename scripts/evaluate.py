@@ -67,8 +67,8 @@ class Arguments:
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
         dynamics: what else moves.
-        out: file for the episodes, one JSON object a line, written as they are driven; its name
-            ends in `.part` until the end or an interruption.
+        out: file for the episodes, one JSON object a line, written as they are driven, into
+            `.NAME-....part.jsonl` beside it until the end or an interruption.
         json: print the table as JSON.
     """
 
