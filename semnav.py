@@ -1,5 +1,6 @@
 """The `semnav` command, which minds Ctrl-C and SIGTERM from its first moment to its last."""
 
+import contextlib
 import os
 import signal
 import sys
@@ -32,10 +33,8 @@ def main() -> int:
 def _leave() -> None:
     """From here on there is nothing to put away."""
     for stream in (sys.stdout, sys.stderr):
-        try:
+        with contextlib.suppress(OSError, ValueError):  # a closed pipe: Python tells of it
             stream.flush()
-        except (OSError, ValueError):  # a closed pipe, of which Python tells at its end
-            pass
     for number in WORDS:
         if getattr(signal.getsignal(number), "__name__", "") == "interrupt":
             signal.signal(number, leave_at_once)

@@ -55,7 +55,7 @@ def uninterrupted() -> Iterator[None]:
 
 @contextmanager
 def for_this_process_alone() -> Iterator[None]:
-    """Let processes that are started in the block not hear of Ctrl-C, which a terminal tells all."""
+    """Keep Ctrl-C, which a terminal sends to all, from processes that are started in the block."""
     if not hasattr(signal, "pthread_sigmask"):  # not on this system
         yield
         return

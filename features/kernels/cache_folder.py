@@ -28,8 +28,8 @@ VERSION_FOLDER = re.compile(r"[0-9a-f]{20}")
 KERNEL_FILE = re.compile(r"[^.].*\.[0-9a-f]{20}\.bin")
 """Names of the files of kernels."""
 
-UNFINISHED_FILE = re.compile(r"\..+-[0-9a-f]{12}\.part\.bin")
-"""Names of such files while they are written."""
+UNFINISHED_FILE = re.compile(r"\..+(-[0-9a-f]{12}\.part\.bin|\.[0-9a-f]{20}\.bin\.lock)")
+"""Names of such files while they are written, and of what tells others to wait for them."""
 
 KEPT_FOLDERS = 10
 """Folders of as many versions of the sources are kept, those used last."""

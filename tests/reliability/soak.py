@@ -1,8 +1,8 @@
 """`python -m tests.reliability.soak PART COUNT`: tries for long, and writes the page about it.
 
 The parts are `inputs` (COUNT of each area of share 1), `strikes` (COUNT of each kind on each
-command that writes), `signals` (COUNT of each kind on each command of `signals.COMMANDS`) and `steps`
-(COUNT in all). `make soak` does all four.
+command that writes), `signals` (COUNT of each kind on each of some commands) and `steps` (COUNT in
+all). `make soak` does all four.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from __future__ import annotations
 import sys
 import time
 
-from tests.reliability.areas import AREAS, Area, compile_kernels, try_area
 from tests.reliability import signals
+from tests.reliability.areas import AREAS, Area, compile_kernels, try_area
 from tests.reliability.page import keep
 from tests.reliability.steps import MOST_GROWTH, drive
 from tests.reliability.strikes import STRIKES, fault

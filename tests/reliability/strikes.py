@@ -1,4 +1,4 @@
-"""Strikes a command that writes: a full disk, a kill, Ctrl-C or SIGTERM; says what was lost by it."""
+"""Strikes a command that writes, by a full disk or a signal, and says what was lost by it."""
 
 from __future__ import annotations
 

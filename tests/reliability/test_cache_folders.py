@@ -1,4 +1,4 @@
-"""The kernel cache removes nothing that is not its own, and loads nothing that others could write."""
+"""The kernel cache removes only what is its own, and loads nothing that others could write."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Case 12: Ctrl-C and SIGTERM at random moments end a command in one line, and leave nothing half."""
+"""Case 12: Ctrl-C and SIGTERM at random moments end a command in one line, with nothing half."""
 
 from __future__ import annotations
 
@@ -34,7 +34,10 @@ def chained(depth: int, first: BaseException) -> BaseException:
 
 
 @pytest.mark.parametrize("depth", [0, 1, 2, 40])
-@pytest.mark.parametrize(("first", "code", "word"), [(KeyboardInterrupt, 130, "interrupted"), (Terminated, 143, "terminated")])
+@pytest.mark.parametrize(
+    ("first", "code", "word"),
+    [(KeyboardInterrupt, 130, "interrupted"), (Terminated, 143, "terminated")],
+)
 def test_a_chain_of_errors_over_an_interruption_is_one(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -120,11 +123,15 @@ def test_a_signal_waits_for_what_must_not_be_cut(number: int) -> None:
         assert done == [1]
         raise Terminated
 
-    before = signal.signal(number, handle)
-    try:
-        with pytest.raises(Terminated), uninterrupted():
+    def work() -> None:
+        with uninterrupted():
             os.kill(os.getpid(), number)
             done.append(1)
+
+    before = signal.signal(number, handle)
+    try:
+        with pytest.raises(Terminated):
+            work()
     finally:
         signal.signal(number, before)
 

@@ -42,7 +42,9 @@ class Waiting:
         return self
 
 
-def in_the_middle(step: Callable[[], object], rewards: Waiting, other: Callable[[], object]) -> None:
+def in_the_middle(
+    step: Callable[[], object], rewards: Waiting, other: Callable[[], object]
+) -> None:
     """Call something while another thread is in the middle of a step."""
     thread = threading.Thread(target=step)
     thread.start()

@@ -1,4 +1,4 @@
-"""Two writers of one file: a whole file of one of them, and a word to the other; no link is followed."""
+"""Two writers of one file: a whole file of one, a word to the other, and no link is followed."""
 
 from __future__ import annotations
 
@@ -59,9 +59,8 @@ def test_a_command_says_that_its_file_is_being_written(
         assert main(["extract", str(log), "--out", str(path)]) == 2
         mine.write({"of": "mine"})
     [line] = capsys.readouterr().err.splitlines()
-    assert line == (
-        f"semnav: cannot open '{path}': another run is writing it; give another name, or wait for it"
-    )
+    said = "another run is writing it; give another name, or wait for it"
+    assert line == f"semnav: cannot open '{path}': {said}"
     assert scenes(path) == [{"of": "mine"}]
 
 
