@@ -14,10 +14,12 @@ test: $(VENV)/.test lint types
 
 COUNT ?= 2000
 STRIKES ?= 10
+SIGNALS ?= 170
 STEPS ?= 5000000
 soak: $(VENV)/.test
 	$(BIN)/python -m tests.reliability.soak inputs $(COUNT)
 	$(BIN)/python -m tests.reliability.soak strikes $(STRIKES)
+	$(BIN)/python -m tests.reliability.soak signals $(SIGNALS)
 	$(BIN)/python -m tests.reliability.soak steps $(STEPS)
 
 slow: $(VENV)/.test

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import uuid
 from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -15,6 +16,7 @@ from gymnasium.envs.registration import EnvSpec
 from semnav_env.agents.demonstrations import Demonstration
 from semnav_env.env import SemNavEnv
 from semnav_env.features.interruption import uninterrupted
+from semnav_env.features.sole_writer import sole_writer
 from semnav_env.features.writing import discard, naming, put_in_place
 
 if TYPE_CHECKING:  # an extra
@@ -53,6 +55,7 @@ class DemonstrationFile:
     Raises:
         ImportError: Minari is not installed; the error names the extra.
         FileExistsError: there is already a dataset of that name, or something in that folder.
+        BlockingIOError: another run is writing it.
     """
 
     def __init__(self, out: str, env: SemNavEnv, agent: str, rounds: bool = False) -> None:
@@ -73,14 +76,18 @@ class DemonstrationFile:
         self._env, self._agent, self._rounds = env, agent, rounds
         self._name = out if named else f"semnav/{agent_word(agent)}-v0"
         self._added, self._whole = 0, True
+        self._lock = ExitStack()
 
     def __enter__(self) -> Self:
         """The dataset, empty."""
         try:
             with naming(self.folder):
+                self.folder.parent.mkdir(parents=True, exist_ok=True)
+                self._lock.enter_context(sole_writer(self.folder))
                 self._storage = self._made()
         except BaseException:
-            discard(self._part, self.folder)
+            with self._lock:
+                discard(self._part, self.folder)
             raise
         return self
 
@@ -109,10 +116,10 @@ class DemonstrationFile:
         trace: TracebackType | None,
     ) -> None:
         """Put the dataset in its place."""
-        if error is not None and not self._added:
-            discard(self._part, self.folder)
-        elif self._whole:
-            with uninterrupted():
+        with uninterrupted(), self._lock:
+            if error is not None and not self._added:
+                discard(self._part, self.folder)
+            elif self._whole:
                 put_in_place(self._part, self.folder)
         if error is not None and self._added:
             where = self.folder if self._whole else self._part

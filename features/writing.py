@@ -1,7 +1,10 @@
 """The one way in which files are written: at any moment there is the old one or the whole new one.
 
 What is written goes to a part beside the file, which takes its place when it is complete and on the
-disk. A full disk, an error, an interruption or a kill leaves the old file as it was.
+disk. A full disk, an error, an interruption or a kill leaves the old file as it was. The part has a
+name that nobody else can know before, so two writers of one file never write into one part, and no
+link waits in its place; the file is a whole one of the writer that was done last. What takes long
+to write has one writer at a time (`sole_writer`).
 """
 
 from __future__ import annotations
@@ -27,7 +30,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     Raises:
         OSError: it cannot be written; names the file.
     """
-    target = Path(path).resolve() if Path(path).is_symlink() else Path(path)
+    target = target_of(path)
     part = part_of(target)
     try:
         with naming(target):
@@ -40,16 +43,32 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 def write_file(path: str | os.PathLike[str], content: bytes | str) -> None:
     """Write a whole file, text as UTF-8; see `replacing`."""
-    with replacing(path) as part:
-        part.write_bytes(content.encode() if isinstance(content, str) else content)
+    with replacing(path) as part, open(part, writing_mode(part)) as file:
+        file.write(content.encode() if isinstance(content, str) else content)
 
 
-def part_of(target: Path, name: str | None = None) -> Path:
+def writing_mode(part: Path) -> str:
+    """The mode in which to open a part: a new file, unless it is no regular one, such as a pipe."""
+    return "wb" if part.exists() and not part.is_file() else "xb"
+
+
+def target_of(path: str | os.PathLike[str]) -> Path:
+    """The file that is written for a path: where a link leads, unless somebody else has laid it.
+
+    Raises:
+        PermissionError: it is the link of another user, who may want it to be written there.
+    """
+    place = Path(path)
+    if not place.is_symlink():
+        return place
+    if hasattr(os, "getuid") and place.lstat().st_uid not in (os.getuid(), 0):
+        said = "it is a link of another user; give the file itself"
+        raise PermissionError(errno.EPERM, said, str(place))
+    return place.resolve()
+
+
+def part_of(target: Path) -> Path:
     """The place of a new part beside a file, or the file itself if that is no regular one.
-
-    Args:
-        target: the file.
-        name: of the part; a name that nobody else takes if None.
 
     Raises:
         OSError: its folder cannot be made, or it is a folder itself.
@@ -59,9 +78,7 @@ def part_of(target: Path, name: str | None = None) -> Path:
         raise IsADirectoryError(errno.EISDIR, "it is a folder; give a file", str(target))
     if target.exists() and not target.is_file():
         return target
-    return target.with_name(
-        name or f".{target.stem[:100]}-{uuid.uuid4().hex[:12]}.part{target.suffix}"
-    )
+    return target.with_name(f".{target.stem[:100]}-{uuid.uuid4().hex[:12]}.part{target.suffix}")
 
 
 def put_in_place(part: Path, target: Path) -> None:

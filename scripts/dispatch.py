@@ -1,7 +1,7 @@
 """A command with sub-commands: runs one of them and returns an exit code.
 
 Exit codes: 0 done; 1 not achieved; 2 bad input, with one line on stderr that names what is wrong
-and what would be right; 130 interrupted by Ctrl-C; 143 by SIGTERM.
+and what would be right; 130 interrupted by Ctrl-C; 143 terminated by SIGTERM.
 """
 
 from __future__ import annotations
@@ -11,15 +11,19 @@ import errno
 import os
 import signal
 import sys
+import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from types import FrameType
-from typing import NoReturn
+from typing import TYPE_CHECKING
 
+from semnav_env.features.interruption import SIGNALS, Terminated, interrupt, interruption_in
 from semnav_env.features.validation import clipped
 from semnav_env.scripts.printable import printable, printing_text
 from semnav_env.scripts.terminal_text import write_utf8
+
+if TYPE_CHECKING:  # known to type checkers alone
+    from sys import UnraisableHookArgs
 
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO)
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE, TERMINATED = 2, 130, 141, 143
@@ -27,6 +31,9 @@ BAD_INPUT, INTERRUPTED, BROKEN_PIPE, TERMINATED = 2, 130, 141, 143
 
 LONGEST_LINE = 1000
 """Largest number of characters of an error that are shown."""
+
+RETRY_SECONDS = 0.01
+"""Time after which a signal comes again whose exception was dropped, seconds."""
 
 
 @dataclass(frozen=True)
@@ -58,19 +65,23 @@ class CommandTable:
         words = [word for word in words if word != "--debug"]
         try:
             return self._run(words)
-        except BrokenPipeError:
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            return BROKEN_PIPE
-        except (KeyboardInterrupt, SystemError) as stop:
-            if isinstance(stop, SystemError) and not isinstance(stop.__cause__, KeyboardInterrupt):
-                raise  # otherwise Ctrl-C came while a compiled kernel ran
-            print(_with_notes(f"{self.prog}: interrupted", stop), file=sys.stderr)
-            return exit_code_of(stop)
-        except (ValueError, OSError, ImportError) as error:
-            if debug:
+        except BaseException as error:
+            if (stop := interruption_in(error)) is not None:
+                return self._interrupted(stop, error)
+            if isinstance(error, BrokenPipeError):
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+                return BROKEN_PIPE
+            if debug or not isinstance(error, ValueError | OSError | ImportError):
                 raise
             print(_with_notes(f"{self.prog}: {in_one_line(error)}", error), file=sys.stderr)
             return BAD_INPUT
+
+    def _interrupted(self, stop: KeyboardInterrupt, error: BaseException) -> int:
+        """Say that a signal ended the command, and where what it had so far is kept."""
+        code = exit_code_of(stop)
+        said = f"{self.prog}: {'terminated' if code == TERMINATED else 'interrupted'}"
+        print(_with_notes(said, error), file=sys.stderr)
+        return code
 
     def _run(self, words: list[str]) -> int:
         known = ", ".join(self.commands)
@@ -115,25 +126,30 @@ class CommandTable:
         )
 
 
-class Terminated(KeyboardInterrupt):
-    """SIGTERM, by which a cluster or a service ends a process; a command minds it as Ctrl-C."""
-
-
 def exit_code_of(stop: BaseException) -> int:
-    """The exit code of a command that this interruption ended, itself or as a cause."""
-    return TERMINATED if Terminated in (type(stop), type(stop.__cause__)) else INTERRUPTED
+    """The exit code of a command that a signal ended."""
+    return TERMINATED if isinstance(interruption_in(stop), Terminated) else INTERRUPTED
 
 
 def _end_loading() -> None:
-    """From here on interruptions are exceptions, so that a command can put away what it began."""
-    handlers = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: _raise_terminated}
-    for number, handler in handlers.items():
+    """From here on signals are exceptions, so that a command can put away what it has begun."""
+    for number in SIGNALS:
         if getattr(signal.getsignal(number), "__name__", "") == "leave_at_once":
-            signal.signal(number, handler)
+            signal.signal(number, interrupt)
+    if hasattr(signal, "pthread_kill"):
+        sys.unraisablehook = _interrupt_again
 
 
-def _raise_terminated(number: int, frame: FrameType | None) -> NoReturn:
-    raise Terminated
+def _interrupt_again(lost: UnraisableHookArgs) -> None:
+    """Send a signal again that came where Python only tells of exceptions, such as in `__del__`."""
+    if not isinstance(lost.exc_value, KeyboardInterrupt):
+        sys.__unraisablehook__(lost)
+        return
+    number = signal.SIGTERM if isinstance(lost.exc_value, Terminated) else signal.SIGINT
+    main_thread = threading.main_thread().ident or 0
+    again = threading.Timer(RETRY_SECONDS, signal.pthread_kill, (main_thread, number))
+    again.daemon = True
+    again.start()
 
 
 def in_one_line(error: Exception) -> str:
@@ -154,6 +170,10 @@ def _first_line(error: Exception) -> str:
     return lines[0] if lines else type(error).__name__
 
 
-def _with_notes(said: str, error: BaseException) -> str:
-    """The message with the notes of the error, such as where the results so far are."""
-    return printable("; ".join([said, *getattr(error, "__notes__", ())]))
+def _with_notes(said: str, error: BaseException | None) -> str:
+    """The message with the notes of an error and its causes: where the results so far are."""
+    parts = [said]
+    while error is not None:
+        parts += getattr(error, "__notes__", ())
+        error = error.__cause__ or error.__context__
+    return printable("; ".join(parts))

@@ -20,14 +20,17 @@ class Arguments:
     count.
 
     Attributes:
+        warm: also compile the kernels of all commands, side by side, so that none waits for them
+            later; minutes.
         json: print JSON.
     """
 
+    warm: bool = False
     json: bool = False
 
     def run(self) -> int:
         """Run every check and report."""
-        done = list(_examine())
+        done = [*_examine(), *(_warm() if self.warm else ())]
         if self.json:
             print(json.dumps([asdict(check) for check in done], indent=1))
         else:
@@ -46,6 +49,18 @@ def _examine() -> Iterator[InstallationCheck]:
             yield from examine()
         except Exception as error:
             yield InstallationCheck(name, False, f"{type(error).__name__}: {error}", _ADVICE)
+
+
+def _warm() -> Iterator[InstallationCheck]:
+    from semnav_env.scripts.progress import tracked
+    from semnav_env.scripts.warming import GROUPS, warm
+
+    done: list[str] = []
+    groups = tracked(warm(), lambda n: f"compiling: {n} groups", lambda: len(done) / len(GROUPS))
+    for group in groups:
+        done.append(group.name)
+        name, said = f"kernels of {group.name}", f"ready after {group.seconds:.1f} s"
+        yield InstallationCheck(name, not group.fault, group.fault or said, _ADVICE, needed=False)
 
 
 _ADVICE = "set SEMNAV_CACHE_DIR to a folder that you may write to, or reinstall semnav-env"

@@ -16,6 +16,7 @@ from semnav_env.episodes import SPLITS, Episode, Split, load_episodes, write_epi
 from semnav_env.episodes.check import faults
 from semnav_env.episodes.generate import generate_split
 from semnav_env.episodes.splits import FROZEN_SUFFIX, SEED
+from semnav_env.features.interruption import for_this_process_alone
 from semnav_env.scripts.episodes_import import EpisodesImport
 from semnav_env.scripts.progress import tracked
 
@@ -86,7 +87,9 @@ class EpisodesGenerate:
         if self.workers == 1:
             yield from map(_piece, jobs)
             return
-        with multiprocessing.get_context("spawn").Pool(self.workers) as pool:
+        with for_this_process_alone():
+            pool = multiprocessing.get_context("spawn").Pool(self.workers)
+        with pool:
             yield from pool.imap(_piece, jobs)
 
 

@@ -61,8 +61,8 @@ class Arguments:
         pictures: folder for a picture of each failure.
         films: folder for a film (.gif) of each failure, which is driven a second time for it.
         dynamics: what else moves.
-        out: file for the episodes, one JSON object a line, written as they are driven; its name
-            ends in `.part` until the end or an interruption.
+        out: file for the episodes, one JSON object a line, written as they are driven, into
+            `.NAME-....part.jsonl` beside it until the end or an interruption.
         json: print the table as JSON.
     """
 

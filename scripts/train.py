@@ -17,12 +17,12 @@ from tyro.conf import Positional
 from semnav_env.agents.hearing.card import CARD_FILE
 from semnav_env.agents.hearing.presets import HEARING_PRESETS
 from semnav_env.agents.learning.files import AGENT_FILE, CURVES_FOLDER
-from semnav_env.agents.learning.folder_lock import only_trainer_in
 from semnav_env.agents.learning.presets import Preset, preset
 from semnav_env.agents.learning.reports import TrainingReport
 from semnav_env.agents.learning.rllib.options import RayOptions
 from semnav_env.agents.learning.rllib.start import start_training
 from semnav_env.agents.learning.session import Training, TrainingLimits, train
+from semnav_env.features.sole_writer import sole_writer
 from semnav_env.scripts.train_hearing import train_hearing
 from semnav_env.scripts.training_progress import training_display
 
@@ -62,7 +62,8 @@ class Arguments:
         hears = self.preset in HEARING_PRESETS
         wanted = None if hears else preset(self.preset)
         self._check()
-        with only_trainer_in(folder):
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with sole_writer(folder):
             self._check_unused(folder, CARD_FILE if hears else AGENT_FILE)
             if wanted is None:
                 return train_hearing(self.preset, folder, self.seed, self.minutes)

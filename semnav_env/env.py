@@ -13,6 +13,7 @@ from semnav_env.dynamics import NO_DYNAMICS, Dynamics, PlanSource
 from semnav_env.features import ExtractorSettings
 from semnav_env.features.frames import ORIGIN
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
+from semnav_env.features.one_thread import for_one_thread
 from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
 from semnav_env.maps import FloorPlan
 from semnav_env.observations import (
@@ -126,6 +127,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
         self.action_space = self._actions.space
         self.observation_space = self.observation_type.space(self.robot, self.lidar_spec)
 
+    @for_one_thread
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
@@ -155,12 +157,13 @@ class SemNavEnv(GymnasiumEnv[Any]):
         self._started = True
         return observation, info
 
+    @for_one_thread
     def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Drive for one control period.
 
         Raises:
             ValueError: the action is not finite or has another shape.
-            RuntimeError: before the first `reset`.
+            RuntimeError: before the first `reset`, or while another thread is in one of both.
         """
         self._require_reset("step")
         understood, judged = self._loop.drive(self._actions.twist(action))

@@ -15,6 +15,7 @@ from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
 from semnav_env.features.checked_fields import Seconds, checked
+from semnav_env.features.one_thread import ThreadDoor
 
 ObservationT = TypeVar("ObservationT")
 P = ParamSpec("P")
@@ -74,6 +75,7 @@ class GymnasiumEnv(gym.Env[ObservationT, NDArray[np.float32]], Generic[Observati
             raise ValueError(f"no render mode {render_mode!r}; there are: rgb_array, human")
         self.max_steps = round(checked("max_seconds", max_seconds, Seconds) * control_hz)
         self.render_mode = render_mode
+        self.thread_door = ThreadDoor()
         self.metadata = self.metadata | {"render_fps": max(1, round(control_hz))}
 
     def _require_reset(self, name: str) -> None:

@@ -21,6 +21,7 @@ INSTALLED = {
 MAY_NEED = {
     "features/clouds": {"scipy"},
     "features/clouds/picture.py": {"matplotlib"},
+    "features/kernels/cache_key.py": {"llvmlite"},  # its version
     "features/kernels/lanes.py": {"llvmlite"},  # numba's own compiler
     "features/mapping": {"scipy"},
     "features/plot.py": {"matplotlib"},

@@ -22,6 +22,7 @@ from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode, Expected
 from semnav_env.features.frames import Pose
+from semnav_env.features.interruption import for_this_process_alone
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import MAX_DRAWS, has_room, placement_error
 from semnav_env.rendering.film import Film
@@ -103,7 +104,9 @@ def run_suite(
         yield from (runner.run(trial, seed) for trial, seed in jobs)
         return
     processes = multiprocessing.get_context("spawn")
-    with processes.Pool(workers, _start_worker, (_pickled(setup),)) as pool:
+    with for_this_process_alone():
+        pool = processes.Pool(workers, _start_worker, (_pickled(setup),))
+    with pool:
         yield from pool.imap(_work, jobs, chunksize=4)
 
 

@@ -2,24 +2,34 @@
 
 from __future__ import annotations
 
-import hashlib
+import atexit
 import os
 import re
 import shutil
-import stat
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 
-import numba
-import numpy as np
 from numba.core import config
 from numba.misc.appdirs import AppDirs
 
-_KERNEL_IMPORT = "kernels.compiling import kernel"
-_IMPORT = re.compile(r"^from semnav_env\.([\w.]+) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
+from semnav_env.features.kernels.cache_key import version_key
+from semnav_env.features.private_folder import make_private
+
+OWN_NAME = "semnav-env-kernels"
+"""Name of the folder that is ours alone, in one that the user may have chosen for many programs."""
+
+VERSION_FOLDER = re.compile(r"[0-9a-f]{20}")
+"""Names of the folders in it, one for each version of the sources."""
+
+KERNEL_FILE = re.compile(r"[^.].*\.[0-9a-f]{20}\.bin")
+"""Names of the files of kernels."""
+
+UNFINISHED_FILE = re.compile(r"\..+(-[0-9a-f]{12}\.part\.bin|\.[0-9a-f]{20}\.bin\.lock)")
+"""Names of such files while they are written, and of what tells others to wait for them."""
 
 KEPT_FOLDERS = 10
 """Folders of as many versions of the sources are kept, those used last."""
@@ -27,96 +37,86 @@ KEPT_FOLDERS = 10
 
 @lru_cache(maxsize=1)
 def cache_folder() -> Path:
-    """Folder of the kernels of exactly these sources and libraries; it can be written to.
+    """Folder of the kernels of exactly these sources and libraries; only the user can write to it.
 
     It stands in the folder that `SEMNAV_CACHE_DIR` or `NUMBA_CACHE_DIR` names, else in the user's
-    cache directory. Where that cannot be written to, it stands in the temporary directory.
+    cache directory. Where that cannot be used, it stands in the temporary directory.
     """
-    name = version_key()
-    usual = base_folder() / name
-    if _opened(usual):
-        return usual
-    other = _private_temporary_folder() / name
-    print(
-        f"semnav-env: {usual.parent} cannot be written to; compiled kernels are kept in {other}",
-        file=sys.stderr,
-    )
-    _opened(other)
-    return other
+    name, base = version_key(), base_folder()
+    try:
+        return _opened(base, name)
+    except OSError as error:
+        other = _temporary_folder(name)
+        why = error.strerror or error
+        print(
+            f"semnav-env: {base} cannot be used: {why}; compiled kernels are kept in {other}",
+            file=sys.stderr,
+        )
+        return other
 
 
 def base_folder() -> Path:
     """Folder in which each version of the sources has one of its own."""
     chosen = os.environ.get("SEMNAV_CACHE_DIR") or str(getattr(config, "CACHE_DIR", ""))
-    return Path(chosen or AppDirs("semnav-env", appauthor=False).user_cache_dir) / "kernels"
+    chosen = chosen or AppDirs("semnav-env", appauthor=False).user_cache_dir
+    return Path(os.path.realpath(chosen) if os.path.isabs(chosen) else chosen) / OWN_NAME
 
 
-def version_key() -> str:
-    """Hash of every module that a kernel may be made of, and of the compiler's version.
-
-    A kernel holds the code and the constants of all that it calls, wherever they stand; so no
-    edit leaves a stale kernel, and two copies of the same sources share their kernels. Edits of
-    modules that no kernel's module imports leave the kernels as they are.
-    """
-    versions = (sys.version, numba.__version__, np.__version__)
-    key = hashlib.sha256("\n".join(versions).encode())
-    sources = dict(_sources())
-    for name in sorted(_behind_kernels(sources)):
-        key.update(f"{name}\n{sources[name]}".encode())
-    return key.hexdigest()[:20]
+def versions(base: Path) -> list[Path]:
+    """The folders of kernels, in the order of their last use."""
+    found = [f for f in base.iterdir() if VERSION_FOLDER.fullmatch(f.name) and _is_folder(f)]
+    return sorted(found, key=_last_use, reverse=True)
 
 
 def forget_old_versions(base: Path) -> None:
-    """Remove all folders but those used last."""
-    folders = sorted((f for f in base.iterdir() if f.is_dir()), key=_last_use, reverse=True)
-    for folder in folders[KEPT_FOLDERS:]:
-        shutil.rmtree(folder, ignore_errors=True)
+    """Remove all folders of kernels but those used last."""
+    for folder in versions(base)[KEPT_FOLDERS:]:
+        remove_version(folder)
 
 
-def _sources() -> Iterator[tuple[str, str]]:
-    """Every module of the installed package: its place in it, without the suffix, and its text."""
-    top = sys.modules[__name__.partition(".")[0]].__path__[0]
-    for folder, folders, files in os.walk(top, followlinks=True):
-        folders[:] = [f for f in folders if f != "__pycache__"]
-        for file in files:
-            if file.endswith(".py"):
-                path = os.path.join(folder, file)
-                place = path[len(top) + 1 : -len(".py")].replace(os.sep, "/")
-                with open(path, "rb") as source:
-                    yield place, source.read().decode()
-
-
-def _behind_kernels(sources: Mapping[str, str]) -> set[str]:
-    """The modules with kernels, and all that they import, directly or not."""
-    found = {name for name, text in sources.items() if _KERNEL_IMPORT in text}
-    waiting = list(found)
-    while waiting:
-        fresh = set(_imports(sources[waiting.pop()])).intersection(sources) - found
-        found |= fresh
-        waiting += fresh
-    return found
-
-
-def _imports(text: str) -> Iterator[str]:
-    """The places of the modules that a module's first lines may import."""
-    for module, names in _IMPORT.findall(text):
-        place = module.replace(".", "/")
-        yield from (place, f"{place}/__init__")
-        yield from (f"{place}/{name}" for name in re.findall(r"\w+", names))
-
-
-def _opened(folder: Path) -> bool:
-    """Make a folder or note its use; whether it can be written to."""
-    try:
-        if folder.is_dir():
-            os.utime(folder)
-        else:
-            folder.mkdir(parents=True, exist_ok=True)
-            forget_old_versions(folder.parent)
-        tempfile.TemporaryFile(dir=folder).close()
-    except OSError:
+def remove_version(folder: Path) -> bool:
+    """Remove a folder of kernels, unless there is anything else in it; whether it is gone."""
+    files = list(entries(folder))
+    if not all(map(is_kernel, files)):
         return False
-    return True
+    with suppress(OSError):  # another process may have removed it
+        for file in files:
+            file.unlink(missing_ok=True)
+        folder.rmdir()  # refused if anything has come meanwhile
+    return not folder.exists()
+
+
+def is_kernel(file: Path) -> bool:
+    """Whether a file is one of a kernel, complete or not."""
+    named = KERNEL_FILE.fullmatch(file.name) or UNFINISHED_FILE.fullmatch(file.name)
+    return named is not None and file.is_file() and not file.is_symlink()
+
+
+def _opened(base: Path, name: str) -> Path:
+    """Make a folder of kernels or note its use.
+
+    Raises:
+        OSError: it cannot be made or written to, or others can write to it.
+    """
+    folder = base / name
+    make_private(base)
+    is_new = not folder.is_dir()
+    make_private(folder)
+    if is_new:
+        forget_old_versions(base)
+    os.utime(folder)
+    tempfile.TemporaryFile(dir=folder).close()
+    return folder
+
+
+def entries(folder: Path) -> Iterator[Path]:
+    """What is in a folder; nothing if it is gone."""
+    with suppress(OSError):  # another process has removed it
+        yield from folder.iterdir()
+
+
+def _is_folder(path: Path) -> bool:
+    return path.is_dir() and not path.is_symlink()
 
 
 def _last_use(folder: Path) -> float:
@@ -126,15 +126,12 @@ def _last_use(folder: Path) -> float:
         return 0.0  # another process has removed it
 
 
-def _private_temporary_folder() -> Path:
-    """A folder that no other user can write to: loading a kernel runs what the file says."""
+def _temporary_folder(name: str) -> Path:
+    """A folder of kernels in this user's temporary folder, or a new one until the process ends."""
     user = getattr(os, "getuid", lambda: 0)()
-    folder = Path(tempfile.gettempdir(), f"semnav-env-{user}")
     try:
-        folder.mkdir(mode=0o700, exist_ok=True)
-        found = folder.lstat()
-        if stat.S_ISDIR(found.st_mode) and found.st_uid == user and not found.st_mode & 0o022:
-            return folder
-    except OSError:
-        pass
-    return Path(tempfile.mkdtemp(prefix="semnav-env-"))
+        return _opened(Path(os.path.realpath(tempfile.gettempdir()), f"semnav-env-{user}"), name)
+    except OSError:  # somebody else has made it
+        folder = Path(tempfile.mkdtemp(prefix="semnav-env-"))
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        return folder

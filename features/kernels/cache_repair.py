@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-import shutil
 import time
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from semnav_env.features.kernels.cache_folder import (
+    KERNEL_FILE,
+    UNFINISHED_FILE,
+    entries,
+    is_kernel,
+    remove_version,
+    versions,
+)
 from semnav_env.features.kernels.kernel_cache import unsealed
 
 OLD_PART = 3600.0
@@ -44,7 +51,7 @@ class CacheRepair:
 
 
 def repair(folder: Path) -> CacheRepair:
-    """Mend the cache.
+    """Mend the cache. Nothing is touched but files and folders with the names of ours.
 
     Args:
         folder: of the kernels of these sources, see `cache_folder`.
@@ -52,25 +59,27 @@ def repair(folder: Path) -> CacheRepair:
     return CacheRepair(
         sum(map(_removed, _damaged(folder))),
         sum(map(_removed, _unfinished(folder.parent))),
-        sum(map(_removed, _unused(folder))),
+        sum(map(remove_version, _unused(folder))),
     )
 
 
 def _damaged(folder: Path) -> Iterator[Path]:
-    for file in folder.glob("[!.]*.bin"):
-        with suppress(OSError):
-            try:
-                unsealed(file.read_bytes())
-            except ValueError:
-                yield file
+    for file in filter(is_kernel, entries(folder)):
+        if KERNEL_FILE.fullmatch(file.name):
+            with suppress(OSError):
+                try:
+                    unsealed(file.read_bytes())
+                except ValueError:
+                    yield file
 
 
 def _unfinished(base: Path) -> Iterator[Path]:
-    return (part for part in base.glob("*/.*.part.bin") if _age(part) > OLD_PART)
+    files = (file for folder in versions(base) for file in filter(is_kernel, entries(folder)))
+    return (f for f in files if UNFINISHED_FILE.fullmatch(f.name) and _age(f) > OLD_PART)
 
 
 def _unused(folder: Path) -> Iterator[Path]:
-    others = (place for place in folder.parent.iterdir() if place.is_dir() and place != folder)
+    others = (place for place in versions(folder.parent) if place != folder)
     return (place for place in others if _age(place) > OLD_VERSION)
 
 
@@ -81,11 +90,8 @@ def _age(path: Path) -> float:
     return 0.0
 
 
-def _removed(path: Path) -> bool:
-    """Remove a file or a folder; whether it is gone."""
-    if path.is_dir():
-        shutil.rmtree(path, ignore_errors=True)
-    else:
-        with suppress(OSError):
-            path.unlink()
-    return not path.exists()
+def _removed(file: Path) -> bool:
+    """Remove a file; whether it is gone."""
+    with suppress(OSError):
+        file.unlink()
+    return not file.exists()

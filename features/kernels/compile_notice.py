@@ -36,7 +36,8 @@ class CompileNotice:
         if self._spent + time.perf_counter() - self._since > PATIENCE:
             self._said = True
             print(
-                "semnav-env: compiling kernels used for the first time: up to half a minute",
+                "semnav-env: compiling kernels used for the first time: up to half a minute; "
+                "`semnav doctor --warm` compiles all",
                 file=sys.stderr,
                 flush=True,
             )

@@ -121,7 +121,8 @@ class Kernel(CPUDispatcher):
 
     def compile(self, sig: Any) -> Any:
         """Compile for a signature, or load what was compiled before."""
-        with _no_garbage_collection():
+        once = self._cache.compiled_once(sig, self.targetctx.codegen())
+        with once, _no_garbage_collection():
             return super().compile(sig)
 
 

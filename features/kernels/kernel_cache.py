@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import io
 import pickle
+import time
 import zlib
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -18,9 +19,16 @@ from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 
 from semnav_env.features.kernels.cache_folder import cache_folder
+from semnav_env.features.kernels.cache_key import compiler_settings
+from semnav_env.features.kernels.compile_notice import NOTICE
+from semnav_env.features.sole_writer import sole_writer
 
 CHECKSUM_BYTES = 4
 """Size of the checksum that a file begins with."""
+
+LONGEST_WAIT, WAIT_STEP = 300.0, 0.05
+"""Time for which another process is waited for that compiles the same kernel, at most, and between
+two looks, seconds. The largest kernel takes half a minute of processor time."""
 
 
 def sealed(content: bytes) -> bytes:
@@ -86,6 +94,27 @@ class KernelCache(_Cache):
         """Folder of the files."""
         return str(cache_folder())
 
+    @contextmanager
+    def compiled_once(self, sig: Any, codegen: Any) -> Iterator[None]:
+        """Wait while another process compiles this kernel; then let others wait for the block.
+
+        Otherwise the processes that a training starts would each compile all kernels.
+        """
+        path = self._entry(sig, codegen)[0]
+        with ExitStack() as held:
+            until = time.monotonic() + LONGEST_WAIT
+            while self._enabled and not path.exists() and time.monotonic() < until:
+                try:
+                    held.enter_context(sole_writer(path))
+                    break
+                except BlockingIOError:
+                    with NOTICE.while_compiling():
+                        time.sleep(WAIT_STEP)
+                        NOTICE.work_goes_on()
+                except OSError:  # nothing can be kept here
+                    break
+            yield
+
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The kernel compiled for a signature, or None."""
         if not self._enabled:
@@ -127,6 +156,7 @@ class KernelCache(_Cache):
                 path.unlink()
 
     def _entry(self, sig: Any, codegen: Any) -> tuple[Path, str]:
-        """The file for a signature on this processor, and all that it depends on."""
-        key = repr((self._name, sig, codegen.magic_tuple(), self._code))
+        """The file for a signature and these settings, and all that it depends on."""
+        settings = *codegen.magic_tuple(), *compiler_settings()
+        key = repr((self._name, sig, settings, self._code))
         return cache_folder() / f"{self._name}.{sha256(key.encode()).hexdigest()[:20]}.bin", key

@@ -31,6 +31,7 @@ from semnav_env.features.frames import MOST_CONTACTS, Contact, FloatArray, Pose,
 from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
 from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.features.memory import SceneMemory
+from semnav_env.features.one_thread import ThreadDoor, for_one_thread
 from semnav_env.features.scene import Scene
 from semnav_env.features.validation import finite_triple
 from semnav_env.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, goal_bytes, put_goal
@@ -105,6 +106,7 @@ class BeliefTracker:
         self._told = ToldWays()
         self._period = 1.0 / self.lidar.rate_hz
         self._begun = self._is_first = False
+        self.thread_door = ThreadDoor()
         self._known_scene = None if known_scene is None else KnownScene(known_scene)
         self._last_source: Callable[[], RememberedScene | None] = nothing
         self.senses = self._join()
@@ -136,6 +138,7 @@ class BeliefTracker:
             self.ranges = ranges
             self.senses = self._join()
 
+    @for_one_thread
     def begin(self, command: Command, ways: Mapping[int, Way] = NO_WAYS) -> None:
         """Forget everything and begin to follow a command.
 
@@ -162,6 +165,7 @@ class BeliefTracker:
         self._estimate["observes_features"] = self._observes_features
         self._begun = self._is_first = True
 
+    @for_one_thread
     def update(
         self,
         ranges: ArrayLike,
@@ -181,7 +185,7 @@ class BeliefTracker:
             seconds: since the last update; the lidar's period if not given.
 
         Raises:
-            RuntimeError: before the first `begin`.
+            RuntimeError: before the first `begin`, or another thread is at it.
             ValueError: other ranges (shape, or a first scan in mm), what is not finite, no time.
         """
         self.take(ranges, odometry, velocity, bumps, seconds)

@@ -11,6 +11,7 @@ from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.features.checked_fields import check_fields
 from semnav_env.features.frames import Pose, Twist
 from semnav_env.features.lidar_spec import TIM561, LidarSpec
+from semnav_env.features.one_thread import ThreadDoor, for_one_thread
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import WHEELCHAIR, RobotSpec
@@ -114,6 +115,7 @@ class Simulator:
         self.last_ranges = np.zeros(spec.beams)
         self._record = np.zeros(1, SENSING)
         self._record["exact"] = setup.exact
+        self.thread_door = ThreadDoor()
         self._join()
 
     def _join(self) -> None:
@@ -145,6 +147,7 @@ class Simulator:
         """What was sensed in the last control period."""
         return self._sensed(TOUCHED if self.world.in_contact else 0)
 
+    @for_one_thread
     def reset(self, start: Pose, rng: np.random.Generator) -> Sensed:
         """Put the robot at rest at a pose, world frame; returns what it senses there.
 
@@ -160,6 +163,7 @@ class Simulator:
         self._record["noise_seed"], self._record["step"] = rng.integers(2**62), 0
         return self._sensed(look(self.arrays))
 
+    @for_one_thread
     def step(self, twist: Twist) -> Sensed:
         """Drive for one control period; returns what the robot senses at its end.
 
@@ -170,7 +174,7 @@ class Simulator:
 
         Raises:
             ValueError: not three finite numbers.
-            RuntimeError: before the first `reset`.
+            RuntimeError: before the first `reset`, or while another thread is in one of both.
         """
         self.demand(twist)
         return self.sensed(sense(self.arrays))

@@ -64,7 +64,8 @@ class Team:
         parts = max(1, min(wanted, count // LEAST_SHARE if threads is None else count))
         ends = np.linspace(0, count, parts + 1).round().astype(int).tolist()
         self._parts = list(pairwise(ends))
-        self._pool = ThreadPoolExecutor(parts - 1) if parts > 1 else None
+        self._pool: ThreadPoolExecutor | None = None
+        self._pool_process = 0
         self.periods = np.zeros(count, PERIOD)
         self._thoughtful, self._written, reported = np.zeros((3, count), dtype=bool)
         self._log = np.zeros((LOG_LENGTH, count, 3))
@@ -145,7 +146,7 @@ class Team:
 
     def close(self) -> None:
         """Stop the threads."""
-        if self._pool is not None:
+        if self._pool is not None and self._pool_process == os.getpid():
             self._pool.shutdown()
 
     def _make_room(self, beams: int) -> None:
@@ -190,8 +191,14 @@ class Team:
                 judgements[k] = env.judge.think(judged)
 
     def _submit(self, call: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        assert self._pool is not None
-        return self._pool.submit(call, self._arrays, *arguments)
+        return self._threads().submit(call, self._arrays, *arguments)
+
+    def _threads(self) -> ThreadPoolExecutor:
+        """The other threads. A process that was forked gets none of its parent's, but new ones."""
+        if self._pool is None or self._pool_process != os.getpid():
+            self._pool_process = os.getpid()
+            self._pool = ThreadPoolExecutor(len(self._parts) - 1)
+        return self._pool
 
 
 def _wait_for(futures: list[Future[Any]]) -> None:

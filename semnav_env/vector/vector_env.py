@@ -11,6 +11,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
+from semnav_env.features.one_thread import ThreadDoor, for_one_thread
 from semnav_env.features.validation import check_count
 from semnav_env.vector.actions import TeamActions
 from semnav_env.vector.arguments import joined, made, naming_robot, one_each, one_seed_each
@@ -73,6 +74,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         # Gymnasium 1.2 also closes what was never made.
         self.envs: list[TeamMember] = []
         self._team: Team | None = None
+        self.thread_door = ThreadDoor()
         check_count("num_envs", num_envs)
         check_count("threads", 1 if threads is None else threads)
         check_count("repeat", repeat)
@@ -98,6 +100,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self._unbegun = np.zeros(num_envs, dtype=bool)
         self._observations: TeamObservations
 
+    @for_one_thread
     def reset(
         self,
         *,
@@ -133,12 +136,13 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             self._gather()
         return self._observations.observe(self._gathered), infos
 
+    @for_one_thread
     def step(self, actions: Arrays) -> tuple[Any, Arrays, Arrays, Arrays, dict[str, Any]]:
         """Drive all robots while the action holds; those that begin anew stand still.
 
         Raises:
             ValueError: the actions are not finite or have another shape.
-            RuntimeError: before the first `reset`.
+            RuntimeError: before the first `reset`, or while another thread is in one of both.
             gymnasium.error.ClosedEnvironmentError: after `close`.
         """
         self._check_open()

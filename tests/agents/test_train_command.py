@@ -21,9 +21,9 @@ from semnav_env.agents.learning.files import (
     AgentDescription,
     load_tensors,
 )
-from semnav_env.agents.learning.folder_lock import only_trainer_in
 from semnav_env.agents.learning.presets import PRESETS
 from semnav_env.agents.learning.training import Trainer
+from semnav_env.features.sole_writer import sole_writer
 from semnav_env.scripts import main as cli
 from tests.support.paths import ROOT
 from tests.support.tiny_training import TINY, same
@@ -135,6 +135,7 @@ def test_a_batch_that_does_not_divide_a_rollout_is_no_warning(tmp_path):
 TRAIN_TINY = """
 import sys
 from semnav_env.agents.learning.presets import PRESETS
+from semnav_env.features.sole_writer import sole_writer
 from tests.support.tiny_training import TINY
 PRESETS["tiny"] = TINY
 from semnav_env.scripts.main import main
@@ -152,8 +153,7 @@ def test_a_folder_is_trained_by_one_process_at_a_time(capsys, tmp_path):
         for words in ([], ["--resume"]):
             code, _, err = run(capsys, "train", "tiny", "--out", tmp_path, *words)
             assert code == 2
-            assert f"{tmp_path} is being trained by process {first.pid} on " in err
-            assert err.endswith("; give another --out\n")
+            assert "another run is writing it; give another name" in err
     finally:
         first.kill()
         first.wait()
@@ -162,10 +162,10 @@ def test_a_folder_is_trained_by_one_process_at_a_time(capsys, tmp_path):
 
 
 def test_a_hearing_training_is_refused_in_a_folder_in_use(capsys, tmp_path):
-    with only_trainer_in(tmp_path):
+    with sole_writer(tmp_path):
         code, _, err = run(capsys, "train", "listener", "--out", tmp_path)
     assert code == 2
-    assert "is being trained by process" in err
+    assert "another run is writing it" in err
 
 
 def test_without_the_extra_the_error_says_what_to_install(capsys, tmp_path, monkeypatch):

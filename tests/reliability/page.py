@@ -52,14 +52,38 @@ what was accepted works.
   leaves the old file as it was. Files of lines keep the lines so far, and a dataset the episodes
   so far, if the end is an error or Ctrl-C. After a kill a part may stay (`*.part*`). Of a command
   that writes several files, some may be new and some old, each of them whole.
+- **Two writers** of one file never mix: parts have names that nobody can know before, and are new
+  files, so no link is followed that somebody has put there. The file is a whole one, of the writer
+  that was done last. What takes long, files of lines and datasets, has one writer at a time
+  (`features/sole_writer.py`): a second one is refused before it begins, and says so. A link in the
+  place of the file itself is followed if it is yours or root's, and refused otherwise.
 - **Readers** have a budget of bytes, below. What does not end (a pipe, an alias of aliases, a
   view that counts for ever) is refused before it is read.
 - **Compiled kernels** that cannot be kept, or cannot be read again, are kept in a temporary
   folder, or compiled anew; a line on stderr says so. Each file begins with a checksum, for one
   wrong bit of machine code would raise nothing. `semnav doctor` removes what is damaged, what
   killed writers left behind, and the kernels of sources that nobody has used for a month; what it
-  prints belongs into a bug report.
-- **Ctrl-C** ends every command with one line and exit code 130.
+  prints belongs into a bug report. Of processes that start at once, one compiles a kernel and the
+  others wait for it.
+- **The cache of kernels** is the folder `semnav-env-kernels` in the one that `SEMNAV_CACHE_DIR` or
+  `NUMBA_CACHE_DIR` names, else in the user's cache directory. Nothing outside it is ever removed,
+  and in it only folders that are named by 20 hexadecimal digits and hold nothing but files of
+  kernels.
+- **Kernels are code**: whoever can write there can run code as you, for what is read is machine
+  code in a pickle, and the checksum keeps nobody out. So the cache and the folders of its versions
+  must be yours, no links, and closed to group and others; they are made so (mode 0700) whatever
+  the umask. The folders above must be yours or root's, and closed likewise, unless they are
+  sticky, such as /tmp; a group of yours alone may write there. Relative paths are not taken, nor
+  `~/.cache` where nobody knows your home. Where anything is amiss, kernels are kept in a temporary
+  folder of your own, and a line on stderr says why. Let others share sources, not a cache.
+- **Ctrl-C** ends every command with one line and exit code 130, SIGTERM with one line and 143. This
+  holds from the command's own first line on, not while Python itself starts.
+- **Threads**: one thread at a time may use an environment, a vector environment, a simulator or
+  a `BeliefTracker`; a second one that comes meanwhile gets a `RuntimeError`, and one after the
+  other is fine. Threads may each have their own. `extract` may be called from any number at once.
+- **Forks**: a vector environment that is forked makes new threads in the child, and both drive on
+  alike. Do not fork while another thread is in the middle of a step: the child gets the
+  `RuntimeError`.
 
 ## Budgets of the readers
 
@@ -97,11 +121,18 @@ NaN, more than a gigabyte, or never.
 
 Every command that writes, in a folder with older files of the same names: on a disk that is full
 after some kilobytes; killed while it writes a file, when it opens, renames or removes one, or at
-any time; interrupted by Ctrl-C likewise. A strike fails if a file that was there is gone, if a
-file under its final name is neither the old nor a whole new one, if a part stays that no kill
-excuses, or if the command ends in anything but one line that names the file.
+any time; interrupted by Ctrl-C and SIGTERM likewise. A strike fails if a file that was there is
+gone, if a file under its final name is neither the old nor a whole new one, if a part stays that no
+kill excuses, or if the command ends in anything but one line that names the file.
 
 {strikes}
+
+## Signals at random moments
+
+Ctrl-C and SIGTERM to processes of their own, at any moment from the command's first line to the end
+of its process. One fails if it ends in a traceback or in anything but one line, or leaves a part.
+
+{signals}
 
 ## Long drives
 
@@ -176,6 +207,7 @@ def page(results: dict[str, Any]) -> str:
     return TEMPLATE.format(
         budgets=rows(("file", "at most"), list(BUDGETS)),
         inputs=counts("area, inputs", results["inputs"]),
+        signals=counts("command, signals", results["signals"]),
         strikes=counts("command, strikes", results["strikes"]),
         kept=MAX_KEPT_OFFICES,
         **GEOMETRY,

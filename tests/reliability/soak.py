@@ -1,7 +1,8 @@
 """`python -m tests.reliability.soak PART COUNT`: tries for long, and writes the page about it.
 
 The parts are `inputs` (COUNT of each area of share 1), `strikes` (COUNT of each kind on each
-command that writes) and `steps` (COUNT in all). `make soak` does all three.
+command that writes), `signals` (COUNT of each kind on each of some commands) and `steps` (COUNT in
+all). `make soak` does all four.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import sys
 import time
 
+from tests.reliability import signals
 from tests.reliability.areas import AREAS, Area, compile_kernels, try_area
 from tests.reliability.page import keep
 from tests.reliability.steps import MOST_GROWTH, drive
@@ -55,6 +57,26 @@ def _strike(writer: Writer, count: int) -> list[int]:
     return [count * len(STRIKES), failed]
 
 
+def signal_commands(count: int) -> int:
+    """Send signals to commands at random moments; returns the number of failures."""
+    results = {}
+    for command in signals.COMMANDS:
+        name = command.split()[0]
+        results[name] = _told(name, _signal(command, count))
+    keep("signals", results)
+    return sum(failed for _, failed in results.values())
+
+
+def _signal(command: str, count: int) -> list[int]:
+    failed = 0
+    for number in signals.SIGNALS:
+        for seed in range(count):
+            if wrong := signals.fault(command, number, seed):
+                failed += 1
+                print(f"  {command}, {number.name}, seed {seed}: {wrong}", file=sys.stderr)
+    return [count * len(signals.SIGNALS), failed]
+
+
 def drive_far(count: int) -> int:
     """Drive; returns 1 if memory has grown."""
     for so_far in drive(count, max(1, count // 100)):
@@ -70,7 +92,12 @@ def _told(name: str, result: list[int]) -> list[int]:
     return result
 
 
-PARTS = {"inputs": try_inputs, "strikes": strike_writers, "steps": drive_far}
+PARTS = {
+    "inputs": try_inputs,
+    "strikes": strike_writers,
+    "signals": signal_commands,
+    "steps": drive_far,
+}
 
 if __name__ == "__main__":
     part, number = sys.argv[1:]

@@ -1,4 +1,4 @@
-"""Strikes a command that writes: a full disk, a kill or Ctrl-C, and says what was lost by it."""
+"""Strikes a command that writes, by a full disk or a signal, and says what was lost by it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import semnav
-from semnav_env.scripts.dispatch import BAD_INPUT, INTERRUPTED
+from semnav_env.scripts.dispatch import BAD_INPUT, INTERRUPTED, TERMINATED
 from semnav_env.scripts.main import main
 from tests.reliability.children import WALL_SECONDS
 from tests.reliability.writers import WRITERS, Writer, make_inputs, shorten
@@ -98,7 +98,7 @@ def at_any_time(number: int) -> Callable[[Path, random.Random, float], None]:
     return arm
 
 
-KILLED, CTRL_C = (-signal.SIGKILL,), (INTERRUPTED,)
+KILLED, CTRL_C, SIGTERM = (-signal.SIGKILL,), (INTERRUPTED,), (TERMINATED,)
 STRIKES = (
     Strike("full disk", full_disk, (BAD_INPUT,), False),
     Strike("killed while writing", killed_writing, (-signal.SIGXFSZ, BAD_INPUT), True),
@@ -106,6 +106,8 @@ STRIKES = (
     Strike("killed at any time", at_any_time(signal.SIGKILL), KILLED, True),
     Strike("Ctrl-C at a change", at_a_change(signal.SIGINT), CTRL_C, False),
     Strike("Ctrl-C at any time", at_any_time(signal.SIGINT), CTRL_C, False),
+    Strike("SIGTERM at a change", at_a_change(signal.SIGTERM), SIGTERM, False),
+    Strike("SIGTERM at any time", at_any_time(signal.SIGTERM), SIGTERM, False),
 )
 """All of them."""
 
@@ -131,12 +133,14 @@ def _run_in_child(words: list[str], arm: Callable[[], None], errors: int) -> Non
         sys.stderr = os.fdopen(errors, "w", buffering=1)
         signal.signal(signal.SIGALRM, signal.SIG_DFL)
         signal.alarm(WALL_SECONDS)
-        signal.signal(signal.SIGINT, semnav.leave_at_once)
+        for number in semnav.WORDS:
+            signal.signal(number, semnav.leave_at_once)
         shorten()
         arm()
         code = main(words)
         signal.setitimer(signal.ITIMER_REAL, 0.0)  # it is over; a process would be gone
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        for number in semnav.WORDS:
+            signal.signal(number, signal.SIG_IGN)
     except BaseException as error:
         sys.stderr.write(f"Traceback: {type(error).__name__}: {error}\n")
     finally:
@@ -218,7 +222,7 @@ def _loss(writer: Writer, strike: Strike, before: dict[str, bytes], after: dict[
     for name in before.keys() - after.keys():
         return f"{name} is gone"
     for name, content in after.items():
-        if ".part" in name:
+        if ".part" in name or name.endswith(".lock"):
             if not strike.leaves_parts:
                 return f"{name} is left"
         elif content != before.get(name) and not writer.whole(

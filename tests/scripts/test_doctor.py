@@ -35,22 +35,31 @@ def test_the_doctor_says_what_a_bug_report_needs(capsys: pytest.CaptureFixture[s
     assert "kernels" in told["kernel cache"]
 
 
+HERE, RECENT, UNUSED = "0123456789abcdef0123", "a" * 20, "b" * 20
+"""Names of folders of kernels."""
+
+
+def named(name: str) -> str:
+    """The name of the file of a kernel."""
+    return f"{name}-1.{'c' * 20}.bin"
+
+
 def test_the_doctor_removes_what_is_damaged_or_left_behind(tmp_path: Path) -> None:
-    here = tmp_path / "current"
-    sound = kept(here, "sound.1.bin")
+    here = tmp_path / HERE
+    sound = kept(here, named("sound"))
     damaged = [
-        kept(here, "cut.1.bin", sealed(b"kernel")[:-1]),
-        kept(here, "flipped.1.bin", sealed(b"kernel")[:-1] + b"x"),
-        kept(here, "empty.1.bin", b""),
+        kept(here, named("cut"), sealed(b"kernel")[:-1]),
+        kept(here, named("flipped"), sealed(b"kernel")[:-1] + b"x"),
+        kept(here, named("empty"), b""),
     ]
-    writing = kept(here, ".new-12.part.bin", b"ker")
-    killed = kept(here, ".old-34.part.bin", b"ker", 2 * OLD_PART)
-    recent = kept(tmp_path / "recent", "a.1.bin", age=0.5 * OLD_VERSION)
-    unused = kept(tmp_path / "unused", "a.1.bin", age=2.0 * OLD_VERSION)
+    writing = kept(here, f".new-{'1' * 12}.part.bin", b"ker")
+    killed = kept(here, f".old-{'2' * 12}.part.bin", b"ker", 2 * OLD_PART)
+    recent = kept(tmp_path / RECENT, named("a"), age=0.5 * OLD_VERSION)
+    unused = kept(tmp_path / UNUSED, named("a"), age=2.0 * OLD_VERSION)
     removed = repair(here)
     assert (removed.damaged, removed.unfinished, removed.versions) == (3, 1, 1)
     assert all(path.exists() for path in (sound, writing, recent))
-    assert not any(path.exists() for path in (*damaged, killed, unused))
+    assert not any(path.exists() for path in (*damaged, killed, unused.parent))
     assert str(removed) == "; removed 3 damaged; removed 1 unfinished; removed 1 of other versions"
     assert str(repair(here)) == ""
 
@@ -58,7 +67,7 @@ def test_the_doctor_removes_what_is_damaged_or_left_behind(tmp_path: Path) -> No
 def test_the_doctor_mends_the_cache_that_is_used(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    broken = kept(tmp_path / "version", "broken.1.bin", b"half")
+    broken = kept(tmp_path / HERE, named("broken"), b"half")
     monkeypatch.setattr(
         "semnav_env.features.kernels.cache_folder.cache_folder", lambda: broken.parent
     )

@@ -51,7 +51,7 @@ def test_extract_writes_a_scene_per_scan(capsys, monkeypatch, log, tmp_path):
         assert ahead["start"] == pytest.approx([2, -2], abs=0.1)
         assert ahead["end"] == pytest.approx([2, 2], abs=0.1)
     assert page.stat().st_size > 10_000
-    assert not list(out.parent.glob("*.part"))
+    assert not list(out.parent.glob(".*"))
 
 
 def test_every_and_limit_choose_the_scans(capsys, log, tmp_path):
@@ -119,7 +119,7 @@ def test_a_failed_run_leaves_an_older_file_alone(capsys, tmp_path):
     out.write_text("older\n")
     assert run(capsys, "extract", empty, "--out", out)[0] == 2
     assert out.read_text() == "older\n"
-    assert not list(tmp_path.glob("*.part"))
+    assert not list(tmp_path.glob(".*"))
 
 
 def test_an_interruption_keeps_the_finished_lines(tmp_path, monkeypatch, capsys, log):

@@ -25,7 +25,11 @@ def test_a_killed_run_leaves_whole_lines_and_the_older_file(tmp_path):
     done = subprocess.run([sys.executable, "-c", program, str(path)])
     assert done.returncode == -signal.SIGKILL
     assert path.read_text() == "older\n"
-    assert [line["i"] for line in scenes(tmp_path / "lines.jsonl.part")] == list(range(100))
+    [part] = tmp_path.glob(".lines-*.part.jsonl")
+    assert [line["i"] for line in scenes(part)] == list(range(100))
+    with JsonLines(path) as out:
+        out.write({"after": "a kill nobody waits"})
+    assert scenes(path) == [{"after": "a kill nobody waits"}]
 
 
 def test_an_interruption_before_the_first_line_speaks_of_no_file(tmp_path):
