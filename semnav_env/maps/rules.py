@@ -13,6 +13,7 @@ from shapely.validation import explain_validity
 from semnav_env.maps.doorways import (
     DRAWING_TOLERANCE,
     NARROWEST_ROBOT,
+    WIDE_DOOR,
     DoorState,
     clear_width,
     door_state,
@@ -21,9 +22,6 @@ from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region, Surface
 
 MAX_EXTENT = 1000.0
 """Largest absolute value of a coordinate, metres: larger ones are in another unit or frame."""
-
-WIDE_DOOR = 2.0
-"""Width above which all doors of a plan must be before another unit is thought of, metres."""
 
 LEAST_SEGMENT_LENGTH = 0.001
 """Length of the shortest segment, metres; a shorter one has no certain direction."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from statistics import median
 
-from semnav_env.maps.rules import WIDE_DOOR
+from semnav_env.maps.doorways import WIDE_DOOR
 
 UNITS = {"metres": 1.0, "feet": 0.3048, "inches": 0.0254, "centimetres": 0.01, "millimetres": 0.001}
 """Units that buildings are drawn in, metres."""
