@@ -68,7 +68,7 @@ class PrintableStream:
 def printing_text() -> Iterator[None]:
     """While a command runs, what it prints on the standard output is printable."""
     usual = sys.stdout
-    sys.stdout = PrintableStream(usual)  # type: ignore[assignment]
+    sys.stdout = PrintableStream(usual)
     try:
         yield
     finally:

@@ -18,6 +18,9 @@ exactly."""
 NARROWEST_ROBOT = 0.5
 """Width of the narrowest robot, SPOT, metres; every open door leaves at least this much clear."""
 
+WIDE_DOOR = 2.0
+"""Width above which all doors of a plan must be before another unit than metres is thought of."""
+
 HALF_OPEN_ANGLE = math.radians(75.0)
 """Angle between a leaf and its opening below which the leaf narrows the way through, radians."""
 

@@ -13,12 +13,12 @@ from shapely.validation import explain_validity
 from semnav_env.maps.doorways import (
     DRAWING_TOLERANCE,
     NARROWEST_ROBOT,
+    WIDE_DOOR,
     DoorState,
     clear_width,
     door_state,
 )
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region, Surface
-from semnav_env.maps.units import certain_unit_fault
 
 MAX_EXTENT = 1000.0
 """Largest absolute value of a coordinate, metres: larger ones are in another unit or frame."""
@@ -55,7 +55,12 @@ def check_plan(plan: FloorPlan) -> None:
 
 def check_unit(door_widths: Iterable[float]) -> None:
     """Refuse a plan that is certainly not drawn in metres, by the widths of its doors."""
-    if fault := certain_unit_fault(door_widths):
+    widths = list(door_widths)
+    if not widths or min(widths) < WIDE_DOOR:
+        return
+    from semnav_env.maps.units import certain_unit_fault  # a plan in metres does without it
+
+    if fault := certain_unit_fault(widths):
         raise FloorPlanError(fault)
 
 

@@ -6,14 +6,13 @@ import math
 from collections.abc import Iterable
 from statistics import median
 
+from semnav_env.maps.doorways import WIDE_DOOR
+
 UNITS = {"metres": 1.0, "feet": 0.3048, "inches": 0.0254, "centimetres": 0.01, "millimetres": 0.001}
 """Units that buildings are drawn in, metres."""
 
 USUAL_WIDTH = 0.9
 """Width of most doors, metres."""
-
-SUSPICIOUS_WIDTH = 2.0
-"""Width above which all doors of a plan must be before another unit is thought of, metres."""
 
 CERTAIN_WIDTH = 20.0
 """Width of the doors of a plan, their median, that no building has, metres."""
@@ -26,7 +25,7 @@ def unit_fault(widths: Iterable[float]) -> str | None:
         widths: of the doors, metres if the plan keeps to the rules.
     """
     known = sorted(width for width in widths if math.isfinite(width))
-    if not known or known[0] < SUSPICIOUS_WIDTH:
+    if not known or known[0] < WIDE_DOOR:
         return None
     middle = median(known)
     unit = min(UNITS, key=lambda name: abs(math.log(middle * UNITS[name] / USUAL_WIDTH)))
