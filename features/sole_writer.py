@@ -16,8 +16,8 @@ def sole_writer(target: Path) -> Iterator[None]:
         with sole_writer(folder):
             train(folder)
 
-    The lock is an empty file beside it, `.NAME.lock`. One that a killed writer has left holds nobody
-    up. Where the file system or the operating system has no locks, nobody is refused.
+    The lock is an empty file beside it, `.NAME.lock`. One that a killed writer has left holds
+    nobody up. Where the file system or the operating system has no locks, nobody is refused.
 
     Raises:
         BlockingIOError: somebody else writes it; names it.

@@ -113,7 +113,7 @@ GROUPS: dict[str, Callable[[], None]] = {
     "environments": environments,
     "agents": agents,
     "logs and maps": logs,
-    "searches and people": searches,
+    "searches": searches,
 }
 """What is compiled side by side."""
 
