@@ -112,7 +112,7 @@ def searches() -> None:
 GROUPS: dict[str, Callable[[], None]] = {
     "environments": environments,
     "agents": agents,
-    "logs and maps": logs,
+    "logs": logs,
     "searches": searches,
 }
 """What is compiled side by side."""
