@@ -112,8 +112,8 @@ def searches() -> None:
 GROUPS: dict[str, Callable[[], None]] = {
     "environments": environments,
     "agents": agents,
-    "logs and maps": logs,
-    "searches and people": searches,
+    "logs": logs,
+    "searches": searches,
 }
 """What is compiled side by side."""
 

@@ -8,7 +8,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from semnav_env.features.kernels.cache_folder import (
+from semnav_env.features.kernels.kernel_cache import unsealed
+from semnav_env.features.kernels.version_folders import (
     KERNEL_FILE,
     UNFINISHED_FILE,
     entries,
@@ -16,7 +17,6 @@ from semnav_env.features.kernels.cache_folder import (
     remove_version,
     versions,
 )
-from semnav_env.features.kernels.kernel_cache import unsealed
 
 OLD_PART = 3600.0
 """Age from which an unfinished file is one whose writer was killed, seconds: writing takes none."""

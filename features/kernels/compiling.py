@@ -29,7 +29,6 @@ from numba.core.runtime.context import NRTContext
 
 from semnav_env.features.kernels import frames_in_kernels  # noqa: F401 - kernels call them
 from semnav_env.features.kernels.cache_folder import cache_folder
-from semnav_env.features.kernels.compile_notice import NOTICE
 from semnav_env.features.kernels.kernel_cache import KernelCache
 
 NUMBA_FITS = (
@@ -121,8 +120,8 @@ class Kernel(CPUDispatcher):
 
     def compile(self, sig: Any) -> Any:
         """Compile for a signature, or load what was compiled before."""
-        once = self._cache.compiled_once(sig, self.targetctx.codegen())
-        with once, _no_garbage_collection():
+        context: Any = self.targetctx
+        with self._cache.turn_to_compile(sig, context.codegen()), _no_garbage_collection():
             return super().compile(sig)
 
 
@@ -216,6 +215,8 @@ class _BodyCompiler(_FunctionCompiler):
     borrows = False
 
     def _compile_core(self, args: Any, return_type: Any) -> Any:
+        from semnav_env.features.kernels.compile_notice import NOTICE  # kept kernels need none
+
         NOTICE.work_goes_on()
         flags = compiler.Flags()
         self.targetdescr.options.parse_as_flags(flags, self.targetoptions)
@@ -244,6 +245,8 @@ class _LinkingCompiler(_FunctionCompiler):
         self._body = body
 
     def _compile_core(self, args: Any, return_type: Any) -> Any:
+        from semnav_env.features.kernels.compile_notice import NOTICE
+
         with NOTICE.while_compiling():
             self._body.compile(args if return_type is None else return_type(*args))
             return _linked(self._body.overloads[tuple(args)])

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import io
 import pickle
-import time
 import zlib
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext, suppress
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -20,15 +19,9 @@ from numba.core.serialize import dumps
 
 from semnav_env.features.kernels.cache_folder import cache_folder
 from semnav_env.features.kernels.cache_key import compiler_settings
-from semnav_env.features.kernels.compile_notice import NOTICE
-from semnav_env.features.sole_writer import sole_writer
 
 CHECKSUM_BYTES = 4
 """Size of the checksum that a file begins with."""
-
-LONGEST_WAIT, WAIT_STEP = 300.0, 0.05
-"""Time for which another process is waited for that compiles the same kernel, at most, and between
-two looks, seconds. The largest kernel takes half a minute of processor time."""
 
 
 def sealed(content: bytes) -> bytes:
@@ -94,26 +87,14 @@ class KernelCache(_Cache):
         """Folder of the files."""
         return str(cache_folder())
 
-    @contextmanager
-    def compiled_once(self, sig: Any, codegen: Any) -> Iterator[None]:
-        """Wait while another process compiles this kernel; then let others wait for the block.
-
-        Otherwise the processes that a training starts would each compile all kernels.
-        """
+    def turn_to_compile(self, sig: Any, codegen: Any) -> AbstractContextManager[None]:
+        """What a kernel is compiled in: other processes that need it wait for the end."""
         path = self._entry(sig, codegen)[0]
-        with ExitStack() as held:
-            until = time.monotonic() + LONGEST_WAIT
-            while self._enabled and not path.exists() and time.monotonic() < until:
-                try:
-                    held.enter_context(sole_writer(path))
-                    break
-                except BlockingIOError:
-                    with NOTICE.while_compiling():
-                        time.sleep(WAIT_STEP)
-                        NOTICE.work_goes_on()
-                except OSError:  # nothing can be kept here
-                    break
-            yield
+        if not self._enabled or path.exists():
+            return nullcontext()
+        from semnav_env.features.kernels.compile_turn import compile_turn  # seldom needed
+
+        return compile_turn(path)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The kernel compiled for a signature, or None."""

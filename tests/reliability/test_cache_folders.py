@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from semnav_env.features.kernels import cache_folder as folders
+from semnav_env.features.kernels import version_folders
 from semnav_env.features.kernels.cache_repair import OLD_PART, OLD_VERSION, repair
 from semnav_env.features.private_folder import make_private
 
@@ -70,7 +71,7 @@ def test_what_is_not_ours_is_never_removed(tmp_path: Path) -> None:
     for number in range(20):
         old_file(tmp_path / f"{number + 16:020x}" / KERNEL)
     repair(here)
-    folders.forget_old_versions(tmp_path)
+    version_folders.forget_old_versions(tmp_path)
     assert all(path.read_bytes() == b"precious" for path in there)
     assert not mine.exists()
 
@@ -102,7 +103,7 @@ def test_the_versions_used_last_are_kept(tmp_path: Path) -> None:
         folder = tmp_path / f"{age:020}"
         folder.mkdir()
         os.utime(folder, (time.time() - 60 * age,) * 2)
-    folders.forget_old_versions(tmp_path)
+    version_folders.forget_old_versions(tmp_path)
     assert sorted(f.name for f in tmp_path.iterdir()) == [f"{age:020}" for age in range(10)]
 
 
