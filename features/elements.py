@@ -208,7 +208,7 @@ class Rejection:
     """A candidate that was turned down, and why; see `extract(..., explain=True)`.
 
     Attributes:
-        kind: "wall", "door", "corner", "corridor" or "arc".
+        kind: "wall", "door", "corner" or "corridor".
         start: one end of the candidate, (x, y) in metres.
         end: the other.
         reason: which limit it failed, in words.

@@ -65,7 +65,7 @@ def extract(
     Args:
         scan: one sweep of a lidar.
         settings: every limit of the chain.
-        explain: add the candidates that were turned down, and why, as `rejections`; a thousand
+        explain: add the candidates that were turned down, and why, as `rejections`; some thousand
             times slower.
 
     Returns:

@@ -6,6 +6,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 from tyro.conf import OmitArgPrefixes, Positional
 
@@ -16,7 +17,7 @@ from semnav_env.scripts.jsonl import JsonLines
 from semnav_env.scripts.outputs import check_distinct, check_file
 from semnav_env.scripts.progress import tracked
 from semnav_env.scripts.sampling import EvenSample
-from semnav_env.scripts.scene_report import ExtractionTally, document, print_notes
+from semnav_env.scripts.scene_report import ExtractionTally, document, print_notes, rejections
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ class Arguments:
         limit: stop after this number of scans.
         geometry: what the log leaves unsaid of its scans.
         settings: limits of the extractor, metres and radians.
+        explain: write with each scene what was turned down, and why; some thousand times slower.
         json: print the summary as JSON on stdout.
     """
 
@@ -49,6 +51,7 @@ class Arguments:
     limit: int | None = None
     geometry: OmitArgPrefixes[Geometry] = field(default_factory=Geometry)
     settings: ExtractorSettings = field(default_factory=ExtractorSettings)
+    explain: bool = False
     json: bool = False
 
     def run(self) -> int:
@@ -86,13 +89,18 @@ class Arguments:
         records = check.watched(islice(log, 0, stop, self.every))
         with JsonLines(self.out) if self.out else nullcontext() as out:
             for record in tracked(records, tally.label, lambda: log.fraction):
-                scene = extract(record.scan, self.settings)
+                scene = extract(record.scan, self.settings, explain=self.explain)
                 tally.add(scene)
                 page.offer((f"scan {log.scans}, {log.unit} {record.line}", record.scan, scene))
                 if out:
-                    out.write(document(record, scene))
+                    out.write(document(record, scene) | self._reasons(scene))
+
+    def _reasons(self, scene: Scene) -> dict[str, Any]:
+        return {"rejections": rejections(scene)} if self.explain else {}
 
     def _check(self) -> None:
+        if self.explain and self.out is None:
+            raise ValueError("--explain writes its reasons into --out; give a file")
         for name in ("every", "limit", "scans"):
             value = getattr(self, name)
             if value is not None and value < 1:

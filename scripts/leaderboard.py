@@ -16,6 +16,7 @@ from semnav_env.agents.evaluation.leaderboard import (
     standings,
 )
 from semnav_env.agents.evaluation.provenance import UNKNOWN
+from semnav_env.scripts.leaderboard_text import plain_table
 
 HEADINGS = (
     *("split", "robot", "agent", "n", "trainings"),
@@ -81,11 +82,8 @@ def markdown(rows: list[Standing]) -> str:
 
 
 def plain(rows: list[Standing]) -> str:
-    """The table as text, in columns."""
-    lines = [HEADINGS, *map(_cells, rows)]
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    padded = (map(str.ljust, line, widths) for line in lines)
-    return "".join("  ".join(cells).rstrip() + "\n" for cells in padded)
+    """The table as text, at most 80 columns wide."""
+    return plain_table(HEADINGS, list(map(_cells, rows)))
 
 
 def _cells(row: Standing, quote: str = "") -> tuple[str, ...]:

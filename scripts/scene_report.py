@@ -40,6 +40,11 @@ def document(record: LogRecord, scene: Scene) -> dict[str, Any]:
     }
 
 
+def rejections(scene: Scene) -> list[dict[str, Any]]:
+    """What was turned down, and why, as JSON; places as in `document`."""
+    return [_rounded(asdict(each)) for each in scene.rejections]
+
+
 def _door(door: Door) -> dict[str, Any]:
     return {
         "start": door.start,

@@ -10,6 +10,7 @@ from __future__ import annotations
 from semnav_env.features.elements import Rejection
 from semnav_env.features.explain.corners import rejected_corners
 from semnav_env.features.explain.corridors import rejected_corridors
+from semnav_env.features.explain.doors import rejected_doors
 from semnav_env.features.explain.trace import Trace
 from semnav_env.features.explain.walls import rejected_walls
 
@@ -18,4 +19,5 @@ __all__ = ["Trace", "rejections"]
 
 def rejections(trace: Trace) -> tuple[Rejection, ...]:
     """Every candidate that was turned down, by kind."""
-    return (*rejected_walls(trace), *rejected_corners(trace), *rejected_corridors(trace))
+    walls, doors = rejected_walls(trace), rejected_doors(trace)
+    return (*walls, *doors, *rejected_corners(trace), *rejected_corridors(trace))

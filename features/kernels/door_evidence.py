@@ -28,6 +28,9 @@ MIN_JUMP, MAX_JUMP = -0.5, 1.0
 USUAL_WIDTH_MIN, USUAL_WIDTH_MAX = 0.8, 0.9
 """Clear widths of usual doors, metres; a width outside says something against a door."""
 
+FITS, IN_SHADOW, TOO_SHALLOW, TOO_COVERED = range(4)
+"""What is wrong with the beams of a gap that can be no opening; `FITS` if nothing is."""
+
 FRONT_DISTANCE = 0.1
 """A beam that ends farther than this before the chord, metres, is stopped in front of the gap."""
 
@@ -55,22 +58,22 @@ def measure_gap(
     gap: Any,
     settings: Any,
     evidence: Any,
-) -> bool:
+) -> int:
     """Measure how many of the beams between the jambs reach beyond the chord, and how far.
 
     For a unit vector d of a beam and the chord's unit direction u, the sine d x u of the angle
     between them turns a length along the beam into one across the chord.
 
     Returns:
-        Whether the gap can be an opening. It cannot if too few beams pass, if none gets deeper
-        than a recess, or if a beam beside a jamb ends in front of the chord: then the jamb is only
-        the edge of a shadow.
+        `FITS` if the gap can be an opening. It cannot if a beam beside a jamb ends in front of the
+        chord, for then the jamb is only the edge of a shadow (`IN_SHADOW`), if no beam gets deeper
+        than a recess (`TOO_SHALLOW`), or if too few pass (`TOO_COVERED`).
     """
     first, last = gap.first, gap.last
     start_jump = reach_beyond(ranges, directions, range_min, limit, gap, first)
     end_jump = reach_beyond(ranges, directions, range_min, limit, gap, last)
     if min(start_jump, end_jump) < -settings.door_shadow:
-        return False
+        return IN_SHADOW
     clear = deep = front = 0
     depth = 0.0
     for beam in range(first, last + 1):
@@ -83,8 +86,10 @@ def measure_gap(
         front += across < -FRONT_DISTANCE * slant
         depth += min(max(across, 0.0), MAX_DEPTH)
     beams = last - first + 1
-    if deep == 0 or clear < settings.door_clear_fraction * beams:
-        return False
+    if deep == 0:
+        return TOO_SHALLOW
+    if clear < settings.door_clear_fraction * beams:
+        return TOO_COVERED
     start_jump = max(min(start_jump, MAX_JUMP), MIN_JUMP)
     end_jump = max(min(end_jump, MAX_JUMP), MIN_JUMP)
     evidence.clear_share, evidence.deep_share = clear / beams, deep / beams
@@ -92,7 +97,7 @@ def measure_gap(
     evidence.log_beams = math.log(beams)
     evidence.jump_less = min(start_jump, end_jump)
     evidence.jump_more = max(start_jump, end_jump)
-    return True
+    return FITS
 
 
 @kernel

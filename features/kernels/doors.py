@@ -9,13 +9,21 @@ import numpy as np
 
 from semnav_env.features.frames import FloatArray
 from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.door_evidence import measure_gap, measure_place, measure_walls
+from semnav_env.features.kernels.door_evidence import (
+    FITS,
+    measure_gap,
+    measure_place,
+    measure_walls,
+)
 from semnav_env.features.kernels.door_leaf import find_leaf
 from semnav_env.features.kernels.evidence_layout import BIAS_ROW, OFFSET_ROW, OUTPUT_ROW
 from semnav_env.features.kernels.jambs import find_jambs
 
 UNDECIDED, KEPT, SUPPRESSED = range(3)
 """Values of a candidate's `state`."""
+
+TOO_NARROW, TOO_WIDE, FROM_BEHIND = range(1, 4)
+"""What is wrong with the width or the side of a gap; 0, `FITS`, if nothing is."""
 
 MAX_BEAM_SPACING = 0.3
 """Largest distance between neighbouring hits beside a jamb, metres. At a grazing angle hits are
@@ -96,9 +104,9 @@ def find_candidates(
             if end.beam > last or found == len(scratch.candidates):
                 break
             gap, evidence = scratch.candidates[found], scratch.evidence[found]
-            if not set_gap(start, end, increment, settings, gap):
+            if set_gap(start, end, increment, settings, gap) != FITS:
                 continue
-            if not measure_gap(ranges, directions, range_min, limit, gap, settings, evidence):
+            if measure_gap(ranges, directions, range_min, limit, gap, settings, evidence) != FITS:
                 continue
             measure_walls(
                 ranges,
@@ -165,30 +173,33 @@ def farthest_beam(jamb: Any, widest: float, increment: float) -> int:
 
 
 @kernel
-def set_gap(start: Any, end: Any, increment: float, settings: Any, gap: Any) -> bool:
-    """Write the gap between two jambs; returns whether it can have the width of a door.
+def set_gap(start: Any, end: Any, increment: float, settings: Any, gap: Any) -> int:
+    """Write the gap between two jambs; returns `FITS` if it can have the width of a door.
 
     A jamb lies up to one beam spacing past the last point that was seen, so the width is only
     known as an interval; it must meet the interval of door widths.
+
+    Returns:
+        `FITS`, `TOO_NARROW`, `TOO_WIDE` or `FROM_BEHIND`.
     """
     x, y = end.x - start.x, end.y - start.y
     square = x * x + y * y
     widest = settings.door_width_max + settings.door_width_tolerance
     narrowest = settings.door_width_min - settings.door_width_tolerance
     if not (square >= narrowest**2) & (square <= (widest + 2.0 * MAX_BEAM_SPACING) ** 2):
-        return False
+        return TOO_NARROW if square < narrowest**2 else TOO_WIDE
     width = math.sqrt(square)
     x, y = x / width, y / width
     gap.distance = start.x * y - start.y * x
     if gap.distance <= 0.0:
-        return False
+        return FROM_BEHIND
     gap.start_spacing = beam_spacing(start, gap.distance, increment)
     gap.end_spacing = beam_spacing(end, gap.distance, increment)
     gap.width, gap.along_x, gap.along_y = width, x, y
     gap.start_x, gap.start_y, gap.end_x, gap.end_y = start.x, start.y, end.x, end.y
     gap.first, gap.last = start.beam + 1, end.beam - 1
     gap.start_piece, gap.end_piece = start.piece, end.piece
-    return bool(width - gap.start_spacing - gap.end_spacing <= widest)
+    return FITS if width - gap.start_spacing - gap.end_spacing <= widest else TOO_WIDE
 
 
 @kernel

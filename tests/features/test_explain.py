@@ -119,3 +119,68 @@ def test_a_narrow_passage_says_how_narrow_it_is() -> None:
     assert scene.corridors == ()
     reasons = {rejection.reason for rejection in of_kind(scene, "corridor")}
     assert "0.500 m wide; twice corridor_half_width is 0.6" in reasons
+
+
+def gap(width: float, recess: float | None = None) -> FloatArray:
+    """A wall before the lidar with a gap, open or closed by a second wall behind it."""
+    walls = [polyline((2.0, -3.0), (2.0, -width / 2)), polyline((2.0, width / 2), (2.0, 3.0))]
+    if recess is not None:
+        walls.append(polyline((2.0 + recess, -3.0), (2.0 + recess, 3.0)))
+    return np.concatenate(walls)
+
+
+def reasons_of_doors(segments: FloatArray, **limits: float) -> list[str]:
+    scene = explained(segments, ExtractorSettings(**limits))
+    assert not scene.doors
+    return [rejection.reason for rejection in of_kind(scene, "door")]
+
+
+@pytest.mark.parametrize(
+    ("width", "recess", "limits", "reason"),
+    [
+        (0.5, None, {}, "m wide; door_width_min less door_width_tolerance is"),
+        (2.0, None, {}, "m wide; door_width_max and door_width_tolerance are 1.25"),
+        (0.9, 0.1, {}, "no beam gets deeper than 0.1"),
+        (0.9, 1.0, {"door_clear_fraction": 1.0, "door_depth": 1.5}, "door_clear_fraction is 1"),
+        (0.9, None, {"door_confidence_min": 1.0}, "door_confidence_min is 1"),
+        (0.9, None, {"door_beams": 500}, "beams pass; door_beams is 500"),
+    ],
+)
+def test_a_gap_that_is_no_door_says_which_limit_it_failed(
+    width: float, recess: float | None, limits: dict[str, float], reason: str
+) -> None:
+    assert any(reason in found for found in reasons_of_doors(gap(width, recess), **limits))
+
+
+def test_a_gap_in_the_shadow_of_something_says_so() -> None:
+    pillar, wall = polyline((1.0, -0.23), (1.0, 0.23)), polyline((2.0, -3.0), (2.0, 3.0))
+    scene = explained(np.concatenate((wall, pillar)))
+    assert any("m in front of it; door_shadow" in r.reason for r in of_kind(scene, "door"))
+
+
+def test_a_measured_width_is_that_of_the_gap() -> None:
+    (reason,) = [each for each in reasons_of_doors(gap(2.0)) if "door_width_max" in each]
+    assert float(reason.split()[0]) == pytest.approx(2.0, abs=0.05)
+
+
+@settings(max_examples=30, deadline=None)
+@given(openings(0.75, 1.2), seeds, st.booleans())
+def test_no_door_that_was_found_is_explained_away(
+    opening: Opening, seed: int, is_circle: bool
+) -> None:
+    """What was accepted, and not suppressed by a better one, is a door and has no reason."""
+    field = 2.0 * math.pi * 810 / 811 if is_circle else 4.7
+    rng = np.random.default_rng(seed)
+    scan = scan_of(opening.segments, opening.pose, 811, field, sigma=0.02, rng=rng)
+    scene = extract(scan, explain=True)
+    suppressed = [r for r in of_kind(scene, "door") if "has its middle" in r.reason]
+    for rejection in suppressed:
+        middle = np.add(rejection.start, rejection.end) / 2
+        near = [math.dist(middle, door.midpoint) for door in scene.doors]
+        assert min(near) < 0.8
+    for rejection in of_kind(scene, "door"):
+        ends = {rejection.start, rejection.end}
+        assert rejection in suppressed or not any(
+            max(min(math.dist(a, b) for b in ends) for a in (d.start, d.end)) < 1e-6
+            for d in scene.doors
+        )
