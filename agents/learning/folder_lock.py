@@ -11,6 +11,9 @@ from pathlib import Path
 
 LOCK_FILE = "training.lock"
 
+NO_LINKS = getattr(os, "O_NOFOLLOW", 0)
+"""Flag by which a link in the place of the lock is refused: what it leads to would be emptied."""
+
 LONGEST_HOLDER = 200
 """Largest number of bytes that are read of who holds the lock."""
 
@@ -41,7 +44,7 @@ def only_trainer_in(folder: Path) -> Iterator[None]:
     """
     made = not folder.exists()
     folder.mkdir(parents=True, exist_ok=True)
-    file = os.open(folder / LOCK_FILE, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644)
+    file = os.open(folder / LOCK_FILE, os.O_RDWR | os.O_CREAT | NO_LINKS, 0o644)
     try:
         _take_or_refuse(file, folder)
         yield
@@ -59,7 +62,7 @@ def _take_or_refuse(file: int, folder: Path) -> None:
     except (BlockingIOError, PermissionError):
         holder = ""
         with suppress(OSError):  # Windows lets nobody read it
-            holder = os.pread(file, LONGEST_HOLDER, 0).decode("utf-8", "replace").strip()
+            holder = os.read(file, LONGEST_HOLDER).decode("utf-8", "replace").strip()
         raise ValueError(
             f"{folder} is being trained by {holder or 'another process'}; give another --out"
         ) from None
