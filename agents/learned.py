@@ -99,7 +99,8 @@ class LearnedAgent:
         description = AgentDescription.read(folder)
         if description.is_untrained:
             warnings.warn(
-                f"{folder} holds an untrained policy, of 0 decisions: train it, by --resume",
+                f"{folder} holds an untrained policy, of 0 decisions; go on with "
+                f"`semnav train {description.preset.get('name')} --out {folder} --resume`",
                 stacklevel=2,
             )
         try:

@@ -83,8 +83,8 @@ def state_line(state: TrainingState) -> str:
 
 
 def _is_told(state: TrainingState) -> bool:
-    """Whether a log file has a line of it: each update, and each tenth part of a preparation."""
-    if isinstance(state, TrainingReport):
+    """Whether a log file has a line of it: each update, the begin and each tenth of a phase."""
+    if isinstance(state, TrainingReport) or state.done == 1:
         return True
     before, now = (LINES_A_PHASE * done // state.total for done in (state.done - 1, state.done))
     return before < now

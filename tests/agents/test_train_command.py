@@ -120,7 +120,7 @@ def test_a_log_file_says_how_far_a_training_is(capsys, tmp_path):
     assert [line.partition(",")[0] for line in told] == [
         "demonstrations: 1 of 2 driven",
         "demonstrations: 2 of 2 driven",
-        *(f"cloning: pass {k} of {EPOCHS}" for k in range(4, EPOCHS + 1, 4)),
+        *(f"cloning: pass {k} of {EPOCHS}" for k in (1, *range(4, EPOCHS + 1, 4))),
         "64 decisions",
         "128 decisions",
     ]
