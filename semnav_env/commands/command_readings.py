@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import pairwise, product
 from typing import Any
 
-from semnav_env.commands.clause_readings import ClauseReadings, Readings
+from semnav_env.commands.clause_readings import ClauseReadings
 from semnav_env.commands.clauses import (
     Approach,
     Clause,
@@ -21,23 +21,17 @@ from semnav_env.commands.clauses import (
     Turning,
 )
 from semnav_env.commands.command import (
-    MAX_CLAUSES,
     Command,
     Link,
     links_of,
     may_count_on,
     reference_of,
 )
-from semnav_env.commands.defaults import decided, through
 from semnav_env.commands.one_reading import OutOfPlaceError, Reading, one_reading
 from semnav_env.commands.references import DoorReference, PlaceReference
 
 MAX_READINGS = 16
 """The most readings of a command; nobody would choose among more, so the text is refused."""
-
-
-MAX_TRIED = 2**MAX_CLAUSES
-"""The most readings that are made, which those of `MAX_CLAUSES` doors without a verb come to."""
 
 
 class TooAmbiguousError(ValueError):
@@ -54,22 +48,13 @@ def commands_of(found: Sequence[ClauseReadings]) -> tuple[Command, ...]:
         OutOfPlaceError: "go in" without a door before it, and the like.
         TooAmbiguousError: too many readings.
     """
-    _check_number(math.prod(_choices(each.readings) for each in found))
-    _check_number(math.prod(len(each.readings) for each in found), MAX_TRIED)
+    _check_number(math.prod(len(each.readings) for each in found))
     readings = [one_reading(found, choice) for choice in product(*(f.readings for f in found))]
     readings = [_with_dependent_turn(reading) for reading in readings]
     _check_conditions(readings, last=len(found) - 1)
     commands = [clauses for reading in readings if reading for clauses in _countings(reading)]
-    found_commands = tuple(dict.fromkeys(map(Command, commands)))
-    if len(found_commands) > MAX_READINGS:
-        found_commands = decided(found_commands)
-    _check_number(len(found_commands))
-    return found_commands
-
-
-def _choices(readings: Readings) -> int:
-    """How many readings of a stretch differ in more than how they approach a door."""
-    return len({tuple(map(through, steps)) for steps in readings})
+    _check_number(len(commands))
+    return tuple(dict.fromkeys(Command(clauses) for clauses in commands))
 
 
 def _with_dependent_turn(reading: Reading) -> Reading:
@@ -85,8 +70,8 @@ def _with_dependent_turn(reading: Reading) -> Reading:
     return reading
 
 
-def _check_number(readings: int, most: int = MAX_READINGS) -> None:
-    if readings > most:
+def _check_number(readings: int) -> None:
+    if readings > MAX_READINGS:
         raise TooAmbiguousError(readings)
 
 

@@ -93,7 +93,10 @@ def test_the_carets_are_under_a_room_that_there_is_not(
     [
         ("go to the kitchn", "did you mean 'go to room \"kitchen\"'?; corrected: kitchen"),
         ("go thruogh the second door on the rigth", "corrected: through, right"),
-        ("take a left, then a right, then the first door", 'mean "... turn right and go to the'),
+        (
+            "take a left, then a right, then turn 45 degrees",
+            'mean "... turn right and turn left by',
+        ),
         ("turn left in 5 metres", "in what distance? first say how far to go"),
         ("go down the hallway for 100 metres", "a distance is 0.5 to 50 metres"),
         ("explore everything", 'say "search the house"'),
