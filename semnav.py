@@ -19,7 +19,7 @@ def main() -> int:
         if signal.getsignal(number) in (signal.default_int_handler, signal.SIG_DFL):
             signal.signal(number, leave_at_once)
     try:
-        from semnav_env.scripts.main import main as run
+        from semnav_scripts.main import main as run
 
         try:
             return run()

@@ -12,18 +12,18 @@ from collections.abc import Iterable, Iterator
 
 from semnav_env.belief.log_following import follow_log
 from semnav_env.commands import parse
-from semnav_env.features import Scan
-from semnav_env.features.frames import Pose
-from semnav_env.features.readers import LogRecord, open_log
 from semnav_env.robots import SPOT
+from semnav_features import Scan
+from semnav_features.frames import Pose
+from semnav_features.readers import LogRecord, open_log
 
 COMMAND = "go through the second door on the right, then stop"
 
 
 def recorded() -> Iterator[LogRecord]:
     """The scans and the odometry of a drive in the simulator."""
-    from semnav_env.agents.base import steps
-    from semnav_env.agents.registry import make_agent
+    from semnav_agents.base import steps
+    from semnav_agents.registry import make_agent
     from semnav_env.env import SemNavEnv
     from semnav_env.observations import read_odometry
 

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from semnav_env.features import ExtractorSettings, extract
-from semnav_env.features.readers import open_log
+from semnav_features import ExtractorSettings, extract
+from semnav_features.readers import open_log
 
 EVERY = 20
 """Only each so many-th scan is shown."""

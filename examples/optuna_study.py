@@ -20,8 +20,8 @@ try:
 except ModuleNotFoundError as error:
     sys.exit(f'this example needs {error.name}: pip install "semnav-env[rl]" optuna')
 
-from semnav_env.agents.learning.preset_envs import preset_envs
-from semnav_env.agents.learning.presets import preset
+from semnav_agents.learning.preset_envs import preset_envs
+from semnav_agents.learning.presets import preset
 
 HALLWAY = replace(preset("hallway"), envs=16, max_seconds=20.0)
 REPORTS = 4

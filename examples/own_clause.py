@@ -8,13 +8,13 @@ import re
 from dataclasses import dataclass
 from typing import ClassVar
 
-from semnav_env.agents.base import steps
-from semnav_env.agents.registry import make_agent
+from semnav_agents.base import steps
+from semnav_agents.registry import make_agent
 from semnav_env.commands import Clause, Command, Follow, GrammarInterpreter, Interpretation
 from semnav_env.commands.languages import english
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import compose
 from semnav_env.grounding import Goal, GroundedClause, ReachGoal, Situation
+from semnav_features.frames import compose
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from semnav_env import commands, tasks
 from semnav_env.belief import Belief, BeliefTracker
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics, PlanSource
-from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import ORIGIN
-from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
-from semnav_env.features.one_thread import for_one_thread
 from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
 from semnav_env.maps import FloorPlan
 from semnav_env.observations import (
@@ -30,6 +26,10 @@ from semnav_env.robots.actions import Actions
 from semnav_env.rules import Rules, with_doors_of
 from semnav_env.simulator import OdometrySettings, RobotSetup, Simulator, odometry_settings
 from semnav_env.verifier import Mission
+from semnav_features import ExtractorSettings
+from semnav_features.frames import ORIGIN
+from semnav_features.lidar_spec import LidarSpec, lidar_spec
+from semnav_features.one_thread import for_one_thread
 
 
 class SemNavEnv(GymnasiumEnv[Any]):

@@ -14,8 +14,8 @@ import numpy as np
 from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
-from semnav_env.features.checked_fields import Seconds, checked
-from semnav_env.features.one_thread import ThreadDoor
+from semnav_features.checked_fields import Seconds, checked
+from semnav_features.one_thread import ThreadDoor
 
 ObservationT = TypeVar("ObservationT")
 P = ParamSpec("P")

@@ -8,10 +8,10 @@ import numpy as np
 
 from semnav_env.belief import BeliefTracker
 from semnav_env.commands.clauses import Clause
-from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.simulator.sensed import Motion
 from semnav_env.simulator.simulator import RobotSetup
+from semnav_features.frames import FloatArray, Pose
 
 
 class PayloadMarks(NamedTuple):

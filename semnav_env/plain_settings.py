@@ -12,12 +12,12 @@ from difflib import get_close_matches
 from typing import Any, cast, get_type_hints
 
 from semnav_env.dynamics import Dynamics
-from semnav_env.features import ExtractorSettings
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.robots import RobotSpec
 from semnav_env.rules import Rules
 from semnav_env.simulator import OdometrySettings
 from semnav_env.tasks import RewardWeights
+from semnav_features import ExtractorSettings
+from semnav_features.lidar_spec import LidarSpec
 
 SETTINGS: dict[str, type] = {
     "robot": RobotSpec,

@@ -9,12 +9,12 @@ from numba.experimental import structref
 
 from semnav_env.belief import BeliefTracker
 from semnav_env.belief.understand import Senses, understand
-from semnav_env.features.frames import Twist
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.simulator import Simulator
 from semnav_env.simulator.sensing import TOUCHED, SimulatorArrays, sense
 from semnav_env.verifier import Verifier
 from semnav_env.verifier.judge_record import JudgeRecord, judge_motion
+from semnav_features.frames import Twist
+from semnav_features.kernels.compiling import kernel
 
 
 @structref.register

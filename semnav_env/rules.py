@@ -10,10 +10,10 @@ import math
 from dataclasses import dataclass, field, replace
 from typing import Annotated
 
-from semnav_env.features.checked_fields import Angle, Bounds, Count, Length, Share, check_fields
-from semnav_env.features.rules import DoorRules
-from semnav_env.features.settings import ExtractorSettings
-from semnav_env.features.validation import check_kind
+from semnav_features.checked_fields import Angle, Bounds, Count, Length, Share, check_fields
+from semnav_features.rules import DoorRules
+from semnav_features.settings import ExtractorSettings
+from semnav_features.validation import check_kind
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from semnav_env.scripts.dispatch import CommandTable
+from semnav_scripts.dispatch import CommandTable
 
 STUDIES = CommandTable(
     "python -m studies",

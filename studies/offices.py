@@ -17,7 +17,7 @@ from semnav_env.maps import DISTRIBUTIONS, generate_office
 from semnav_env.maps.check import check
 from semnav_env.maps.generator.naming import distribution, office_name
 from semnav_env.robots import ROBOTS, RobotSpec, robot_spec
-from semnav_env.scripts.progress import tracked
+from semnav_scripts.progress import tracked
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from semnav_env.agents.learning.presets import preset
-from semnav_env.agents.learning.rllib.options import RayOptions
-from semnav_env.agents.learning.rllib.start import start_training
+from semnav_agents.learning.presets import preset
+from semnav_agents.learning.rllib.options import RayOptions
+from semnav_agents.learning.rllib.start import start_training
 
 if TYPE_CHECKING:  # Ray is optional
-    from semnav_env.agents.learning.rllib.trainer import RayTrainer
-    from semnav_env.agents.learning.training import Trainer
+    from semnav_agents.learning.rllib.trainer import RayTrainer
+    from semnav_agents.learning.training import Trainer
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Arguments:
                 print(_row(trainer, self.updates, options))
                 trainer.close()
             else:
-                from semnav_env.agents.learning.training import Trainer
+                from semnav_agents.learning.training import Trainer
 
                 local = Trainer(wanted, Path(folder), 0)
                 print(_local_row(local, self.updates))

@@ -19,13 +19,13 @@ INSTALLED = {
     layer: "semnav_env" if layer == "semnav_env" else f"semnav_env.{layer}" for layer in LAYERS
 }
 MAY_NEED = {
-    "features/clouds": {"scipy"},
-    "features/clouds/picture.py": {"matplotlib"},
-    "features/kernels/cache_key.py": {"llvmlite"},  # its version
-    "features/kernels/lanes.py": {"llvmlite"},  # numba's own compiler
-    "features/mapping": {"scipy"},
-    "features/plot.py": {"matplotlib"},
-    "features/readers": {"rosbags", "lz4"},  # lz4 comes with rosbags
+    "semnav_features/clouds": {"scipy"},
+    "semnav_features/clouds/picture.py": {"matplotlib"},
+    "semnav_features/kernels/cache_key.py": {"llvmlite"},  # its version
+    "semnav_features/kernels/lanes.py": {"llvmlite"},  # numba's own compiler
+    "semnav_features/mapping": {"scipy"},
+    "semnav_features/plot.py": {"matplotlib"},
+    "semnav_features/readers": {"rosbags", "lz4"},  # lz4 comes with rosbags
 }
 
 
@@ -121,7 +121,7 @@ def test_no_two_classes_have_one_name():
 
 def test_there_is_something_to_look_at():
     assert {module.layer for module in MODULES.values()} == set(LAYERS)
-    assert "semnav_env.features.scan" in {d.name for m in MODULES.values() for d in dependencies(m)}
+    assert "semnav_features.scan" in {d.name for m in MODULES.values() for d in dependencies(m)}
 
 
 def test_imports_only_point_down():
@@ -167,11 +167,11 @@ def test_features_need_numpy_and_numba_only():
 def test_reading_bags_costs_nothing_until_one_is_opened():
     """`rosbags` is an extra: no module of the readers imports it, or what it brings, at once."""
     for module in MODULES.values():
-        if module.place.startswith("features/readers/"):
+        if module.place.startswith("semnav_features/readers/"):
             body = module.tree.body
             names = {alias.name for n in body if isinstance(n, ast.Import) for alias in n.names}
             names |= {node.module for node in body if isinstance(node, ast.ImportFrom)}
-            assert not {name.split(".")[0] for name in names} & MAY_NEED["features/readers"]
+            assert not {name.split(".")[0] for name in names} & MAY_NEED["semnav_features/readers"]
 
 
 def test_the_simulator_and_the_pictures_each_have_one_door():
@@ -233,7 +233,7 @@ def test_what_is_not_installed_is_never_imported():
 
 def test_the_oracle_and_the_truth_import_no_kernel():
     folders = (ROOT / "tests" / "numpy_oracle", ROOT / "studies" / "truth")
-    kernels = ("semnav_env.features.kernels", "semnav_env.features.extraction", "numba")
+    kernels = ("semnav_features.kernels", "semnav_features.extraction", "numba")
     for path in (path for folder in folders for path in folder.glob("*.py")):
         module = Module(path.stem, "", path, ast.parse(path.read_text()))
         names = {f"{name}.{member}" for name, member in imported(module)}
@@ -263,4 +263,4 @@ def test_kernels_use_neither_fastmath_nor_prange():
     """
     marks = ("fastmath=", "parallel=True", "prange")
     found = [m.place for m in MODULES.values() if any(k in m.path.read_text() for k in marks)]
-    assert found == ["features/kernels/lanes.py"]
+    assert found == ["semnav_features/kernels/lanes.py"]

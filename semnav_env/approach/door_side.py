@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from semnav_env.features.frames import FloatArray, Point, Pose, points_to_parent, to_local
-from semnav_env.features.scene import Door
+from semnav_features.frames import FloatArray, Point, Pose, points_to_parent, to_local
+from semnav_features.scene import Door
 
 
 @dataclass(frozen=True, slots=True)

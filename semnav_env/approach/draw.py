@@ -14,12 +14,12 @@ from matplotlib.figure import Figure
 from semnav_env.approach.plan import ApproachPlan
 from semnav_env.approach.poses import CandidatePose, body_at, ellipse_at
 from semnav_env.approach.settings import ApproachSettings
-from semnav_env.features.frames import Pose
-from semnav_env.features.plot import check_suffix
-from semnav_env.features.writing import replacing
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.draw import draw_floor_plan
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import Pose
+from semnav_features.plot import check_suffix
+from semnav_features.writing import replacing
 
 SAFE, REFUSED, BEST, SQUARE = "tab:green", "tab:red", "tab:blue", "tab:orange"
 """Colours of safe poses, of refused ones, of the best pose, and of the free-space square."""

@@ -7,8 +7,8 @@ import shapely
 
 from semnav_env.approach.door_side import DoorSide
 from semnav_env.approach.surroundings import SEED_DISTANCE
-from semnav_env.features.frames import Point
 from semnav_env.maps import FloorPlan, PlanDoor, Region
+from semnav_features.frames import Point
 
 
 def side_towards(plan: FloorPlan, door: PlanDoor, start: Point | None = None) -> DoorSide:

@@ -12,8 +12,8 @@ from semnav_env.approach.door_side import DoorSide
 from semnav_env.approach.poses import CandidatePose, body_at, candidates, free_square
 from semnav_env.approach.settings import ApproachSettings
 from semnav_env.approach.surroundings import Surroundings
-from semnav_env.features.frames import Pose
 from semnav_env.robots import SPOT, RobotSpec
+from semnav_features.frames import Pose
 
 AREA_TOLERANCE = 1e-6
 """Area of the square that may be cut off by rounding, square metres."""

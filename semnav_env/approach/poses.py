@@ -13,8 +13,8 @@ from shapely.geometry.base import BaseGeometry
 
 from semnav_env.approach.door_side import DoorSide
 from semnav_env.approach.settings import ApproachSettings
-from semnav_env.features.frames import FloatArray, Pose, points_to_parent, wrap_angle
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Pose, points_to_parent, wrap_angle
 
 DIGITS = 5
 """Digits of the errors that count: those of Table 7.2. Poses that differ by less are equals."""

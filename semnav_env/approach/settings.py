@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
-from semnav_env.features.checked_fields import Bounds, check_fields
 from semnav_env.robots import RobotSpec
+from semnav_features.checked_fields import Bounds, check_fields
 
 Size: TypeAlias = Annotated[float, Bounds(0.001, 100.0, "m")]
 Turn: TypeAlias = Annotated[float, Bounds(0.001, math.tau, "rad")]

@@ -11,8 +11,8 @@ from shapely import Polygon
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.approach.door_side import DoorSide
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.scene import Scene, ends_of
+from semnav_features.frames import FloatArray
+from semnav_features.scene import Scene, ends_of
 
 if TYPE_CHECKING:
     from semnav_env.maps import FloorPlan

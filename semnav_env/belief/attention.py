@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from semnav_env.features.frames import wrap_angle
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.memory import how_many_count
+from semnav_features.frames import wrap_angle
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.memory import how_many_count
 
 MAX_TRAVEL, MAX_HEADING_CHANGE = 1.5, 0.5
 """A look is due when the robot has moved or turned by more since the last one, metres and

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple, Protocol
 
-from semnav_env.features.frames import Pose, Twist
-from semnav_env.features.scene import Scene
 from semnav_env.grounding.goal import Goal
+from semnav_features.frames import Pose, Twist
+from semnav_features.scene import Scene
 
 
 class SceneSource(Protocol):

@@ -10,7 +10,8 @@ from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 from semnav_env.belief.bump_limits import LIMITS, MOST_PIECES
-from semnav_env.features.frames import (
+from semnav_env.grounding.crossing import first_crossed
+from semnav_features.frames import (
     MOST_CONTACTS,
     Contact,
     FloatArray,
@@ -20,9 +21,8 @@ from semnav_env.features.frames import (
     to_local,
     to_parent,
 )
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.rows import put_row
-from semnav_env.grounding.crossing import first_crossed
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.rows import put_row
 
 Ends = tuple[float, float, float, float]
 """X and y of the ends of a piece, metres."""

@@ -16,9 +16,9 @@ from semnav_env.belief.bump_kernels import (
     seen_from,
 )
 from semnav_env.belief.bump_limits import LIMITS
-from semnav_env.features.frames import MOST_CONTACTS, Contact, FloatArray, Pose
-from semnav_env.features.lidar_spec import LidarSpec
-from semnav_env.features.scene import Door, PlainWalls, Scene, ends_of
+from semnav_features.frames import MOST_CONTACTS, Contact, FloatArray, Pose
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.scene import Door, PlainWalls, Scene, ends_of
 
 
 class BumpMap:

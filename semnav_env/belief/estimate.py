@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.features.frames import MOST_CONTACTS, FloatArray, Pose, Twist, wrap_angle
 from semnav_env.grounding.clause_progress import GOAL_RECORD
+from semnav_features.frames import MOST_CONTACTS, FloatArray, Pose, Twist, wrap_angle
 
 ESTIMATE = np.dtype(
     [("contact_count", "i8"), ("odometry", "f8", 3), ("seconds", "f8")]

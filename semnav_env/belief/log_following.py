@@ -9,13 +9,13 @@ from typing import Literal, TypeAlias
 from semnav_env.belief.belief import Belief
 from semnav_env.belief.tracker import NO_WAYS, BeliefTracker
 from semnav_env.commands import Command
-from semnav_env.features import ExtractorSettings, Scan
-from semnav_env.features.frames import ORIGIN, Pose, compose, relative, wrap_angle
-from semnav_env.features.lidar_spec import LidarSpec, most_beams
-from semnav_env.features.mapping import ScanOdometry
-from semnav_env.features.mapping.matched_log import matched
-from semnav_env.features.readers import LogError, LogRecord
 from semnav_env.grounding.ways import Way
+from semnav_features import ExtractorSettings, Scan
+from semnav_features.frames import ORIGIN, Pose, compose, relative, wrap_angle
+from semnav_features.lidar_spec import LidarSpec, most_beams
+from semnav_features.mapping import ScanOdometry
+from semnav_features.mapping.matched_log import matched
+from semnav_features.readers import LogError, LogRecord
 
 PoseChoice: TypeAlias = Literal["log", "odometry", "match"]
 """Where the poses of a robot come from: the log's own, its wheels, or its scans."""

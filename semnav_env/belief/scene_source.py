@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from semnav_env.belief.bump_map import BumpMap
-from semnav_env.features.memory import SceneMemory
-from semnav_env.features.scene import Scene
+from semnav_features.memory import SceneMemory
+from semnav_features.scene import Scene
 
 
 class KnownScene(NamedTuple):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from semnav_env.features.validation import finite_float, finite_triple, require
+from semnav_features.validation import finite_float, finite_triple, require
 
 
 def checked_ranges(ranges: ArrayLike, beams: int, lidar: str) -> np.ndarray:

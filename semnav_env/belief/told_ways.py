@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.commands import MAX_CLAUSES
-from semnav_env.features.frames import FloatArray
 from semnav_env.grounding.ways import Way
+from semnav_features.frames import FloatArray
 
 TOLD_PLACES, TOLD_DOORS = 80, MAX_CLAUSES
 """Room for the places of all told ways of a command, 120 m, and for the doors at their ends; places

@@ -26,18 +26,18 @@ from semnav_env.belief.understand import (
     workbench_with,
 )
 from semnav_env.commands import Command
-from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import MOST_CONTACTS, Contact, FloatArray, Pose, Twist
-from semnav_env.features.kernels.scratch import Features, allocate_features, allocate_scratch
-from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
-from semnav_env.features.memory import SceneMemory
-from semnav_env.features.one_thread import ThreadDoor, for_one_thread
-from semnav_env.features.scene import Scene
-from semnav_env.features.validation import finite_triple
 from semnav_env.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, goal_bytes, put_goal
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.ways import KnownWays, Way
 from semnav_env.rules import Rules, with_doors_of
+from semnav_features import ExtractorSettings
+from semnav_features.frames import MOST_CONTACTS, Contact, FloatArray, Pose, Twist
+from semnav_features.kernels.scratch import Features, allocate_features, allocate_scratch
+from semnav_features.lidar_spec import LidarSpec, lidar_spec
+from semnav_features.memory import SceneMemory
+from semnav_features.one_thread import ThreadDoor, for_one_thread
+from semnav_features.scene import Scene
+from semnav_features.validation import finite_triple
 
 NO_WAYS: Mapping[int, Way] = MappingProxyType({})
 
@@ -206,7 +206,7 @@ class BeliefTracker:
         if not self._begun:
             raise RuntimeError("call begin(command) before update()")
         from semnav_env.belief import sensed_check  # a simulated robot needs none
-        from semnav_env.features.scan import check_unit, plain_codes
+        from semnav_features.scan import check_unit, plain_codes
 
         own = self.ranges
         array = sensed_check.checked_ranges(ranges, len(own), self.lidar.name)

@@ -14,12 +14,12 @@ from numba.experimental import structref
 
 from semnav_env.belief.attention import is_look_due
 from semnav_env.belief.bump_kernels import forget_passed, note_contacts
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.chain import extract_arrays
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.memory import how_many_count, relocate, remember
-from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.grounding.clause_progress import note_pose
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.chain import extract_arrays
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.memory import how_many_count, relocate, remember
+from semnav_features.kernels.structures import ArraysType
 
 FIRST_SCAN, LOOK_DUE = 8, 16
 """Events beside those of `clause_progress`, as bits: the command is to be begun; the clause is to

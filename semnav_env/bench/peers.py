@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from semnav_env.bench.timing import Part, seconds_per_call
-from semnav_env.features.frames import Pose
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.maps import FloorPlan
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import Pose
+from semnav_features.lidar_spec import LidarSpec
 
 PEER_STEPS = 20
 """Steps timed in a run: a peer's takes as long as many of ours."""

@@ -7,8 +7,8 @@ from dataclasses import replace
 from shapely import box
 from shapely.affinity import translate
 
-from semnav_env.features.frames import Point
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region, Surface
+from semnav_features.frames import Point
 
 GAP = 1.0
 """Between two copies, metres."""

@@ -13,11 +13,11 @@ from semnav_env.belief.understand import extract_features, understand
 from semnav_env.bench.timing import Part, seconds_per_call
 from semnav_env.depth import DepthRig
 from semnav_env.env import SemNavEnv
-from semnav_env.features import Door
-from semnav_env.features.clouds import find_door
-from semnav_env.features.frames import compose
 from semnav_env.lidar.raster import cast
 from semnav_env.simulator.sensing import sense
+from semnav_features import Door
+from semnav_features.clouds import find_door
+from semnav_features.frames import compose
 
 RESETS = 20
 """Resets timed in a run; one takes as long as many steps."""

@@ -10,7 +10,7 @@ import time
 
 from semnav_env.bench.timing import Part
 
-_SEMNAV = ("-m", "semnav_env.scripts.main")
+_SEMNAV = ("-m", "semnav_scripts.main")
 _EVERYTHING = """
 import gymnasium
 import numpy as np

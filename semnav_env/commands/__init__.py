@@ -33,7 +33,7 @@ from semnav_env.commands.references import (
     Unit,
 )
 from semnav_env.commands.tokens import CLAUSE_FEATURES, token_mask, token_space
-from semnav_env.features.lazy_names import lazy_names
+from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_env.commands.decoding import decode

@@ -20,7 +20,7 @@ from semnav_env.commands.references import (
     Spoken,
     check_room_name,
 )
-from semnav_env.features.validation import shown
+from semnav_features.validation import shown
 
 if TYPE_CHECKING:
     from semnav_env.commands.language import Language

@@ -18,7 +18,7 @@ from semnav_env.commands.references import (
     Side,
     Unit,
 )
-from semnav_env.features.validation import shown
+from semnav_features.validation import shown
 
 CLAUSE_KINDS: dict[str, Any] = {
     kind.__name__: kind for kind in get_args(Clause) if kind is not OwnClause

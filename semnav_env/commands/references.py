@@ -9,7 +9,7 @@ from functools import lru_cache
 from numbers import Integral
 from typing import TYPE_CHECKING, TypeAlias
 
-from semnav_env.features.validation import shown
+from semnav_features.validation import shown
 
 if TYPE_CHECKING:
     from semnav_env.commands.language import Language

@@ -38,7 +38,7 @@ from semnav_env.commands.references import (
 )
 from semnav_env.commands.terminals import Lexicon
 from semnav_env.commands.words import pieces
-from semnav_env.features.frames import FloatArray
+from semnav_features.frames import FloatArray
 
 Embedding: TypeAlias = Callable[[Sequence[str]], FloatArray]
 Decisive: TypeAlias = tuple[str, ...]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
+from semnav_features.frames import FloatArray
 
 MISSING = (0.5, 0.15, 0.35, 0.3, 0.4, 0.3)
 """Share of the pixels without depth, by `FaceKind`: wall, frame, leaf, furniture, floor, person.

@@ -21,9 +21,9 @@ from semnav_env.depth.rigs import (
     SPOT_CAMERAS,
     SPOT_SOURCE,
 )
-from semnav_env.features.clouds.point_cloud import PointCloud
-from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.lidar.moving import NO_MOVING_THINGS
+from semnav_features.clouds.point_cloud import PointCloud
+from semnav_features.frames import FloatArray, Pose
 
 PERSON_HEIGHT = 1.75
 """Of the people that move in a plan, metres."""

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point
+from semnav_features.frames import FloatArray, Point
 
 Place: TypeAlias = Sequence[float] | FloatArray
 

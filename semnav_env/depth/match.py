@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.depth.rasterise import NOTHING
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.lidar.counter_rng import bits, normal, stream, uniform
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 PATCH = 8
 """Side of the patches of pixels that lack texture together, pixels."""

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_features.frames import FloatArray, Point
 
 NO_JAMB = -1
 """In `RaisedPlan.jambs`: the face belongs to no jamb."""

@@ -11,12 +11,12 @@ import shapely
 
 from semnav_env.depth.faces import box, prism, upright
 from semnav_env.depth.raised_plan import Closet, FaceKind, PlanWindow, RaisedFace, RaisedPlan
-from semnav_env.features.checked_fields import Bounds, check_fields
-from semnav_env.features.frames import Point
-from semnav_env.features.rules import DoorRules
-from semnav_env.features.validation import require
 from semnav_env.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
+from semnav_features.checked_fields import Bounds, check_fields
+from semnav_features.frames import Point
+from semnav_features.rules import DoorRules
+from semnav_features.validation import require
 
 Height: TypeAlias = Annotated[float, Bounds(0.001, 100.0, "m")]
 

@@ -15,8 +15,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 NOTHING = -1
 """In an image of faces: no face is in range."""

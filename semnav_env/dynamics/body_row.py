@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose, Twist
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Pose, Twist
 
 BODY_COLUMNS = (
     *("x", "y", "heading"),  # of the centre, world frame, metres and radians

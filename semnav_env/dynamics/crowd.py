@@ -14,9 +14,9 @@ from semnav_env.dynamics.orca import orca
 from semnav_env.dynamics.settings import Dynamics
 from semnav_env.dynamics.social_force import social_force
 from semnav_env.dynamics.walking import walk
-from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import WaysTo
+from semnav_features.frames import FloatArray, Point, Pose
 
 MAX_PLACEMENT_DRAWS = 400
 """Largest number of places drawn for one person; where none of them is free, the plan counts as

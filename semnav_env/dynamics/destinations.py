@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.grid_search import lowest_around
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic, WaysTo
+from semnav_features.frames import FloatArray, Point
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.grid_search import lowest_around
 
 PEOPLE_CLEARANCE = 0.3
 """Least distance of the ways of people from everything solid, metres: a little more than the radius

@@ -9,8 +9,8 @@ import numpy as np
 from semnav_env.dynamics.leaves import PlanLeaf
 from semnav_env.dynamics.nearby import nearest_on_body, nearest_on_segment
 from semnav_env.dynamics.settings import Dynamics
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 
 class SwingingDoors:

@@ -13,9 +13,9 @@ from shapely import Polygon
 from shapely.affinity import rotate, translate
 
 from semnav_env.dynamics.settings import Dynamics
-from semnav_env.features.frames import Point
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import Point
 
 POSITION_STD = 0.6
 """Standard deviation of how far a piece of furniture is moved along x and along y, metres."""

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from shapely import Polygon
 
-from semnav_env.features.frames import Point, heading_between, wrap_angle
 from semnav_env.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
+from semnav_features.frames import Point, heading_between, wrap_angle
 
 OPEN_ANGLE = math.radians(85.0)
 """Angle at which a leaf that the plan does not draw stands open, radians: nearly square to the

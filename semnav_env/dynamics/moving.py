@@ -13,10 +13,10 @@ from semnav_env.dynamics.doors import SwingingDoors
 from semnav_env.dynamics.leaves import swinging_leaves
 from semnav_env.dynamics.settings import MAX_SPEED_FACTOR, Dynamics
 from semnav_env.dynamics.social import SocialRecord, gaps
-from semnav_env.features.frames import FloatArray, Pose, Twist
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import footprint
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Pose, Twist
 
 
 class Moving:

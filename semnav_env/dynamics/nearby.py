@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from semnav_env.dynamics.body_row import BODY_HEADING, BODY_X, BODY_Y, HALF_LENGTH, HALF_WIDTH
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.lidar.culling import Culling, cell_of
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 WALL_RANGE = 2.0
 """Distance up to which walls matter to a person, metres: at 1.34 m/s more than a second of

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from semnav_env.dynamics.settings import Dynamics
-from semnav_env.features.frames import Point
-from semnav_env.features.validation import check_kind
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import Point
+from semnav_features.validation import check_kind
 
 
 class PlanSource:

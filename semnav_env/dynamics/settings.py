@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Annotated, TypeAlias
 
-from semnav_env.features.checked_fields import Bounds, OneOf, Share, check_fields, require_span
-from semnav_env.features.validation import require
+from semnav_features.checked_fields import Bounds, OneOf, Share, check_fields, require_span
+from semnav_features.validation import require
 
 StaySeconds: TypeAlias = Annotated[float, Bounds(0.1, 10_000.0, "s")]
 

@@ -19,8 +19,8 @@ from semnav_env.dynamics.body_row import (
     HALF_WIDTH,
 )
 from semnav_env.dynamics.nearby import nearest_on_body
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 PERSONAL_SPACE = 0.45
 """Gap between two bodies below which one intrudes on the other, metres: the intimate distance of E.

@@ -15,8 +15,8 @@ import numpy as np
 from semnav_env.dynamics.body_row import BODY_VX, BODY_VY
 from semnav_env.dynamics.nearby import MAX_WALL_PIECES, nearest_on_body, walls_near
 from semnav_env.dynamics.settings import MAX_SPEED_FACTOR
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 RELAXATION_TIME = 0.5
 """Time tau in which a person takes up the desired velocity, seconds, equation (2)."""

@@ -9,9 +9,9 @@ from shapely.affinity import rotate, translate
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.dynamics.furniture import FurnitureMover, free_ways
-from semnav_env.features.frames import Point
 from semnav_env.maps.floor_plan import FloorPlan, Material
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import Point
 
 POSTURES = ((1.7, 0.5), (0.7, 0.5))
 """Length and width of somebody who lies, and of somebody who sits, metres."""

@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 from semnav_env.dynamics.nearby import nearest_on_body, nearest_wall
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 MAX_DEFLECTIONS = 4
 """Number of times that a step is bent along what is in its way before it is given up."""

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from semnav_env.episodes.episode import Episode, Expected, StaleEpisodeError
-from semnav_env.features.lazy_names import lazy_names
+from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_env.episodes.files import EpisodeFileError, read_episodes, write_episodes

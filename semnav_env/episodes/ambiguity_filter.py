@@ -14,9 +14,6 @@ from functools import cached_property
 
 from semnav_env.commands import Clause, DoorReference, Follow, GoToDoor, IfThere, Turn
 from semnav_env.commands.command import reference_of
-from semnav_env.features.corridor import Corridor, corridor_at
-from semnav_env.features.frames import Pose
-from semnav_env.features.scene import PlainWalls, Scene
 from semnav_env.grounding import Goal, GroundingError, UnclearError, ground
 from semnav_env.grounding.conditions import is_met
 from semnav_env.grounding.goal import door_of
@@ -25,6 +22,9 @@ from semnav_env.grounding.search import Known
 from semnav_env.grounding.situation import Situation
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import is_clear
+from semnav_features.corridor import Corridor, corridor_at
+from semnav_features.frames import Pose
+from semnav_features.scene import PlainWalls, Scene
 
 MAX_INSPECTED_LENGTH = 40.0
 """Longest stretch of corridor that a person can be asked to search, metres."""

@@ -22,8 +22,6 @@ from semnav_env.commands import (
 )
 from semnav_env.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.episodes.random_clauses import CommandTopic, RandomClauses
-from semnav_env.features.corridor import axis_at
-from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.grounding.follower import Follower
 from semnav_env.maps import FloorPlan
@@ -32,6 +30,8 @@ from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.tasks.starts import leads_on
 from semnav_env.verifier import plan_goals
 from semnav_env.verifier.goals import check_grounded
+from semnav_features.corridor import axis_at
+from semnav_features.frames import Pose
 
 MAX_CLAUSE_DRAWS = 15
 """Largest number of clauses drawn for one place in a command before the command is given up."""

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from semnav_env.commands import CLAUSE_FEATURES, MAX_CLAUSES, Command, encode, parse
 from semnav_env.episodes.fingerprint import fingerprint
-from semnav_env.features.frames import Point, Pose
 from semnav_env.maps import FloorPlan, load_floor_plan
+from semnav_features.frames import Point, Pose
 
 
 class Expected(StrEnum):

@@ -14,9 +14,9 @@ from semnav_env.commands.languages import languages
 from semnav_env.commands.program import from_program, to_program
 from semnav_env.commands.tokens import CLAUSE_FEATURES
 from semnav_env.episodes.episode import Episode, Expected
-from semnav_env.features.decompression import read_lines
-from semnav_env.features.validation import clipped, shown
-from semnav_env.features.writing import write_file
+from semnav_features.decompression import read_lines
+from semnav_features.validation import clipped, shown
+from semnav_features.writing import write_file
 
 SUFFIXES = (".jsonl", ".jsonl.gz")
 """Endings of the names of episode files; the second one is compressed."""

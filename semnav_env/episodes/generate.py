@@ -19,13 +19,13 @@ from semnav_env.episodes.site import LARGEST_BODY, Site
 from semnav_env.episodes.splits import SEED, Split
 from semnav_env.episodes.walk import carries_out
 from semnav_env.episodes.wording import worded
-from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.grounding import Goal, ReachGoal
 from semnav_env.grounding.visible_doors import doors_around
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.maps.placement import is_clear, placement_error, sample_pose
 from semnav_env.tasks.starts import sample_start
 from semnav_env.verifier import Verifier, place, plan_mission
+from semnav_features.frames import FloatArray, Point, Pose
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,12 @@ import numpy as np
 import shapely
 
 from semnav_env.episodes.fingerprint import fingerprint
-from semnav_env.features.frames import Point
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import sample_pose
 from semnav_env.maps.reach import Reach, reach
 from semnav_env.robots import ROBOTS, WHEELCHAIR
+from semnav_features.frames import Point
 
 LARGEST_BODY = replace(
     WHEELCHAIR,

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from semnav_env.features.frames import Pose, to_parent
 from semnav_env.grounding import Goal, PassGoal, ReachGoal, StopGoal
 from semnav_env.routes.route import Route
 from semnav_env.verifier import Motion, Verifier, place
+from semnav_features.frames import Pose, to_parent
 
 STEP_SECONDS = 0.1
 """Time from one pose of the walk to the next, seconds."""

@@ -6,9 +6,6 @@ import math
 from collections.abc import Sequence
 
 from semnav_env.commands.references import Side
-from semnav_env.features.corridor import doorway_at
-from semnav_env.features.frames import Pose, compose, heading_between, to_local, wrap_angle
-from semnav_env.features.scene import Scene
 from semnav_env.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.grounding.door_geometry import bearing, heading_through
 from semnav_env.grounding.errors import UnclearError
@@ -16,6 +13,9 @@ from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation, turned
 from semnav_env.grounding.visible_doors import doors_around, own_doorway
 from semnav_env.rules import GroundingRules
+from semnav_features.corridor import doorway_at
+from semnav_features.frames import Pose, compose, heading_between, to_local, wrap_angle
+from semnav_features.scene import Scene
 
 
 def doors_behind(situation: Situation) -> tuple[Sequence[CountedDoor], bool]:

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.features.frames import Pose, to_local
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.grounding.goal import Goal, GoalKind, PassGoal, ReachGoal, door_of, wait_of
 from semnav_env.grounding.goal_check import is_crossed, is_reached, looks_along
 from semnav_env.grounding.ways import WAY_SPACING
+from semnav_features.frames import Pose, to_local
+from semnav_features.kernels.compiling import kernel
 
 CLAUSE_DONE, TRAIL_DUE, ON_WAY = 1, 2, 4
 """Events, as bits: the clause under way is completed; the robot is `WAY_SPACING` from the last

@@ -6,9 +6,6 @@ import math
 
 from semnav_env.commands.clauses import Follow, Turn, Turning
 from semnav_env.commands.references import Distance, DoorReference, Place, RoomReference, Side
-from semnav_env.features.corridor import Junction, doorway_at
-from semnav_env.features.frames import compose
-from semnav_env.features.scene import Door
 from semnav_env.grounding.counted_doors import doors_along
 from semnav_env.grounding.errors import GroundingError, UnclearError
 from semnav_env.grounding.find import find_door, find_junction, junction_name
@@ -17,6 +14,9 @@ from semnav_env.grounding.goals import search_goal
 from semnav_env.grounding.junctions import QUARTER_TURNS, mouth_of
 from semnav_env.grounding.search import Searching
 from semnav_env.grounding.situation import Situation, turned
+from semnav_features.corridor import Junction, doorway_at
+from semnav_features.frames import compose
+from semnav_features.scene import Door
 
 END_OF_HALLWAY = "the end of the hallway"
 

@@ -10,11 +10,11 @@ from typing import overload
 import numpy as np
 
 from semnav_env.commands.references import Side
-from semnav_env.features.corridor import MAX_KNOWN_VIEWS, Corridor
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.door_counting import COUNTED, count_doors
-from semnav_env.features.scene import Door, Scene, StillScene, known_ends
 from semnav_env.rules import GroundingRules
+from semnav_features.corridor import MAX_KNOWN_VIEWS, Corridor
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.door_counting import COUNTED, count_doors
+from semnav_features.scene import Door, Scene, StillScene, known_ends
 
 SIDES = (Side.LEFT, Side.RIGHT, Side.AHEAD)
 """Sides by the numbers that the kernel gives them."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 
 @kernel

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from semnav_env.features.frames import Pose, heading_between, to_local, wrap_angle
-from semnav_env.features.scene import Door
+from semnav_features.frames import Pose, heading_between, to_local, wrap_angle
+from semnav_features.scene import Door
 
 
 def heading_through(door: Door, about: float) -> float:

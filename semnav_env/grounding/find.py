@@ -7,13 +7,13 @@ from collections.abc import Sequence
 
 from semnav_env.commands.clauses import Turning
 from semnav_env.commands.references import OTHER, DoorReference, PlaceReference, Side
-from semnav_env.features.corridor import Junction
 from semnav_env.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.grounding.door_geometry import heading_through
 from semnav_env.grounding.errors import GroundingError, UnclearError
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation, is_behind
+from semnav_features.corridor import Junction
 
 
 def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:

@@ -12,8 +12,6 @@ import numpy as np
 from semnav_env.commands import Command
 from semnav_env.commands.clauses import GoBack, IfThere
 from semnav_env.commands.command import reference_of
-from semnav_env.features.frames import ORIGIN, Pose, to_local
-from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.clause_order import (
     after,
     comes_after_corridor,
@@ -37,6 +35,8 @@ from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation, is_behind, turned
 from semnav_env.grounding.ways import Guide, KnownWays, Trail, Way
 from semnav_env.rules import Rules
+from semnav_features.frames import ORIGIN, Pose, to_local
+from semnav_features.scene import Door, Scene
 
 
 @dataclass

@@ -7,10 +7,10 @@ from dataclasses import KW_ONLY, dataclass, field
 from enum import IntEnum
 from typing import ClassVar, TypeAlias
 
-from semnav_env.features.corridor import Corridor, Junction
-from semnav_env.features.frames import Point, Pose
-from semnav_env.features.scene import Door
 from semnav_env.grounding.goal_check import is_crossed, is_reached
+from semnav_features.corridor import Corridor, Junction
+from semnav_features.frames import Point, Pose
+from semnav_features.scene import Door
 
 
 class GoalKind(IntEnum):

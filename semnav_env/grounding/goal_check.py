@@ -6,9 +6,9 @@ import math
 
 from numba.extending import register_jitable
 
-from semnav_env.features.frames import Point, Pose, to_local, wrap_angle
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.grounding.crossing import crossing_share
+from semnav_features.frames import Point, Pose, to_local, wrap_angle
+from semnav_features.kernels.compiling import kernel
 
 DoorEnds = tuple[float, float, float, float]
 """X and y of the jambs of a door, metres."""

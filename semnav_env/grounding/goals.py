@@ -6,7 +6,6 @@ import math
 
 from semnav_env.commands.clauses import Approach, GoBack, GoToDoor, GoToRoom
 from semnav_env.commands.references import Side
-from semnav_env.features.frames import Pose
 from semnav_env.grounding.counted_doors import CountedDoor
 from semnav_env.grounding.door_geometry import heading_through
 from semnav_env.grounding.errors import GroundingError
@@ -17,6 +16,7 @@ from semnav_env.grounding.search import Searching
 from semnav_env.grounding.situation import Situation
 from semnav_env.grounding.ways import Way, door_near
 from semnav_env.rules import GroundingRules
+from semnav_features.frames import Pose
 
 
 def search_goal(search: Searching) -> SeekGoal | ReachGoal:

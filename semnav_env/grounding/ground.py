@@ -17,8 +17,6 @@ from semnav_env.commands.clauses import (
 )
 from semnav_env.commands.command import reference_of
 from semnav_env.commands.references import RoomReference
-from semnav_env.features.frames import Pose
-from semnav_env.features.scene import Scene
 from semnav_env.grounding.corridor_goals import follow_goal, turn_goal
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal, StopGoal
@@ -27,6 +25,8 @@ from semnav_env.grounding.own_clause import GroundedClause
 from semnav_env.grounding.situation import Situation
 from semnav_env.grounding.ways import Way
 from semnav_env.rules import Rules
+from semnav_features.frames import Pose
+from semnav_features.scene import Scene
 
 
 def ground(

@@ -6,10 +6,10 @@ import math
 
 from semnav_env.commands.clauses import Turning
 from semnav_env.commands.references import Place
-from semnav_env.features.corridor import Corridor, Junction, corridor_at
-from semnav_env.features.frames import Pose, to_parent
-from semnav_env.features.scene import Scene
 from semnav_env.rules import GroundingRules
+from semnav_features.corridor import Corridor, Junction, corridor_at
+from semnav_features.frames import Pose, to_parent
+from semnav_features.scene import Scene
 
 QUARTER_TURNS = {Turning.LEFT: 1, Turning.RIGHT: -1, Turning.AROUND: 2}
 """Heading change of each turn, in quarters of a circle, counter-clockwise."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from semnav_env.features.frames import Point, Pose, to_local, to_parent, wrap_angle
 from semnav_env.grounding.goal import Goal, PassGoal, SeekGoal
 from semnav_env.rules import GroundingRules
+from semnav_features.frames import Point, Pose, to_local, to_parent, wrap_angle
 
 
 def next_on_way(goal: Goal, pose: Pose, rules: GroundingRules) -> Goal:

@@ -6,7 +6,6 @@ import math
 
 from semnav_env.commands.clauses import Face, Follow
 from semnav_env.commands.references import DoorReference, Place, PlaceReference, RoomReference, Side
-from semnav_env.features.frames import Point, Pose, heading_between, to_local, to_parent, wrap_angle
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.find import find_door, find_junction
 from semnav_env.grounding.goal import Goal, ReachGoal
@@ -14,6 +13,7 @@ from semnav_env.grounding.goals import search_goal
 from semnav_env.grounding.search import Searching
 from semnav_env.grounding.situation import Situation
 from semnav_env.grounding.ways import Way, door_near
+from semnav_features.frames import Point, Pose, heading_between, to_local, to_parent, wrap_angle
 
 
 def landmark_goal(clause: Follow | Face, situation: Situation) -> Goal:

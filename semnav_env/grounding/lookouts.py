@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.scene import Door, Scene, ends_of
 from semnav_env.grounding.room_exits import distances_to, room_exits, without_gaps
 from semnav_env.grounding.search import Searching
 from semnav_env.grounding.situation import Situation, turned
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.scene import Door, Scene, ends_of
 
 WHAT = "the door of the room"
 """What is looked for."""

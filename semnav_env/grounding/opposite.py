@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 
 from semnav_env.commands.references import LAST, OTHER, Side
-from semnav_env.features.frames import Pose, compose, heading_between, to_local
-from semnav_env.features.kernels.corridor_rays import BODY_WIDTH
-from semnav_env.features.scene import Door
 from semnav_env.grounding.door_geometry import heading_through, shared_width
 from semnav_env.grounding.search import Known, Searching
 from semnav_env.grounding.situation import Situation
 from semnav_env.grounding.visible_doors import doors_across, own_doorway
+from semnav_features.frames import Pose, compose, heading_between, to_local
+from semnav_features.kernels.corridor_rays import BODY_WIDTH
+from semnav_features.scene import Door
 
 ORDINALS_OF_ONE = (1, LAST, OTHER)
 """The ordinals that a single door can have."""

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose, heading_between
-from semnav_env.features.scene import Door, Scene, ends_of
 from semnav_env.grounding.door_geometry import heading_through, lies_behind
 from semnav_env.grounding.visible_doors import doors_around, places_in
 from semnav_env.rules import GroundingRules
+from semnav_features.frames import FloatArray, Pose, heading_between
+from semnav_features.scene import Door, Scene, ends_of
 
 BEHIND_OPENING = 0.01
 """Share of the way to an opening by which a look through it begins behind it, so that its own wall

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
-from semnav_env.features.corridor import Corridor
-from semnav_env.features.frames import Pose
+from semnav_features.corridor import Corridor
+from semnav_features.frames import Pose
 
 T = TypeVar("T")
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from semnav_env.commands.references import DoorReference, Side
-from semnav_env.features.corridor import Corridor, corridor_at
-from semnav_env.features.frames import Pose, compose
-from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal_check import looks_along
 from semnav_env.grounding.search import Searching
 from semnav_env.grounding.ways import Way
 from semnav_env.rules import Rules
+from semnav_features.corridor import Corridor, corridor_at
+from semnav_features.frames import Pose, compose
+from semnav_features.scene import Door, Scene
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from semnav_env.features.corridor import doorway_at
-from semnav_env.features.frames import FloatArray, Pose, to_local
-from semnav_env.features.scene import Door, Scene, ends_of
 from semnav_env.grounding.door_geometry import lies_across
 from semnav_env.rules import GroundingRules
+from semnav_features.corridor import doorway_at
+from semnav_features.frames import FloatArray, Pose, to_local
+from semnav_features.scene import Door, Scene, ends_of
 
 VIEW_SAMPLES = (0.2, 0.5, 0.8)
 """Places in an opening that are tested for being in view, as shares of its width: one of them is

@@ -9,7 +9,8 @@ from typing import Protocol
 
 import numpy as np
 
-from semnav_env.features.frames import (
+from semnav_env.rules import GroundingRules
+from semnav_features.frames import (
     FloatArray,
     Point,
     Pose,
@@ -18,8 +19,7 @@ from semnav_env.features.frames import (
     to_local,
     wrap_angle,
 )
-from semnav_env.features.scene import Door, Scene
-from semnav_env.rules import GroundingRules
+from semnav_features.scene import Door, Scene
 
 WAY_SPACING = 1.5
 """Distance between the places of a way, metres: about the width of a corridor."""

@@ -12,8 +12,8 @@ from statistics import NormalDist
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 _GAMMA = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1, _MIX_2 = np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)

@@ -10,10 +10,10 @@ from weakref import WeakValueDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.maps.cell_budget import MAX_CELLS
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 GRID = np.dtype([("x", "f8"), ("y", "f8"), ("cell", "f8"), ("columns", "i8"), ("rows", "i8")])
 """The lower left corner, the side of a cell in metres, and how many cells: shape (1,)."""

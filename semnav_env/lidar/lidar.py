@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import ORIGIN, FloatArray, Pose, compose
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.lidar_spec import CosinesSines, LidarSpec, lidar_spec
 from semnav_env.lidar.culling import shared_culling
 from semnav_env.lidar.moving import NO_MOVING_THINGS, cast_moving
 from semnav_env.lidar.noise import corrupt
 from semnav_env.lidar.raster import cast
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_features.frames import ORIGIN, FloatArray, Pose, compose
+from semnav_features.kernels.compiling import kernel
+from semnav_features.lidar_spec import CosinesSines, LidarSpec, lidar_spec
 
 if TYPE_CHECKING:
-    from semnav_env.features.scan import Scan
+    from semnav_features.scan import Scan
 
 Key: TypeAlias = tuple[int, int, int]
 """(seed, episode, step), each at least 0 and below 2**63; the step counts sweeps."""
@@ -96,7 +96,7 @@ class Lidar:
 
     def scan(self, robot_pose: Pose, key: Key) -> Scan:
         """`ranges` as a scan in the lidar frame, stamped with the time of sweep `key[2]`."""
-        from semnav_env.features.scan import Scan  # a simulator needs the ranges only
+        from semnav_features.scan import Scan  # a simulator needs the ranges only
 
         spec = self.spec
         return Scan(

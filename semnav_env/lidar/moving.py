@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.lidar_spec import CosinesSines
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
+from semnav_features.lidar_spec import CosinesSines
 
 NO_MOVING_THINGS = (np.zeros((0, 3)), np.zeros((0, 4)))
 """Discs and segments where nothing moves."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.lidar.counter_rng import bits, normal, stream, uniform
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 _WHOLE_EPISODE = -1
 """Takes the place of the step in the key of what stays the same throughout an episode."""

@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.lanes import (
+from semnav_env.lidar.culling import cell_of
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.lanes import (
     WIDTH,
     larger,
     load,
@@ -28,8 +29,7 @@ from semnav_env.features.kernels.lanes import (
     spread,
     store,
 )
-from semnav_env.features.lidar_spec import CosinesSines
-from semnav_env.lidar.culling import cell_of
+from semnav_features.lidar_spec import CosinesSines
 
 _FULL_TURN = 2.0 * math.pi
 _ANGLE_ERROR = 2e-4

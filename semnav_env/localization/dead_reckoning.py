@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose, compose, relative
+from semnav_features.frames import FloatArray, Pose, compose, relative
 
 
 class OdometryErrors(Protocol):

@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from semnav_env.features.clouds.detected_door import DetectedDoor
-from semnav_env.features.elements import Door
-from semnav_env.features.frames import FloatArray, Pose, wrap_angle
 from semnav_env.localization.dead_reckoning import ReckonedState, symmetric
 from semnav_env.localization.door_pose import seen_jambs
+from semnav_features.clouds.detected_door import DetectedDoor
+from semnav_features.elements import Door
+from semnav_features.frames import FloatArray, Pose, wrap_angle
 
 ITERATIONS = 4
 """Steps of an iterated update; the last of them are shorter than a micrometre."""

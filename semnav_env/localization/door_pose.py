@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from semnav_env.features.clouds.detected_door import DetectedDoor
-from semnav_env.features.elements import Door
-from semnav_env.features.frames import (
+from semnav_features.clouds.detected_door import DetectedDoor
+from semnav_features.elements import Door
+from semnav_features.frames import (
     FloatArray,
     Pose,
     heading_between,

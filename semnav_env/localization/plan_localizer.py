@@ -10,13 +10,13 @@ from typing import Annotated
 
 import numpy as np
 
-from semnav_env.features.checked_fields import Bounds, Length, Share, check_fields
-from semnav_env.features.clouds.detected_door import DetectedDoor, expect_door, frame_of
-from semnav_env.features.elements import Door
-from semnav_env.features.frames import FloatArray, Pose, to_parent
 from semnav_env.localization.dead_reckoning import OdometryErrors, ReckonedState
 from semnav_env.localization.door_fit import fitted
 from semnav_env.localization.door_pose import check_detected, is_covariance
+from semnav_features.checked_fields import Bounds, Length, Share, check_fields
+from semnav_features.clouds.detected_door import DetectedDoor, expect_door, frame_of
+from semnav_features.elements import Door
+from semnav_features.frames import FloatArray, Pose, to_parent
 
 GATES = {2: 5.99, 4: 9.49}
 """Squared Mahalanobis distance within which 95 % of right matches lie, by the number of

@@ -2,10 +2,10 @@
 
 from typing import TYPE_CHECKING
 
-from semnav_env.features.lazy_names import lazy_names
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_env.maps.library import bundled_names, load_floor_plan
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_env.maps.generator import DISTRIBUTIONS, OfficeSettings, generate_office

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.maps.floor_plan import FloorPlan, edges_of
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.compiling import kernel
 
 HAS_ROOM, HAS_NO_ROOM, IS_DOUBTFUL = 0, 1, 2
 """What `box_room` answers; doubtful is what exact geometry must decide."""

@@ -6,8 +6,8 @@ import json
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
-from semnav_env.features import reading
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features import reading
 
 Document: TypeAlias = dict[str, Any]
 """A floor plan file as JSON gives it."""

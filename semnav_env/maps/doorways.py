@@ -8,8 +8,8 @@ from enum import StrEnum
 import shapely
 from shapely import LineString, Point
 
-from semnav_env.features.frames import heading_between, wrap_angle
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
+from semnav_features.frames import heading_between, wrap_angle
 
 DRAWING_TOLERANCE = 0.05
 """Distance within which two drawn things touch, metres: plans are drawn and measured this

@@ -14,8 +14,6 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox, ScaledTranslation
 from shapely import Polygon, union_all
 
-from semnav_env.features.plot import check_suffix
-from semnav_env.features.writing import replacing
 from semnav_env.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.maps.draw_faults import (
     LINE_HEIGHT,
@@ -27,6 +25,8 @@ from semnav_env.maps.draw_faults import (
 )
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_env.maps.plan_fault import PlanFault
+from semnav_features.plot import check_suffix
+from semnav_features.writing import replacing
 
 MATERIAL_COLOURS = {
     Material.WALL: "black",

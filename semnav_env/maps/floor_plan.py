@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from shapely import Polygon, STRtree, get_coordinates, get_parts, get_rings, linestrings
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.rules import DoorRules
-from semnav_env.features.scene import Door, PlainWalls, StillScene
+from semnav_features.frames import FloatArray, Point
+from semnav_features.rules import DoorRules
+from semnav_features.scene import Door, PlainWalls, StillScene
 
 OFFICE_PREFIX = "office"
 """First part of the names of generated offices, as in "office:medium:17"."""

@@ -12,13 +12,13 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.grid_search import descent, least_costs
 from semnav_env.maps.cell_budget import check_cells, spacing_within_budget
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.nearness import clear_near
 from semnav_env.maps.recent_fields import RecentFields
+from semnav_features.frames import FloatArray, Point
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.grid_search import descent, least_costs
 
 GRID_SPACING = 0.1
 """Distance between the points of the grid, metres; larger in a plan of more than 60,000 m2."""

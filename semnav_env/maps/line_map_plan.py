@@ -8,8 +8,6 @@ import shapely
 from shapely import LineString, Point, Polygon, STRtree
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.features.elements import Door
-from semnav_env.features.scene import Scene
 from semnav_env.maps.doorways import (
     DRAWING_TOLERANCE,
     NARROWEST_ROBOT,
@@ -19,6 +17,8 @@ from semnav_env.maps.doorways import (
 )
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Surface
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features.elements import Door
+from semnav_features.scene import Scene
 
 _BOUNDARY_MARGIN = 0.5
 """Distance from the outermost wall to the boundary, metres."""

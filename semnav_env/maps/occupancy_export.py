@@ -14,13 +14,13 @@ import yaml
 from numpy.typing import NDArray
 from PIL import Image
 
-from semnav_env.features.frames import Point
-from semnav_env.features.writing import replacing, write_file
 from semnav_env.maps.floor_plan import FloorPlan, Material
 from semnav_env.maps.importers.labels import ALL_DOORS, DOORS_FILE, PLACE_KINDS, PLACES_FILE
 from semnav_env.maps.importers.raster import MAX_PIXELS
 from semnav_env.maps.nearness import clear_near
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features.frames import Point
+from semnav_features.writing import replacing, write_file
 
 SOLID_GREY = 0
 """Brightness of solid pixels, as map_saver writes them."""

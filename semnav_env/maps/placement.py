@@ -9,10 +9,10 @@ import numpy as np
 import shapely
 from shapely import Polygon
 
-from semnav_env.features.frames import FloatArray, Point, Pose, points_to_parent
 from semnav_env.maps.box_room import HAS_ROOM, IS_DOUBTFUL, SolidEdges, is_inside
 from semnav_env.maps.floor_plan import FloorPlan, Region
 from semnav_env.robots import RobotSpec, robot_spec
+from semnav_features.frames import FloatArray, Point, Pose, points_to_parent
 
 MAX_DRAWS = 2000
 """Largest number of poses drawn before a region counts as full."""

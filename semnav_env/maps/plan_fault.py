@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.features.frames import Point
+from semnav_features.frames import Point
 
 
 @dataclass(frozen=True)

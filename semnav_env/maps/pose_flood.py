@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.kernels.compiling import kernel
 
 TRIED, REACHED = 1, 2
 """What becomes of a pose: the body does not fit, or it can be there."""

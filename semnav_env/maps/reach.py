@@ -16,11 +16,11 @@ import shapely
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.maps.cell_budget import spacing_within_budget
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.pose_flood import REACHED, flood
+from semnav_features.frames import FloatArray, Point
+from semnav_features.kernels.compiling import kernel
 
 REACH_SPACING = 0.05
 """Distance between the points of the grid, metres."""

@@ -11,8 +11,6 @@ import shapely
 from shapely import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.features.frames import middle_of
-from semnav_env.features.kernels.grid_search import least_costs
 from semnav_env.maps.doorways import DRAWING_TOLERANCE, clear_width
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region
 from semnav_env.maps.geodesic import GRID_SPACING
@@ -20,6 +18,8 @@ from semnav_env.maps.plan_fault import PlanFault, point_in, written
 from semnav_env.maps.reach import HEADING_COUNT, REACH_SPACING, Reach, reach
 from semnav_env.maps.rules import FloorPlanError
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import middle_of
+from semnav_features.kernels.grid_search import least_costs
 
 SEARCH_GRIDS = ((REACH_SPACING, HEADING_COUNT), (REACH_SPACING / 2, 2 * HEADING_COUNT))
 """Spacing, metres, and number of headings of each search; the finer one is for what the first one

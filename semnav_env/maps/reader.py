@@ -9,7 +9,6 @@ from typing import Any, TypeAlias
 
 from shapely import Polygon
 
-from semnav_env.features.frames import Point
 from semnav_env.maps.document import Document, label, parse_document, read_text
 from semnav_env.maps.doorways import DoorState, door_state
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
@@ -22,6 +21,7 @@ from semnav_env.maps.rules import (
     check_surface,
     check_unit,
 )
+from semnav_features.frames import Point
 
 Properties: TypeAlias = dict[str, Any]
 """The properties of a feature."""

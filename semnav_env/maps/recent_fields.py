@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 
-from semnav_env.features.frames import FloatArray
+from semnav_features.frames import FloatArray
 
 
 class RecentFields:

@@ -9,11 +9,11 @@ from typing import Any
 
 from shapely import Polygon
 
-from semnav_env.features.writing import write_file
 from semnav_env.maps.doorways import door_state
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.reader import parse_plan
 from semnav_env.maps.rules import LEAST_AREA, check_plan
+from semnav_features.writing import write_file
 
 
 def save_floor_plan(plan: FloorPlan, path: str | Path) -> None:

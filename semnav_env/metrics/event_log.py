@@ -11,7 +11,6 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, Point, wrap_angle
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.metrics.events import (
@@ -26,6 +25,7 @@ from semnav_env.metrics.events import (
 )
 from semnav_env.metrics.recording import Recording
 from semnav_env.rules import SuccessRules
+from semnav_features.frames import FloatArray, Point, wrap_angle
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from semnav_env.features.frames import Point
-from semnav_env.features.scene import Door
+from semnav_features.frames import Point
+from semnav_features.scene import Door
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, path_length
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.maps.geodesic import WaysTo
 from semnav_env.metrics.motion import clearances, collisions_per_100m, rms_jerk
@@ -16,6 +15,7 @@ from semnav_env.metrics.results import Metrics
 from semnav_env.robots import RobotSpec
 from semnav_env.rules import SuccessRules
 from semnav_env.verifier import Verdict, Verifier, place
+from semnav_features.frames import FloatArray, path_length
 
 GOAL_RADIUS = 1.0
 """Distance at which a goal counts as reached in the stricter of the two loose measures of success,

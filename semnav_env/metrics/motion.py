@@ -7,10 +7,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import footprint
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray
 
 MAX_CLEARANCE = 10.0
 """Largest clearance that is told, metres; nothing farther away matters."""

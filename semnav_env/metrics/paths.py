@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.distance import cdist
 
-from semnav_env.features.frames import FloatArray, path_length
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.frames import FloatArray, path_length
+from semnav_features.kernels.compiling import kernel
 
 PUBLISHED_GOAL_RADIUS = 3.0
 """Distance at which the published measures call a place reached, metres (Anderson et al. 2018b in

@@ -15,8 +15,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from semnav_env.dynamics.leaves import swinging_leaves
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.writing import replacing
 from semnav_env.grounding.goal import Goal
 from semnav_env.maps.draw import draw_floor_plan
 from semnav_env.maps.floor_plan import FloorPlan
@@ -25,6 +23,8 @@ from semnav_env.metrics.motion import footprints
 from semnav_env.metrics.recording import Recording
 from semnav_env.robots import RobotSpec
 from semnav_env.verifier import place
+from semnav_features.frames import FloatArray
+from semnav_features.writing import replacing
 
 ROUTE_COLOUR = "#1a7f37"
 """Colour of the true route."""

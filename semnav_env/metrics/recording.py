@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, Pose, Twist
-from semnav_env.features.readers.log import DamageError
-from semnav_env.features.readers.npz_arrays import NpzArrays
-from semnav_env.features.writing import replacing
 from semnav_env.world import World
+from semnav_features.frames import FloatArray, Pose, Twist
+from semnav_features.readers.log import DamageError
+from semnav_features.readers.npz_arrays import NpzArrays
+from semnav_features.writing import replacing
 
 REQUIRED_ARRAYS = ("poses", "velocities", "contacts", "impulses")
 """Names of the arrays that every recording has."""

@@ -2,7 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-from semnav_env.features.lazy_names import lazy_names
 from semnav_env.observations.checking import check_observation
 from semnav_env.observations.layout import (
     ENTRIES,
@@ -21,6 +20,7 @@ from semnav_env.observations.observer import (
     ObservationType,
     as_observation,
 )
+from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_env.observations.cloud_entry import CloudEntry

@@ -13,8 +13,8 @@ from semnav_env.observations.observer import Moment
 
 if TYPE_CHECKING:
     from semnav_env.depth import DepthRig
-    from semnav_env.features.lidar_spec import LidarSpec
     from semnav_env.robots import RobotSpec
+    from semnav_features.lidar_spec import LidarSpec
 
 
 class CloudEntry:

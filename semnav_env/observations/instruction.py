@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from gymnasium.spaces import Text
 
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.observations.observer import Moment
 from semnav_env.robots import RobotSpec
+from semnav_features.lidar_spec import LidarSpec
 
 UNKNOWN_CHARACTER = "?"
 """Stands for a character that the space does not have."""

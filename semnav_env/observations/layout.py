@@ -16,8 +16,8 @@ from gymnasium.spaces import Box, MultiDiscrete
 from semnav_env.belief.bump_limits import MOST_PIECES
 from semnav_env.belief.told_ways import TOLD_DOORS, TOLD_PLACES
 from semnav_env.commands import MAX_CLAUSES, token_space
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.grounding.goal import GoalKind
+from semnav_features.lidar_spec import LidarSpec
 
 UNBOUNDED = 1000.0
 """Bound of places and distances that have no natural one, metres."""

@@ -13,11 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.belief.understand import Senses
-from semnav_env.features.corridor import MIN_CONTINUATION
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.corridor_survey import survey
-from semnav_env.features.kernels.memory import what_counts
 from semnav_env.observations.layout import (
     FEATURE_BOUND,
     HALLWAY,
@@ -27,6 +22,11 @@ from semnav_env.observations.layout import (
     ROW_SIZE,
 )
 from semnav_env.observations.row import to_robot, write_row
+from semnav_features.corridor import MIN_CONTINUATION
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.corridor_survey import survey
+from semnav_features.kernels.memory import what_counts
 
 _WALLS, _WALLS_MASK = MEMORY_STARTS["remembered_walls"], MEMORY_STARTS["remembered_walls_mask"]
 _JUNCTIONS, _JUNCTIONS_MASK = MEMORY_STARTS["junctions"], MEMORY_STARTS["junctions_mask"]

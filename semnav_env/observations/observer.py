@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from semnav_env.belief import Belief, BeliefTracker
 from semnav_env.commands import Command
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.observations.checking import check_observation
 from semnav_env.observations.layout import (
     ENTRIES,
@@ -28,10 +27,11 @@ from semnav_env.observations.layout import (
 )
 from semnav_env.observations.row import write_row
 from semnav_env.robots import RobotSpec
+from semnav_features.lidar_spec import LidarSpec
 
 if TYPE_CHECKING:
     from semnav_env.depth import DepthRig
-    from semnav_env.features.clouds import PointCloud
+    from semnav_features.clouds import PointCloud
 
 Array = NDArray[Any]
 

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import Pose, Twist
 from semnav_env.grounding.goal import GoalKind
 from semnav_env.observations.layout import GOAL, GOAL_KINDS, MEMORY_TABLES, ODOMETRY, TABLES
+from semnav_features.frames import Pose, Twist
 
 
 def table(observation: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:

@@ -13,11 +13,6 @@ from numpy.typing import NDArray
 
 from semnav_env.belief.understand import Senses
 from semnav_env.commands import MAX_CLAUSES
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.door_memory import door_counts
-from semnav_env.features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
-from semnav_env.features.kernels.scratch import Features
 from semnav_env.observations.layout import (
     CORNER_ROWS,
     DOOR_ROWS,
@@ -32,6 +27,11 @@ from semnav_env.observations.layout import (
     WALL_ROWS,
     column,
 )
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.door_memory import door_counts
+from semnav_features.kernels.layout import CORNERS, CORRIDORS, DOORS, WALLS
+from semnav_features.kernels.scratch import Features
 
 _WALLS, _WALLS_MASK = STARTS["walls"], STARTS["walls_mask"]
 _DOORS, _DOORS_MASK = STARTS["doors"], STARTS["doors_mask"]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from semnav_env.belief import Belief
-from semnav_env.features.writing import replacing
+from semnav_features.writing import replacing
 
 
 def save_beliefs(

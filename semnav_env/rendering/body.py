@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point, Pose, points_to_parent
 from semnav_env.rendering import palette
 from semnav_env.rendering.camera import Camera
 from semnav_env.rendering.canvas import ShapeCanvas
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Point, Pose, points_to_parent
 
 
 def draw_body(

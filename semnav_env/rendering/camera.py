@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from semnav_env.features.frames import FloatArray, Point
+from semnav_features.frames import FloatArray, Point
 
 PLAN_MARGIN = 0.4
 """Margin around a plan that is shown whole, metres."""

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from semnav_env.features.frames import FloatArray, Point, distances_along
 from semnav_env.rendering.backend import font_file, load_pygame, open_font
 from semnav_env.rendering.camera import Viewport
 from semnav_env.rendering.palette import WHITE, Colour
 from semnav_env.rendering.text import harmless
+from semnav_features.frames import FloatArray, Point, distances_along
 
 MAX_COORDINATE = 2.0e4
 """Largest distance from the page that positions are held within, fine pixels: pygame's integers are

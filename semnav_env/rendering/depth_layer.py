@@ -7,11 +7,11 @@ import math
 import numpy as np
 
 from semnav_env.belief import BeliefTracker
-from semnav_env.features.clouds import PointCloud, find_door
-from semnav_env.features.frames import ORIGIN, FloatArray, Pose, points_to_parent, relative
 from semnav_env.rendering import marks
 from semnav_env.rendering.camera import Camera
 from semnav_env.rendering.canvas import Canvas
+from semnav_features.clouds import PointCloud, find_door
+from semnav_features.frames import ORIGIN, FloatArray, Pose, points_to_parent, relative
 
 DRAWN_POINTS = 3000
 """Number of points of a cloud that are drawn, about."""

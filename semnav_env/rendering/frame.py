@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point, Pose
-from semnav_env.features.scene import Scene
 from semnav_env.grounding.goal import Goal
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Point, Pose
+from semnav_features.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)

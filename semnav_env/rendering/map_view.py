@@ -6,8 +6,6 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.goal import Goal, PassGoal, SeekGoal, StopGoal, door_of
 from semnav_env.rendering import marks, palette
 from semnav_env.rendering.body import draw_body
@@ -15,6 +13,8 @@ from semnav_env.rendering.camera import Camera, Viewport
 from semnav_env.rendering.canvas import Canvas
 from semnav_env.rendering.depth_layer import draw_depth
 from semnav_env.rendering.frame import Frame
+from semnav_features.frames import FloatArray, Point
+from semnav_features.scene import Door, Scene
 
 DRAWN_BEAMS = 90
 """Number of beams of a dense scan that are drawn, about, evenly spaced: more would blur into one

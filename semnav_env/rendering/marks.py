@@ -7,10 +7,10 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from semnav_env.features.frames import FloatArray, Point, middle_of
-from semnav_env.features.scene import CornerKind
 from semnav_env.rendering import palette
 from semnav_env.rendering.canvas import Canvas, ShapeCanvas
+from semnav_features.frames import FloatArray, Point, middle_of
+from semnav_features.scene import CornerKind
 
 BADGE_RADIUS = 9.0
 """Radius of the badge that numbers a goal, units of the page."""

@@ -8,8 +8,8 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import Point, Pose
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_features.frames import Point, Pose
 
 if TYPE_CHECKING:
     from semnav_env.rendering.snapshot import RenderedEnvironment

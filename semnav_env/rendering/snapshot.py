@@ -11,10 +11,6 @@ import numpy as np
 from semnav_env.belief import Belief, BeliefTracker
 from semnav_env.commands.command import reference_of
 from semnav_env.commands.references import DoorReference
-from semnav_env.features.clouds import PointCloud
-from semnav_env.features.extraction import to_scene
-from semnav_env.features.frames import ORIGIN, Point, Pose, compose, points_to_parent, relative
-from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.counted_doors import doors_along
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal
@@ -28,6 +24,10 @@ from semnav_env.simulator import Simulator
 from semnav_env.tasks.judge import EpisodeJudge
 from semnav_env.verifier import Verdict
 from semnav_env.world import World
+from semnav_features.clouds import PointCloud
+from semnav_features.extraction import to_scene
+from semnav_features.frames import ORIGIN, Point, Pose, compose, points_to_parent, relative
+from semnav_features.scene import Door, Scene
 
 NO_MARKS = PayloadMarks(np.zeros((0, 2)), np.zeros((0, 2)), "")
 """Of a robot without a payload."""

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from semnav_env.features.writing import replacing
 from semnav_env.rendering.colours import Palette
+from semnav_features.writing import replacing
 
 Picture = NDArray[np.uint8]
 """An image, shape (height, width, 3), RGB."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.compiling import kernel
 
 Cells = NDArray[np.uint8]
 """A grid of flags, shape (rows, columns): row by y, column by x."""

@@ -6,8 +6,8 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from semnav_env.features.frames import Point
 from semnav_env.rescue.settings import SearchRules
+from semnav_features.frames import Point
 
 
 @dataclass(frozen=True)

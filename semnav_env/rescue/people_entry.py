@@ -8,11 +8,11 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import Point, to_local
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.observations import Moment
 from semnav_env.rescue.settings import PersonMapSettings
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import Point, to_local
+from semnav_features.lidar_spec import LidarSpec
 
 FARTHEST = 100.0
 """Farther places are clipped to this, metres, so that the space is bounded."""

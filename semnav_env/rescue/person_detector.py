@@ -9,11 +9,11 @@ import shapely
 from shapely import Polygon
 
 from semnav_env.dynamics.victims import victims_of
-from semnav_env.features.frames import FloatArray, Pose, compose, points_to_local, to_local
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.rescue.settings import PersonDetectorSettings
+from semnav_features.frames import FloatArray, Pose, compose, points_to_local, to_local
+from semnav_features.lidar_spec import LidarSpec
 
 RAY_ANGLE = math.radians(0.5)
 """Angle between the rays that tell what is in view, radians: 5 cm apart at 6 m."""

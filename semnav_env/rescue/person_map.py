@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point, Pose, compose, points_to_parent, to_local
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings
+from semnav_features.frames import FloatArray, Point, Pose, compose, points_to_parent, to_local
+from semnav_features.lidar_spec import LidarSpec
 
 LEAST_STD = 0.05
 """Standard deviation of a place that a detection right before the robot gives, metres."""

@@ -8,7 +8,6 @@ import numpy as np
 
 from semnav_env.belief import BeliefTracker
 from semnav_env.commands.clauses import Clause, SearchHouse
-from semnav_env.features.frames import ORIGIN, Pose, compose, to_parent
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.payload import PayloadMarks
 from semnav_env.rescue.outcome import Report, SearchOutcome, judge_reports
@@ -17,6 +16,7 @@ from semnav_env.rescue.person_map import PersonMap
 from semnav_env.rescue.room_coverage import RoomCoverage
 from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings, SearchRules
 from semnav_env.simulator import Motion, RobotSetup
+from semnav_features.frames import ORIGIN, Pose, compose, to_parent
 
 
 class PersonSearch:

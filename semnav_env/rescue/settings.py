@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
-from semnav_env.features.checked_fields import (
+from semnav_features.checked_fields import (
     Angle,
     Bounds,
     Count,

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps.cell_budget import spacing_within_budget
 from semnav_env.maps.floor_plan import FloorPlan
@@ -16,6 +15,7 @@ from semnav_env.maps.reach import Reach, reach
 from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.robots import RobotSpec
+from semnav_features.lidar_spec import LidarSpec
 
 CELL = 0.1
 """Distance between the cells of the floor, metres."""

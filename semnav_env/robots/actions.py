@@ -9,9 +9,9 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import ArrayLike, NDArray
 
-from semnav_env.features.frames import Twist
-from semnav_env.features.validation import require
 from semnav_env.robots.spec import RobotSpec
+from semnav_features.frames import Twist
+from semnav_features.validation import require
 
 
 class Actions:

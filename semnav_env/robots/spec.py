@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
-from semnav_env.features.checked_fields import Bounds, check_fields
-from semnav_env.features.validation import by_name, require
+from semnav_features.checked_fields import Bounds, check_fields
+from semnav_features.validation import by_name, require
 
 Extent: TypeAlias = Annotated[float, Bounds(0.02, 5.0, "m")]
 Offset: TypeAlias = Annotated[float, Bounds(-2.5, 2.5, "m")]

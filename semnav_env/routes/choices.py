@@ -22,12 +22,12 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.features.corridor import Corridor
-from semnav_env.features.frames import FloatArray, points_to_local
 from semnav_env.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.grounding.junctions import junctions_ahead
 from semnav_env.grounding.situation import Situation
 from semnav_env.routes.naming import names_of_door, names_of_junction
+from semnav_features.corridor import Corridor
+from semnav_features.frames import FloatArray, points_to_local
 
 CORRIDOR_END = PlaceReference(Place.END)
 """The end of a corridor, as a clause names it."""

@@ -12,7 +12,6 @@ import numpy as np
 
 from semnav_env.commands import MAX_CLAUSES, Approach, Clause, Command, Follow, Turn, Turning
 from semnav_env.commands.command import may_count_on
-from semnav_env.features.frames import Pose, path_length, wrap_angle
 from semnav_env.grounding import Goal, GroundingError, PassGoal, ReachGoal
 from semnav_env.grounding.goal import door_of
 from semnav_env.grounding.ground import goal_of
@@ -22,6 +21,7 @@ from semnav_env.routes.choices import Choices, words_of
 from semnav_env.routes.follow import check_route, crossings, destination, follows, with_rest
 from semnav_env.routes.route import Route
 from semnav_env.verifier import place
+from semnav_features.frames import Pose, path_length, wrap_angle
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.features.frames import Pose
-from semnav_env.features.plot import check_suffix
-from semnav_env.features.writing import replacing
 from semnav_env.maps.draw import draw_floor_plan, leave_out_overlapping
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.routes.route import Route
+from semnav_features.frames import Pose
+from semnav_features.plot import check_suffix
+from semnav_features.writing import replacing
 
 ROUTE_COLOURS = ("tab:red", "tab:blue", "tab:purple", "tab:olive", "tab:cyan")
 """Colours of routes, in turn."""

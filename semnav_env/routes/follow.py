@@ -8,13 +8,13 @@ import numpy as np
 import shapely
 
 from semnav_env.commands import Approach, Command
-from semnav_env.features.frames import FloatArray, path_length, to_parent
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.route import Route, RouteError
 from semnav_env.rules import GroundingRules
 from semnav_env.verifier import Motion, Verifier, plan_mission
+from semnav_features.frames import FloatArray, path_length, to_parent
 
 _STAND_OFF = GroundingRules().stand_off
 

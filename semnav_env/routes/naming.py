@@ -12,9 +12,9 @@ from semnav_env.commands import (
     PlaceReference,
     Turning,
 )
-from semnav_env.features.corridor import Corridor, Junction
 from semnav_env.grounding.counted_doors import CountedDoor
 from semnav_env.grounding.junctions import junctions_ahead
+from semnav_features.corridor import Corridor, Junction
 
 JUNCTION_KINDS = (Place.CORNER, Place.T_JUNCTION, Place.INTERSECTION, Place.TURNING, Place.END)
 """What a junction may be called, the plainest word first."""

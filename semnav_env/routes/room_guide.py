@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from semnav_env.commands import Command
 from semnav_env.commands.command import room_of
-from semnav_env.features.frames import Pose
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.ways import Way
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
+from semnav_features.frames import Pose
 
 
 class RoomGuide:

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose, wrap_angle
+from semnav_features.frames import FloatArray, Pose, wrap_angle
 
 POSE_SPACING = 0.1
 """Distance between the poses of a route, metres."""

@@ -9,12 +9,12 @@ import shapely
 
 from semnav_env.commands import Approach
 from semnav_env.commands.suggest import did_you_mean
-from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.follow import crossings
 from semnav_env.routes.route import Route, RouteError
 from semnav_env.rules import GroundingRules
+from semnav_features.frames import FloatArray, Point, Pose
 
 _STAND_OFF = GroundingRules().stand_off
 

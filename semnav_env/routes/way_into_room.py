@@ -7,11 +7,11 @@ import math
 import numpy as np
 import shapely
 
-from semnav_env.features.frames import FloatArray, Point, Pose, wrap_angle
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.ways import Way, paced
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.maps.geodesic import Geodesic
+from semnav_features.frames import FloatArray, Point, Pose, wrap_angle
 
 SIDE_OFFSET = 0.5
 """Distance from a door's middle to the places on its two sides that tell which rooms it joins,

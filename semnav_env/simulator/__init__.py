@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from semnav_env.features.lazy_names import lazy_names
 from semnav_env.simulator.sensed import Motion, Sensed
+from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_env.simulator.odometry import EXACT, OdometrySettings

@@ -8,11 +8,11 @@ from typing import Annotated, TypeAlias
 
 import numpy as np
 
-from semnav_env.features.checked_fields import Bounds, Share, check_fields
-from semnav_env.features.frames import Pose
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.lidar.counter_rng import bits, normal, stream
 from semnav_env.world.drive_record import POSE
+from semnav_features.checked_fields import Bounds, Share, check_fields
+from semnav_features.frames import Pose
+from semnav_features.kernels.compiling import kernel
 
 Noise: TypeAlias = Annotated[float, Bounds(0.0, 10.0)]
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from semnav_env.features.validation import by_name
 from semnav_env.simulator.odometry import EXACT, OdometrySettings
+from semnav_features.validation import by_name
 
 USUAL_ODOMETRY = OdometrySettings()
 """Well calibrated odometry that slips nowhere; what the frozen episodes are measured with."""

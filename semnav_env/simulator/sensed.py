@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from semnav_env.features.frames import Contact, FloatArray, Pose, Twist
+from semnav_features.frames import Contact, FloatArray, Pose, Twist
 
 
 class Motion(NamedTuple):

@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 from numba.experimental import structref
 
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.lidar.lidar import measure
 from semnav_env.simulator.odometry import advance
 from semnav_env.world.drive import drive, lost_motion
 from semnav_env.world.drive_record import POSE, TWIST
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.structures import ArraysType
 
 TOUCHED = 1
 """Event: the body touched something."""

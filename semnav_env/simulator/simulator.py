@@ -8,10 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
-from semnav_env.features.checked_fields import check_fields
-from semnav_env.features.frames import Pose, Twist
-from semnav_env.features.lidar_spec import TIM561, LidarSpec
-from semnav_env.features.one_thread import ThreadDoor, for_one_thread
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import WHEELCHAIR, RobotSpec
@@ -19,10 +15,14 @@ from semnav_env.simulator.odometry import Odometry, OdometrySettings
 from semnav_env.simulator.sensed import Motion, Sensed
 from semnav_env.simulator.sensing import NUMBERS, SENSING, TOUCHED, join_simulator, look, sense
 from semnav_env.world import World
+from semnav_features.checked_fields import check_fields
+from semnav_features.frames import Pose, Twist
+from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.one_thread import ThreadDoor, for_one_thread
 
 if TYPE_CHECKING:
     from semnav_env.depth import DepthRig
-    from semnav_env.features.clouds import PointCloud
+    from semnav_features.clouds import PointCloud
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,13 @@
 
 from typing import TYPE_CHECKING
 
-from semnav_env.features.lazy_names import lazy_names
 from semnav_env.tasks.episode_source import EpisodeSource
 from semnav_env.tasks.judge import EpisodeJudge, Judgement
 from semnav_env.tasks.mission_maker import MissionMaker
 from semnav_env.tasks.request import EpisodeRequest
 from semnav_env.tasks.rewards import Rewards, RewardTerm, RewardWeights, Tick, as_rewards
 from semnav_env.tasks.task import AdaptiveTask, CommandTask, SampledTask, Task, as_task
+from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_env.tasks.added_terms import AddedTerms, terms_of

@@ -10,8 +10,8 @@ from typing import TypeAlias
 import numpy as np
 
 from semnav_env.episodes.episode import Episode, Expected
-from semnav_env.features.validation import check_kind
 from semnav_env.tasks.request import EpisodeRequest
+from semnav_features.validation import check_kind
 
 Episodes: TypeAlias = str | Path | Sequence[Episode]
 """The name of a split, the path of a file, or episodes."""

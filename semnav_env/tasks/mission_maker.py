@@ -8,7 +8,6 @@ import numpy as np
 import shapely
 
 from semnav_env.commands import Command
-from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.geodesic import Geodesic
@@ -18,6 +17,7 @@ from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.rules import Rules
 from semnav_env.tasks.request import EpisodeRequest
 from semnav_env.verifier import Mission, plan_goals, plan_mission
+from semnav_features.frames import Pose
 
 MOST_DRAWS = 200
 """Start poses drawn before a floor plan is found unfit for commands."""

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from semnav_env import commands
 from semnav_env.commands import Command
-from semnav_env.features.frames import Pose
-from semnav_env.features.lidar_spec import LidarSpec
-from semnav_env.features.validation import finite_floats, require, shown
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 from semnav_env.simulator.odometry import OdometrySettings
+from semnav_features.frames import Pose
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.validation import finite_floats, require, shown
 
 if TYPE_CHECKING:
     from semnav_env.episodes.episode import Episode

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.belief import Belief
-from semnav_env.features.checked_fields import Bounds, check_fields
 from semnav_env.simulator.sensed import Motion
+from semnav_features.checked_fields import Bounds, check_fields
 
 if TYPE_CHECKING:
     from semnav_env.payload import Payload

@@ -18,9 +18,6 @@ from semnav_env.commands import (
     Turn,
     Turning,
 )
-from semnav_env.features.corridor import Corridor, corridor_at
-from semnav_env.features.frames import Pose
-from semnav_env.features.scene import StillScene
 from semnav_env.grounding import Goal, GroundingError, ReachGoal
 from semnav_env.grounding.counted_doors import doors_along
 from semnav_env.grounding.junctions import junctions_ahead
@@ -29,6 +26,9 @@ from semnav_env.maps.geodesic import Geodesic
 from semnav_env.maps.placement import is_clear
 from semnav_env.rules import GroundingRules, Rules
 from semnav_env.verifier import Mission, plan_mission
+from semnav_features.corridor import Corridor, corridor_at
+from semnav_features.frames import Pose
+from semnav_features.scene import StillScene
 
 ALONG, TO_END = Follow(), Follow(PlaceReference(Place.END))
 """Clauses that are drawn: go down the corridor, and do so to its end."""

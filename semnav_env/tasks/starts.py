@@ -7,10 +7,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.corridor import Corridor, corridor_at
-from semnav_env.features.frames import FloatArray, Pose, wrap_angle
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.corridor_survey import axis_along, axis_heading, survey
 from semnav_env.maps.box_room import HAS_ROOM, IS_DOUBTFUL, SolidEdges, box_room, is_inside
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import (
@@ -22,6 +18,10 @@ from semnav_env.maps.placement import (
 )
 from semnav_env.robots import RobotSpec
 from semnav_env.rules import Rules
+from semnav_features.corridor import Corridor, corridor_at
+from semnav_features.frames import FloatArray, Pose, wrap_angle
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.corridor_survey import axis_along, axis_heading, survey
 
 START_TRIES = 200
 """Start poses that are drawn before any free pose is taken."""

@@ -10,11 +10,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.simulator.odometry import OdometrySettings
 from semnav_env.tasks.request import EpisodeRequest
 from semnav_env.tasks.task import AdaptiveTask, Task, as_task
+from semnav_features.lidar_spec import LidarSpec, lidar_spec
 
 _T = TypeVar("_T")
 

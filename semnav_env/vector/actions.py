@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.validation import require
 from semnav_env.robots.actions import action_array
 from semnav_env.vector.tick import write_twists
+from semnav_features.frames import FloatArray
+from semnav_features.validation import require
 
 
 class TeamActions:

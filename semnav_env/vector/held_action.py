@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
 from semnav_env.vector.judgements import Judgements, Mask
 from semnav_env.vector.rewards import Terms
+from semnav_features.frames import FloatArray
 
 
 class HeldAction:

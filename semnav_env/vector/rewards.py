@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import FloatArray
 from semnav_env.tasks import RewardWeights, Tick, terms_of
 from semnav_env.vector.judgements import Judgements
+from semnav_features.frames import FloatArray
 
 Terms = dict[str, FloatArray]
 """Reward terms by name, each of shape (n,); 0 for robots that were not driven. A masked array where

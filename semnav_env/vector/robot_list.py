@@ -6,8 +6,8 @@ from typing import Any
 
 from numba.typed.typedlist import List
 
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.robot_loop import RobotArrays
+from semnav_features.kernels.compiling import kernel
 
 
 @kernel(counts_references=True)

@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from semnav_env.belief.tracker import BeliefTracker
 from semnav_env.belief.understand import Workbench, workbench_with
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.scratch import allocate_scratch
 from semnav_env.robot_loop import RobotArrays, join_robot
 from semnav_env.tasks.judge import Judgement
 from semnav_env.vector.robot_list import list_of, put
@@ -28,6 +26,8 @@ from semnav_env.vector.tick import (
     write_command_rows,
     write_others,
 )
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.scratch import allocate_scratch
 
 LEAST_SHARE = 8
 """A thread is not worth starting for fewer robots."""

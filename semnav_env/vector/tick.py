@@ -14,14 +14,14 @@ from numba.experimental import structref
 from numpy.typing import NDArray
 
 from semnav_env.belief.understand import Workbench
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.rows import put_row
-from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.observations.memory_row import write_command_row
 from semnav_env.observations.row import write_row
 from semnav_env.robot_loop import RobotArrays, run_period
 from semnav_env.vector.marks import Marks, is_set, set_mark
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.rows import put_row
+from semnav_features.kernels.structures import ArraysType
 
 Flags = NDArray[np.bool_]
 

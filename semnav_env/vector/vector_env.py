@@ -11,8 +11,6 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from semnav_env.features.one_thread import ThreadDoor, for_one_thread
-from semnav_env.features.validation import check_count
 from semnav_env.vector.actions import TeamActions
 from semnav_env.vector.arguments import joined, made, naming_robot, one_each, one_seed_each
 from semnav_env.vector.held_action import HeldAction
@@ -22,6 +20,8 @@ from semnav_env.vector.member import TeamMember
 from semnav_env.vector.observations import TeamObservations, team_observations
 from semnav_env.vector.rewards import team_rewards
 from semnav_env.vector.team import Team
+from semnav_features.one_thread import ThreadDoor, for_one_thread
+from semnav_features.validation import check_count
 
 Arrays = NDArray[Any]
 

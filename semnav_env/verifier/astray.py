@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from semnav_env.commands.clauses import Clause, Turn
-from semnav_env.features.corridor import SideOpening
-from semnav_env.features.frames import FloatArray
 from semnav_env.grounding.goal import Goal, ReachGoal
 from semnav_env.rules import SuccessRules
+from semnav_features.corridor import SideOpening
+from semnav_features.frames import FloatArray
 
 
 def wrong_arms(clause: Clause, goal: Goal, rules: SuccessRules) -> FloatArray:

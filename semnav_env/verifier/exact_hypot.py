@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.kernels.compiling import kernel
 
 _SPLITTER = 2.0**27 + 1.0
 """Splits a double into halves whose products are exact (Dekker 1971)."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from semnav_env.commands import Command
-from semnav_env.features.frames import Point, Pose
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, PassGoal, SeekGoal
@@ -13,6 +12,7 @@ from semnav_env.grounding.ways import Guide
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.rules import Rules
+from semnav_features.frames import Point, Pose
 
 
 def plan_goals(

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numba.experimental import structref
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.structures import ArraysType
 from semnav_env.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.maps.geodesic import distance_at
 from semnav_env.verifier.exact_hypot import exact_hypot
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.structures import ArraysType
 
 DOOR_CROSSED, ASTRAY, TOO_STILL = 8, 16, 32
 """Events beside those of `clause_progress`, as bits: a door was crossed; the robot is inside an arm

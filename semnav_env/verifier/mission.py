@@ -11,8 +11,6 @@ from typing import Any
 import numpy as np
 
 from semnav_env.commands import Command
-from semnav_env.features.frames import FloatArray, Pose, path_length
-from semnav_env.features.scene import Scene
 from semnav_env.grounding.errors import GroundingError
 from semnav_env.grounding.goal import Goal
 from semnav_env.grounding.ways import Way
@@ -21,6 +19,8 @@ from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.rules import Rules
 from semnav_env.verifier.goals import goals_in_turn, place
+from semnav_features.frames import FloatArray, Pose, path_length
+from semnav_features.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 from shapely import LineString, Point, Polygon
 from shapely.affinity import affine_transform
 
-from semnav_env.features.corridor import Junction, SideOpening
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.frames import Point as Position
-from semnav_env.features.rules import DoorRules
 from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal, wait_of
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.metrics.recording import Recording
 from semnav_env.rules import Rules, SuccessRules
+from semnav_features.corridor import Junction, SideOpening
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.frames import Point as Position
+from semnav_features.rules import DoorRules
 
 ROUNDING = 1e-9
 """What lies on the very limit of a goal is within it, however computed; metres and radians."""

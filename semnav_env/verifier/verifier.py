@@ -9,9 +9,6 @@ from typing import Any
 import numpy as np
 
 from semnav_env.commands.clauses import Clause
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.rules import DoorRules
-from semnav_env.features.scene import Scene
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import Goal, PassGoal, StopGoal
@@ -34,6 +31,9 @@ from semnav_env.verifier.judge_record import (
 from semnav_env.verifier.judge_state import Outcome, first_state, limit_goal, outcome, put_motion
 from semnav_env.verifier.mission import Mission
 from semnav_env.verifier.verdict import Verdict, verdicts
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.rules import DoorRules
+from semnav_features.scene import Scene
 
 
 class Verifier:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pymunk
 from pymunk.constraints import GearJoint, PivotJoint
 
-from semnav_env.features.frames import FloatArray, Pose, to_parent
 from semnav_env.maps.placement import corners
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Pose, to_parent
 
 SLOP = 1e-3
 """How deep shapes may overlap at rest, metres."""

@@ -10,7 +10,6 @@ import numpy as np
 import pymunk
 from numba import types
 
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.robots import SPOT
 from semnav_env.world.bodies import driving_joints, robot_body, solid_space
 from semnav_env.world.chipmunk_functions import (
@@ -22,6 +21,7 @@ from semnav_env.world.chipmunk_functions import (
 )
 from semnav_env.world.contacts import note_contacts
 from semnav_env.world.drive_record import drive_record
+from semnav_features.kernels.compiling import kernel
 
 KNOWN_MACHINES = ("x86_64", "amd64", "aarch64", "arm64")
 """Where C functions take and return a structure of two doubles like two doubles; not on Windows."""

@@ -13,8 +13,6 @@ from numba import types
 from numba.np.numpy_support import carray
 from pymunk._chipmunk import ffi, lib
 
-from semnav_env.features.frames import MOST_CONTACTS
-from semnav_env.features.kernels.compiling import callback_address
 from semnav_env.world.chipmunk_functions import (
     ADDRESS,
     INDEX,
@@ -25,6 +23,8 @@ from semnav_env.world.chipmunk_functions import (
     vector_of,
 )
 from semnav_env.world.drive_record import DRIVE
+from semnav_features.frames import MOST_CONTACTS
+from semnav_features.kernels.compiling import callback_address
 
 _STATIC, _MOST_POINTS = pymunk.Body.STATIC, 2  # of contact between two shapes
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.features.frames import relative, wrap_angle
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.world.chipmunk import run_substeps
 from semnav_env.world.free_motion import Solids, move_freely
+from semnav_features.frames import relative, wrap_angle
+from semnav_features.kernels.compiling import kernel
 
 
 @kernel

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import MOST_CONTACTS
 from semnav_env.robots import RobotSpec
 from semnav_env.world.bodies import joint_accelerations
+from semnav_features.frames import MOST_CONTACTS
 
 POSE = np.dtype([("x", "f8"), ("y", "f8"), ("heading", "f8")])
 """A `Pose` in a record: metres, radians."""

@@ -15,12 +15,12 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.lidar.culling import Culling, cell_of, shared_culling
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.robots import RobotSpec
 from semnav_env.world.drive_record import ROUNDING, longest_way
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
 
 Solids: TypeAlias = tuple[np.ndarray, NDArray[np.int64], FloatArray]
 """What is solid near a place: `Culling` as (grid, starts, ends)."""

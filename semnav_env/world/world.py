@@ -10,8 +10,6 @@ import numpy as np
 import pymunk
 
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
-from semnav_env.features.frames import Contact, FloatArray, Pose, Twist
-from semnav_env.features.validation import finite_floats, shown
 from semnav_env.lidar.moving import NO_MOVING_THINGS
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.maps.placement import clearance, has_room, placement_error
@@ -28,6 +26,8 @@ from semnav_env.world.contacts import Contacts, note_contacts
 from semnav_env.world.drive import demand_velocity, drive, settle
 from semnav_env.world.drive_record import drive_record
 from semnav_env.world.free_motion import culling_around
+from semnav_features.frames import Contact, FloatArray, Pose, Twist
+from semnav_features.validation import finite_floats, shown
 
 if TYPE_CHECKING:
     from semnav_env.dynamics.moving import Moving

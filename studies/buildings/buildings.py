@@ -13,10 +13,6 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.features import ExtractorSettings, Scan, extract
-from semnav_env.features.frames import Point, Pose
-from semnav_env.features.lidar_spec import TIM561
-from semnav_env.features.scene import Door, Scene
 from semnav_env.lidar import Lidar, LidarSpec
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.importers import (
@@ -27,6 +23,10 @@ from semnav_env.maps.importers import (
 )
 from semnav_env.maps.importers.gaps import places_beside
 from semnav_env.maps.importers.labels import DOORS_FILE, read_door_labels
+from semnav_features import ExtractorSettings, Scan, extract
+from semnav_features.frames import Point, Pose
+from semnav_features.lidar_spec import TIM561
+from semnav_features.scene import Door, Scene
 from studies.buildings.plan_openings import openings_of
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
 from studies.sheets import Cell, ResultSheet

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from semnav_env.features import ExtractorSettings
-from semnav_env.scripts.progress import tracked
+from semnav_features import ExtractorSettings
+from semnav_scripts.progress import tracked
 from studies.buildings.buildings import (
     Building,
     FloorLook,

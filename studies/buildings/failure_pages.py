@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.features.frames import points_to_local
-from semnav_env.features.scene import Door
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_features.frames import points_to_local
+from semnav_features.scene import Door
 from studies.buildings.buildings import FloorLook
 
 PAGE_COLUMNS = 5

@@ -9,8 +9,8 @@ from itertools import chain
 
 import numpy as np
 
-from semnav_env.features.clouds import MesStep
-from semnav_env.scripts.progress import tracked
+from semnav_features.clouds import MesStep
+from semnav_scripts.progress import tracked
 from studies.clouds import detectors
 from studies.clouds.detectors import CloudResult, Look, Sensor, judge
 from studies.clouds.scenes import POSES, CloudScene, draw_scenes

@@ -11,8 +11,9 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from semnav_env.depth import DepthRig
-from semnav_env.features import extract
-from semnav_env.features.clouds import (
+from semnav_env.robots import SPOT
+from semnav_features import extract
+from semnav_features.clouds import (
     DetectedDoor,
     DoorFinder,
     MesDetector,
@@ -21,9 +22,8 @@ from semnav_env.features.clouds import (
     door_in_scene,
     fused,
 )
-from semnav_env.features.frames import compose
-from semnav_env.features.scan import Scan
-from semnav_env.robots import SPOT
+from semnav_features.frames import compose
+from semnav_features.scan import Scan
 from studies.clouds.scenes import DRIFT_SIGMA, CloudScene, merged
 
 SIGMA = 1.2 * DRIFT_SIGMA

@@ -11,14 +11,14 @@ import numpy as np
 import shapely
 
 from semnav_env.depth import Closet, DepthRig, PlanWindow, RaisedPlan, RigHits, raise_plan
-from semnav_env.features.clouds import PointCloud
-from semnav_env.features.elements import Door
-from semnav_env.features.frames import Point, Pose, compose, to_local, to_parent
-from semnav_env.features.scan import Scan
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, Material, PlanDoor, load_floor_plan
 from semnav_env.maps.floor_plan import Surface
 from semnav_env.robots import SPOT
+from semnav_features.clouds import PointCloud
+from semnav_features.elements import Door
+from semnav_features.frames import Point, Pose, compose, to_local, to_parent
+from semnav_features.scan import Scan
 
 POSES: dict[str, tuple[tuple[str, Pose], ...]] = {
     "A": (

@@ -6,13 +6,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from semnav_env.features import ExtractorSettings, Scan
-from semnav_env.features.extraction import beam_directions
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.chain import extract_arrays
-from semnav_env.features.kernels.evidence_layout import EVIDENCE_NAMES
-from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
-from semnav_env.features.scene import Door, ends_of
+from semnav_features import ExtractorSettings, Scan
+from semnav_features.extraction import beam_directions
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.chain import extract_arrays
+from semnav_features.kernels.evidence_layout import EVIDENCE_NAMES
+from semnav_features.kernels.scratch import allocate_features, allocate_scratch
+from semnav_features.scene import Door, ends_of
 
 MAX_CANDIDATES = 2048
 """Room in the arrays that the kernel fills."""

@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.random import Generator
 
-from semnav_env.features.frames import Point
+from semnav_features.frames import Point
 
 Span = tuple[float, float]
 """From and to along an axis, metres."""

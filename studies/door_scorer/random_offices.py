@@ -16,9 +16,9 @@ import numpy as np
 import shapely
 from numpy.random import Generator
 
-from semnav_env.features.frames import FloatArray, Pose, to_local
-from semnav_env.features.scene import Door
 from semnav_env.maps.floor_plan import FloorPlan, Surface
+from semnav_features.frames import FloatArray, Pose, to_local
+from semnav_features.scene import Door
 from studies.door_scorer.random_furniture import TrainingFurniture
 
 SCANNER_CLEARANCE = 0.3

@@ -1,6 +1,6 @@
 """Trains the scorer that tells doors from other gaps, on simulated scans of random offices.
 
-    python -m studies train_doors features/door_scorer.json
+    python -m studies train_doors semnav_features/door_scorer.json
 
 makes the file that comes with the package, byte for byte on one machine. No floor plan that
 comes with the package and no real scan is used.
@@ -20,13 +20,13 @@ from numpy.random import Generator, default_rng
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.evidence_layout import EVIDENCE_NAMES
-from semnav_env.features.lidar_spec import TIM561, LidarSpec
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Door
 from semnav_env.lidar.lidar import Lidar
+from semnav_features import ExtractorSettings
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.evidence_layout import EVIDENCE_NAMES
+from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.scan import Scan
+from semnav_features.scene import Door
 from studies.door_scorer.door_candidates import apart, candidates_of
 from studies.door_scorer.random_offices import random_office
 

@@ -10,9 +10,9 @@ from typing import Self
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Door
+from semnav_features.frames import FloatArray, Point
+from semnav_features.scan import Scan
+from semnav_features.scene import Door
 
 
 class View(IntEnum):

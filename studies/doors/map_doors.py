@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from semnav_env.features import Door, ExtractorSettings, extract
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.mapping import LineMap
-from semnav_env.features.readers import open_log
+from semnav_features import Door, ExtractorSettings, extract
+from semnav_features.frames import FloatArray
+from semnav_features.mapping import LineMap
+from semnav_features.readers import open_log
 from studies.doors.door_sightings import MAX_JAMB_ERROR, jambs_apart
 from studies.doors.openings import LabelledOpening
 from studies.sheets import Cell, ResultSheet

@@ -6,7 +6,7 @@ import csv
 from dataclasses import dataclass
 from pathlib import Path
 
-from semnav_env.features.scene import Door
+from semnav_features.scene import Door
 
 LABELS_FOLDER = Path(__file__).with_name("labels")
 """Where the labelled openings lie."""

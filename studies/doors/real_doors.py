@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from semnav_env.features import ExtractorSettings, Scan, extract
-from semnav_env.features.frames import Pose
-from semnav_env.features.memory import SceneMemory
-from semnav_env.features.readers import open_log
-from semnav_env.features.scene import Door, Scene
+from semnav_features import ExtractorSettings, Scan, extract
+from semnav_features.frames import Pose
+from semnav_features.memory import SceneMemory
+from semnav_features.readers import open_log
+from semnav_features.scene import Door, Scene
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
 from studies.doors.openings import LABELS_FOLDER, LabelledOpening
 from studies.sheets import ResultSheet

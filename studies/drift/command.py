@@ -8,8 +8,8 @@ from itertools import product
 from pathlib import Path
 
 from semnav_env.episodes import evenly, load_episodes
-from semnav_env.scripts.jsonl import JsonLines
-from semnav_env.scripts.progress import tracked
+from semnav_scripts.jsonl import JsonLines
+from semnav_scripts.progress import tracked
 from studies.drift.measure import Condition, Ending, endings, row
 
 

@@ -9,14 +9,14 @@ from statistics import fmean
 
 from shapely import Point
 
-from semnav_env.agents.evaluation.drive import drive
-from semnav_env.agents.registry import make_agent
+from semnav_agents.evaluation.drive import drive
+from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode
-from semnav_env.features.frames import Pose, compose
 from semnav_env.maps import FloorPlan
 from semnav_env.simulator import odometry_settings
 from semnav_env.verifier import Verdict
+from semnav_features.frames import Pose, compose
 
 MAX_SECONDS = 300.0
 """Time limit of an episode, as in `semnav evaluate`, simulated seconds."""

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.agents.evaluation.intervals import wilson_interval
+from semnav_agents.evaluation.intervals import wilson_interval
 from semnav_env.approach import Surroundings, plan_approach
 from semnav_env.maps.placement import placement_error
 from semnav_env.robots import ROBOTS, RobotSpec, robot_spec

@@ -9,13 +9,13 @@ from typing import TypeAlias
 import numpy as np
 from shapely import LineString, Point
 
-from semnav_env.agents.planning.obstacles import points_of_segments
+from semnav_agents.planning.obstacles import points_of_segments
 from semnav_env.approach import DoorSide
 from semnav_env.approach.poses import is_behind
-from semnav_env.features.frames import FloatArray, Pose, Twist, to_local
 from semnav_env.maps import FloorPlan
 from semnav_env.robots import RobotSpec
 from semnav_env.simulator import RobotSetup, Simulator
+from semnav_features.frames import FloatArray, Pose, Twist, to_local
 from studies.exits.cases import ExitCase
 
 MAX_SECONDS = 90.0

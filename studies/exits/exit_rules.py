@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from semnav_env.agents.door_exit import DoorExit
-from semnav_env.agents.planning.driver import Driver
-from semnav_env.agents.planning.planner import DriveTarget
-from semnav_env.features.frames import Pose, Twist
+from semnav_agents.door_exit import DoorExit
+from semnav_agents.planning.driver import Driver
+from semnav_agents.planning.planner import DriveTarget
+from semnav_features.frames import Pose, Twist
 from studies.exits.drives import ExitTask, Steer
 
 RULE_DISTANCE = 1.0

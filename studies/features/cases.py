@@ -10,12 +10,12 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.features.frames import Pose
-from semnav_env.features.lidar_spec import TIM561, LidarSpec
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Scene
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_features.frames import Pose
+from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.scan import Scan
+from semnav_features.scene import Scene
 from studies.features.clutter import cluttered, free_floor
 from studies.truth import TrueView
 

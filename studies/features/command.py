@@ -8,9 +8,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from semnav_env.features import ExtractorSettings
 from semnav_env.maps import bundled_names, load_floor_plan
-from semnav_env.scripts.progress import tracked
+from semnav_features import ExtractorSettings
+from semnav_scripts.progress import tracked
 from studies.doors.map_doors import map_sheets, mapped
 from studies.doors.openings import read_openings
 from studies.doors.real_doors import FREIBURG, FREIBURG_LABELS, door_sheet, look_through

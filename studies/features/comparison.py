@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Door, Scene, Wall
+from semnav_features.scan import Scan
+from semnav_features.scene import Door, Scene, Wall
 from studies.doors.door_sightings import View, matches
 from studies.features.overlap import Overlap
 from studies.features.places import compare_arcs, compare_corners, compare_corridors

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
+from semnav_features.frames import FloatArray
 from studies.features.overlap import segmentation_rate
 from studies.features.records import FeatureKind
 

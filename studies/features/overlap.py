@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.scene import Wall, ends_of
+from semnav_features.frames import FloatArray
+from semnav_features.scene import Wall, ends_of
 
 MAX_WALL_DISTANCE = 0.1
 """Two walls cover each other where they are less than this apart, metres."""

@@ -8,8 +8,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from semnav_env.features.frames import Point
-from semnav_env.features.scene import Arc, Corner, CornerKind, CorridorProbe, Scene, Wall
+from semnav_features.frames import Point
+from semnav_features.scene import Arc, Corner, CornerKind, CorridorProbe, Scene, Wall
 from studies.features.records import (
     NAN,
     CountingLimits,

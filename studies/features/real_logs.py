@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from semnav_env.features import (
+from semnav_features import (
     Arc,
     Corner,
     CorridorProbe,
@@ -20,7 +20,7 @@ from semnav_env.features import (
     Wall,
     extract,
 )
-from semnav_env.features.readers import open_log
+from semnav_features.readers import open_log
 from studies.sheets import Cell, ResultSheet
 
 

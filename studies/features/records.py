@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import Point
-from semnav_env.features.scene import Arc, Wall
+from semnav_features.frames import Point
+from semnav_features.scene import Arc, Wall
 from studies.doors.door_sightings import Gate
 
 NAN = math.nan

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.features import ExtractorSettings, extract
-from semnav_env.features.strategies import BreakpointRule, Segmentation, strategy_names
 from semnav_env.maps import FloorPlan
+from semnav_features import ExtractorSettings, extract
+from semnav_features.strategies import BreakpointRule, Segmentation, strategy_names
 from studies.features.cases import Case, CaseSituation, draw_cases
 from studies.features.comparison import compare
 from studies.features.metrics import Table

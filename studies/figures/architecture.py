@@ -15,11 +15,11 @@ LAYERS = ("features", "semnav_env", "agents", "scripts")
 
 ABOUT = {
     "features": "from a scan to a scene, memory, drift; NumPy and Numba only",
-    "features/clouds": "door jambs in point clouds",
-    "features/explain": "why the extractor turned something down",
-    "features/kernels": "the compiled parts, over plain arrays",
-    "features/mapping": "line maps and scan matching",
-    "features/readers": "logs of real robots",
+    "semnav_features/clouds": "door jambs in point clouds",
+    "semnav_features/explain": "why the extractor turned something down",
+    "semnav_features/kernels": "the compiled parts, over plain arrays",
+    "semnav_features/mapping": "line maps and scan matching",
+    "semnav_features/readers": "logs of real robots",
     "semnav_env": "the environment, the rules, and what does not fit below",
     "semnav_env/approach": "poses from which a door can be passed",
     "semnav_env/belief": "the robot's side: ranges, odometry and bumps to pose, scene and goal",
@@ -48,13 +48,13 @@ ABOUT = {
     "semnav_env/verifier": "the judge",
     "semnav_env/world": "the physics; the only folder that imports Pymunk",
     "agents": "scripted, oracle and learned agents, and floors, behind one protocol",
-    "agents/evaluation": "suites of episodes, driven and judged",
-    "agents/hearing": "agents that hear the command: a learned grounding for the planner",
-    "agents/learning": "training and its files",
-    "agents/learning/rllib": "training on more than one machine, with RLlib on Ray",
-    "agents/planning": "the planner of the scripted agent and the oracle",
-    "agents/searching": "searching a house: where to look from, and whom to go to",
-    "agents/translating": "a learned translator that asks where the grammar refuses",
+    "semnav_agents/evaluation": "suites of episodes, driven and judged",
+    "semnav_agents/hearing": "agents that hear the command: a learned grounding for the planner",
+    "semnav_agents/learning": "training and its files",
+    "semnav_agents/learning/rllib": "training on more than one machine, with RLlib on Ray",
+    "semnav_agents/planning": "the planner of the scripted agent and the oracle",
+    "semnav_agents/searching": "searching a house: where to look from, and whom to go to",
+    "semnav_agents/translating": "a learned translator that asks where the grammar refuses",
     "scripts": "the `semnav` command",
 }
 
@@ -62,8 +62,8 @@ TEMPLATE = """# Architecture
 
 The simulator and the robot meet only at the sensor: what goes from one to the other is what a
 real robot has, too. Files lie under `features/`, `semnav_env/`, `agents/` and `scripts/`; the
-first and the last two are installed, and imported, as `semnav_env.features` and so on. In a git
-checkout `semnav_env/features`, `semnav_env/agents` and `semnav_env/scripts` are symbolic links to
+first and the last two are installed, and imported, as `semnav_features` and so on. In a git
+checkout `semnav_features`, `semnav_agents` and `semnav_scripts` are symbolic links to
 them, which zip files and Windows without `core.symlinks` break.
 
                  SIMULATOR                     |                ROBOT'S SIDE
@@ -85,9 +85,9 @@ judge.
 (`semnav_env/robot_loop.py`), which calls three others. `sense`
 (`semnav_env/simulator/sensing.py`) drives the body (`semnav_env/world/drive.py`), reckons
 (`semnav_env/simulator/odometry.py`) and scans. `understand`
-(`semnav_env/belief/understand.py`) extracts the features (`features/kernels/chain.py`),
-corrects the drift (`features/kernels/drift.py`), remembers walls and doors
-(`features/kernels/memory.py`) and notes how far the clause under way has come
+(`semnav_env/belief/understand.py`) extracts the features (`semnav_features/kernels/chain.py`),
+corrects the drift (`semnav_features/kernels/drift.py`), remembers walls and doors
+(`semnav_features/kernels/memory.py`) and notes how far the clause under way has come
 (`semnav_env/grounding/clause_progress.py`). `judge_motion`
 (`semnav_env/verifier/judge_record.py`) keeps the judge's count. They return events, such as a
 completed clause; only where there is one does `BeliefTracker.think`

@@ -11,13 +11,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from semnav_env.features import Arc, Scan, extract
-from semnav_env.features.frames import Point
-from semnav_env.features.plot import save_page
 from semnav_env.lidar import Lidar
 from semnav_env.maps import bundled_names, load_floor_plan
 from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import WHEELCHAIR
+from semnav_features import Arc, Scan, extract
+from semnav_features.frames import Point
+from semnav_features.plot import save_page
 from studies.figures import IMAGES
 
 BEAMS, ANGLE_MIN, INCREMENT, SIGMA = 811, math.radians(-135), math.radians(270 / 810), 0.02

@@ -8,10 +8,10 @@ from pathlib import Path
 from statistics import fmean
 from typing import Any
 
-from semnav_env.agents.evaluation.attempts import Attempt, read_attempts
-from semnav_env.agents.hearing.agent import BUNDLED_FOLDER
-from semnav_env.agents.hearing.card import ModelCard
-from semnav_env.features.writing import write_file
+from semnav_agents.evaluation.attempts import Attempt, read_attempts
+from semnav_agents.hearing.agent import BUNDLED_FOLDER
+from semnav_agents.hearing.card import ModelCard
+from semnav_features.writing import write_file
 from studies.figures.leaderboard import RESULTS
 
 DRIVE_CARD = BUNDLED_FOLDER / "drive" / "card.json"

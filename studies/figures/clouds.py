@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from semnav_env.depth import DepthRig
-from semnav_env.features.clouds.picture import draw_above, draw_front
+from semnav_features.clouds.picture import draw_above, draw_front
 from studies.clouds import detectors
 from studies.clouds.scenes import POSES, CloudScene, draw_scenes
 from studies.figures import IMAGES

@@ -12,8 +12,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from semnav_env.agents.hearing.agent import BUNDLED_FOLDER
-from semnav_env.agents.hearing.card import ModelCard
+from semnav_agents.hearing.agent import BUNDLED_FOLDER
+from semnav_agents.hearing.card import ModelCard
 from studies.figures import IMAGES
 
 CURVES = IMAGES.parent / "results" / "curves"

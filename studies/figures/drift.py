@@ -9,13 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.agents.base import steps
-from semnav_env.agents.registry import make_agent
+from semnav_agents.base import steps
+from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode, evenly, load_episodes
-from semnav_env.features.frames import compose, relative
 from semnav_env.maps.draw import draw_floor_plan
 from semnav_env.simulator.odometry import OdometrySettings
+from semnav_features.frames import compose, relative
 from studies.figures import IMAGES
 
 ERRORS = OdometrySettings(turn_bias=0.02, turn_noise=0.02, veer_noise=0.01)

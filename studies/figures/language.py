@@ -9,7 +9,7 @@ from contextlib import suppress
 from semnav_env.commands import CommandError, parse, readings
 from semnav_env.commands.languages import languages
 from semnav_env.commands.normalise import MAX_WORDS
-from semnav_env.scripts.evaluate_language import Arguments
+from semnav_scripts.evaluate_language import Arguments
 
 COMMAND = parse(
     "go down the hallway past the second door, turn left at the second intersection and go through "

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from semnav_env.agents.evaluation.attempts import read_attempts
-from semnav_env.agents.evaluation.leaderboard import standings
-from semnav_env.scripts.leaderboard import KEPT_SUFFIX, markdown
+from semnav_agents.evaluation.attempts import read_attempts
+from semnav_agents.evaluation.leaderboard import standings
+from semnav_scripts.leaderboard import KEPT_SUFFIX, markdown
 from studies.figures import IMAGES
 
 PAGE = IMAGES.parent / "leaderboard.md"

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from semnav_env.features import polylines
 from semnav_env.lidar import Lidar
 from semnav_env.maps import load_floor_plan
+from semnav_features import polylines
 from studies.features.clutter import cluttered
 from studies.figures import IMAGES
 from studies.lines.line_baselines import end_point_fit, greedy_polylines, walls

@@ -7,13 +7,13 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.features import extract
-from semnav_env.features.frames import compose
-from semnav_env.features.mapping import LineMap, ScanOdometry
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.maps.draw import draw_floor_plan
 from semnav_env.maps.line_map_plan import plan_of_scene
+from semnav_features import extract
+from semnav_features.frames import compose
+from semnav_features.mapping import LineMap, ScanOdometry
 from studies.figures import IMAGES
 
 WAY = ((2.5, 9.1), (27.0, 9.1), (15.0, 9.1), (15.0, 17.0), (15.0, 2.5))

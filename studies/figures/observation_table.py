@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from semnav_env.features.lidar_spec import TIM561
 from semnav_env.observations.layout import (
     CLAUSE,
     GOAL,
@@ -16,6 +15,7 @@ from semnav_env.observations.layout import (
     command_space,
     scan_space,
 )
+from semnav_features.lidar_spec import TIM561
 from studies.figures import IMAGES
 
 PAGE = IMAGES.parent / "observations.md"

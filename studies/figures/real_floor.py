@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.agents.base import steps
-from semnav_env.agents.registry import make_agent
+from semnav_agents.base import steps
+from semnav_agents.registry import make_agent
 from semnav_env.commands import Approach, Command, DoorReference, GoToDoor, Side
 from semnav_env.env import SemNavEnv
 from semnav_env.grounding import GroundingError

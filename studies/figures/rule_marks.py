@@ -8,11 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Wedge
 
 from semnav_env.commands.references import Side
-from semnav_env.features.corridor import Corridor
-from semnav_env.features.frames import Point, Pose, compose
-from semnav_env.features.scene import Scene
 from semnav_env.grounding import Goal, GoalKind, PassGoal, ReachGoal
 from semnav_env.grounding.counted_doors import doors_along
+from semnav_features.corridor import Corridor
+from semnav_features.frames import Point, Pose, compose
+from semnav_features.scene import Scene
 
 COLOURS = {Side.LEFT: "tab:blue", Side.RIGHT: "tab:orange", Side.AHEAD: "tab:purple"}
 LETTERS = {Side.LEFT: "L", Side.RIGHT: "R", Side.AHEAD: "A"}

@@ -18,13 +18,13 @@ from matplotlib.figure import Figure
 
 from semnav_env.belief import BeliefTracker
 from semnav_env.commands import parse
-from semnav_env.features.corridor import corridor_at
-from semnav_env.features.frames import Point, Pose, compose
-from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import ground
 from semnav_env.lidar import Lidar
 from semnav_env.maps import load_floor_plan
 from semnav_env.robots import WHEELCHAIR
+from semnav_features.corridor import corridor_at
+from semnav_features.frames import Point, Pose, compose
+from semnav_features.scene import Door, Scene, Wall
 from studies.figures import IMAGES
 from studies.figures.rule_marks import (
     draw_axis,

@@ -6,8 +6,8 @@ import inspect
 import re
 from dataclasses import fields
 
-from semnav_env.features.rules import DoorRules
 from semnav_env.rules import GroundingRules, SuccessRules
+from semnav_features.rules import DoorRules
 from studies.figures import IMAGES
 
 PAGE = IMAGES.parent / "rules.md"

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from semnav_env.maps import bundled_names, load_floor_plan
-from semnav_env.scripts.progress import tracked
+from semnav_scripts.progress import tracked
 from studies.features.cases import Case, draw_cases
 from studies.lines.line_accuracy import segmentations, wall_accuracy
 from studies.lines.line_quality import (

@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features import Door, ExtractorSettings, Scan, Wall, extract
-from semnav_env.features.extraction import beam_directions
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.chain import extract_arrays
-from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
-from semnav_env.features.strategies import Segmentation, strategy_names
+from semnav_features import Door, ExtractorSettings, Scan, Wall, extract
+from semnav_features.extraction import beam_directions
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.chain import extract_arrays
+from semnav_features.kernels.scratch import allocate_features, allocate_scratch
+from semnav_features.strategies import Segmentation, strategy_names
 from studies.features.cases import Case
 
 MIN_WALL_LENGTH = 0.3

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features import ExtractorSettings, extract
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.polyline_refinement import refine_vertices
-from semnav_env.features.scan import Scan
+from semnav_features import ExtractorSettings, extract
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.polyline_refinement import refine_vertices
+from semnav_features.scan import Scan
 
 Lines = tuple[FloatArray, ...]
 """Polylines, each of shape (m, 2), metres, lidar frame."""

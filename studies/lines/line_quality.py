@@ -18,10 +18,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features import polylines
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.readers import open_log
-from semnav_env.features.scan import Scan
+from semnav_features import polylines
+from semnav_features.frames import FloatArray
+from semnav_features.readers import open_log
+from semnav_features.scan import Scan
 from studies.lines.line_baselines import MISSED_ERROR, Lines, end_point_fit, greedy_polylines
 
 Extractor = Callable[[Scan, int], Lines]

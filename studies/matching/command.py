@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from semnav_env.features.mapping import MatchSettings
-from semnav_env.features.readers import open_log
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
 from semnav_env.maps.importers import load_vector_map
-from semnav_env.scripts.progress import tracked
+from semnav_features.mapping import MatchSettings
+from semnav_features.readers import open_log
+from semnav_scripts.progress import tracked
 from studies.matching.drift import drift_of
 from studies.matching.matching import (
     CHI_SQUARE_95,

@@ -9,9 +9,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose, relative
-from semnav_env.features.mapping import MatchSettings, ScanOdometry
-from semnav_env.features.readers import LogRecord
+from semnav_features.frames import FloatArray, Pose, relative
+from semnav_features.mapping import MatchSettings, ScanOdometry
+from semnav_features.readers import LogRecord
 
 DRIFT_STRETCH = 10.0
 """Length of the ways over which drift is told, metres."""

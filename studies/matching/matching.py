@@ -11,14 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point, Pose, compose, relative
-from semnav_env.features.mapping import Match, MatchError, MatchSettings, match_scans
-from semnav_env.features.readers import LogRecord
-from semnav_env.features.scan import Scan
 from semnav_env.lidar import Lidar, LidarSpec, lidar_spec
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import WHEELCHAIR
+from semnav_features.frames import FloatArray, Point, Pose, compose, relative
+from semnav_features.mapping import Match, MatchError, MatchSettings, match_scans
+from semnav_features.readers import LogRecord
+from semnav_features.scan import Scan
 
 Way = tuple[Point, Point]
 """A straight way that a robot can take, metres."""

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from semnav_env.features import ExtractorSettings
+from semnav_features import ExtractorSettings
 from studies.places.passage import PassageLimits
 from studies.places.place_scans import (
     CLUTTER_SLICES,

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.scene import Scene, Wall, ends_of
+from semnav_features.frames import FloatArray
+from semnav_features.scene import Scene, Wall, ends_of
 
 
 @dataclass(frozen=True, slots=True)

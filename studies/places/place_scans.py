@@ -9,8 +9,8 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from semnav_env.features import ExtractorSettings, extract
-from semnav_env.features.readers import open_log
+from semnav_features import ExtractorSettings, extract
+from semnav_features.readers import open_log
 from studies.places.passage import PassageLimits, is_corridor
 from studies.sheets import Cell, ResultSheet
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from semnav_env.scripts.progress import tracked
+from semnav_scripts.progress import tracked
 from studies.search.searches import AGENTS, FIRST_SEED, Search, row, search, summary
 
 

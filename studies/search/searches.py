@@ -9,9 +9,9 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from semnav_env.agents.base import steps
-from semnav_env.agents.evaluation.intervals import wilson_interval
-from semnav_env.agents.registry import make_agent
+from semnav_agents.base import steps
+from semnav_agents.evaluation.intervals import wilson_interval
+from semnav_agents.registry import make_agent
 from semnav_env.rescue.environment import search_and_rescue
 from semnav_env.rescue.person_search import PersonSearch
 from studies.search.all_around import seen_all_around

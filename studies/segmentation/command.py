@@ -9,10 +9,10 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from semnav_env.features.settings import ExtractorSettings
-from semnav_env.features.strategies import BreakpointRule, strategy_names
 from semnav_env.maps.library import bundled_names, load_floor_plan
-from semnav_env.scripts.progress import tracked
+from semnav_features.settings import ExtractorSettings
+from semnav_features.strategies import BreakpointRule, strategy_names
+from semnav_scripts.progress import tracked
 from studies.features.study import all_strategies
 from studies.segmentation.segment_labels import LabelledScan, labelled_scans
 from studies.segmentation.segmentation import Rate, known_noise, measure

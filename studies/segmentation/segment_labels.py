@@ -9,16 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.extraction import beam_directions
-from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.kernels.chain import extract_arrays
-from semnav_env.features.kernels.layout import WALLS
-from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
-from semnav_env.features.kernels.segmentation import group_points
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Arc, Scene, Wall
-from semnav_env.features.settings import ExtractorSettings
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_features.extraction import beam_directions
+from semnav_features.frames import FloatArray, Point
+from semnav_features.kernels.chain import extract_arrays
+from semnav_features.kernels.layout import WALLS
+from semnav_features.kernels.scratch import allocate_features, allocate_scratch
+from semnav_features.kernels.segmentation import group_points
+from semnav_features.scan import Scan
+from semnav_features.scene import Arc, Scene, Wall
+from semnav_features.settings import ExtractorSettings
 from studies.features.cases import draw_cases
 
 Labels = NDArray[np.int64]

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.frames import FloatArray
+from semnav_features.settings import ExtractorSettings
 from studies.segmentation.segment_labels import (
     NO_SEGMENT,
     LabelledScan,

@@ -8,10 +8,10 @@ import numpy as np
 
 from semnav_env.belief import BeliefTracker
 from semnav_env.commands import parse
-from semnav_env.features.frames import Pose, compose, relative
 from semnav_env.localization import PlanLocalizer
 from semnav_env.robots import SPOT
 from semnav_env.simulator import Sensed
+from semnav_features.frames import Pose, compose, relative
 from studies.tour.detectors import DoorSensor
 
 LOOK_DISTANCE, LOOK_TURN = 0.4, 0.3

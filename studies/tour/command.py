@@ -10,8 +10,8 @@ from itertools import product
 from pathlib import Path
 from statistics import fmean, median
 
-from semnav_env.scripts.jsonl import JsonLines
-from semnav_env.scripts.progress import tracked
+from semnav_scripts.jsonl import JsonLines
+from semnav_scripts.progress import tracked
 from studies.tour.tour import CORRECTIONS, TourResult, result, tour
 
 

@@ -8,17 +8,17 @@ from functools import cache
 import numpy as np
 
 from semnav_env.depth import DepthRig, RaisedPlan, raise_plan
-from semnav_env.features import Scan, extract
-from semnav_env.features.clouds.detected_door import DetectedDoor
-from semnav_env.features.clouds.finder import DoorFinder
-from semnav_env.features.clouds.lidar_doors import door_in_scene
-from semnav_env.features.clouds.mes import MesDetector
-from semnav_env.features.clouds.point_cloud import PointCloud
-from semnav_env.features.elements import Door
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.lidar_spec import TIM561
 from semnav_env.robots import SPOT
 from semnav_env.simulator import Sensed
+from semnav_features import Scan, extract
+from semnav_features.clouds.detected_door import DetectedDoor
+from semnav_features.clouds.finder import DoorFinder
+from semnav_features.clouds.lidar_doors import door_in_scene
+from semnav_features.clouds.mes import MesDetector
+from semnav_features.clouds.point_cloud import PointCloud
+from semnav_features.elements import Door
+from semnav_features.frames import FloatArray
+from semnav_features.lidar_spec import TIM561
 from studies.tour.villa import villa
 
 DoorSearch = Callable[[Door, float], DetectedDoor | None]

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import Contact, FloatArray, Point, Pose, Twist, to_local
 from semnav_env.robots import SPOT
+from semnav_features.frames import Contact, FloatArray, Point, Pose, Twist, to_local
 from studies.tour.villa import SPACING
 
 SPEED, YAW_GAIN = 0.7, 2.0

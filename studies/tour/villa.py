@@ -14,9 +14,9 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon, box
 
-from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_env.maps.geodesic import Geodesic
+from semnav_features.frames import FloatArray, Point, Pose
 
 HALLS = {"hall": (0.0, 5.0, 12.0, 7.0), "entrance": (5.0, 0.0, 7.0, 5.0)}
 ROOMS = {

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from semnav_env.agents.translating.files import load_translator
-from semnav_env.agents.translating.interpreter import LearnedInterpreter
-from semnav_env.agents.translating.translator import translate
+from semnav_agents.translating.files import load_translator
+from semnav_agents.translating.interpreter import LearnedInterpreter
+from semnav_agents.translating.translator import translate
 from semnav_env.commands.command import Command
 from semnav_env.commands.corpora import ParseOutcome, Sentence
 from semnav_env.commands.corpora.meanings import meaning_of, normal

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 from torch.nn import functional
 
-from semnav_env.agents.layers import EPSILON
-from semnav_env.agents.translating.network import TranslatorShape, positions
+from semnav_agents.layers import EPSILON
+from semnav_agents.translating.network import TranslatorShape, positions
 
 LONGEST_TEXT = 320
 """The most words of a text, and symbols of a command, that have a position."""

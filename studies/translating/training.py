@@ -11,14 +11,14 @@ import numpy as np
 import torch
 from torch.nn import functional
 
-from semnav_env.agents.translating.masking import NO_MARK, masked
-from semnav_env.agents.translating.network import (
+from semnav_agents.translating.masking import NO_MARK, masked
+from semnav_agents.translating.network import (
     MAX_SYMBOLS,
     TranslatorNetwork,
     TranslatorShape,
     grams_of,
 )
-from semnav_env.agents.translating.programs import (
+from semnav_agents.translating.programs import (
     END,
     REFUSE,
     START,
@@ -27,7 +27,7 @@ from semnav_env.agents.translating.programs import (
     symbols_of,
 )
 from semnav_env.commands.errors import CommandError
-from semnav_env.features.checked_fields import Count, check_fields
+from semnav_features.checked_fields import Count, check_fields
 from studies.translating.texts import TrainingText
 from studies.translating.torch_network import TorchTranslator
 

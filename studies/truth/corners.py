@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from semnav_env.features.frames import Point
-from semnav_env.features.scene import Arc, Corner, CornerKind, Wall
+from semnav_features.frames import Point
+from semnav_features.scene import Arc, Corner, CornerKind, Wall
 from studies.truth.runs import WallRun
 
 

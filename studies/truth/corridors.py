@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from semnav_env.features.frames import Point
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import CornerKind, CorridorProbe, Wall
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.frames import Point
+from semnav_features.scan import Scan
+from semnav_features.scene import CornerKind, CorridorProbe, Wall
+from semnav_features.settings import ExtractorSettings
 from studies.truth.corners import Joint
 
 END_ON = 0.1

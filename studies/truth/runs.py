@@ -9,9 +9,9 @@ from itertools import groupby, pairwise
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local
-from semnav_env.features.lidar_spec import LidarSpec
-from semnav_env.features.scene import Arc, Wall
+from semnav_features.frames import FloatArray, Point, Pose, to_local
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.scene import Arc, Wall
 from studies.truth.shapes import PlanCircle, Shapes
 from studies.truth.sweep import NO_OWNER, Outline
 

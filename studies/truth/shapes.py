@@ -11,8 +11,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
+from semnav_features.frames import FloatArray, Point
 
 MAX_CIRCLE_ERROR = 0.01
 """The points of a round surface lie this close to its circle, metres."""

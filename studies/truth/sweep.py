@@ -14,8 +14,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.lidar_spec import LidarSpec
+from semnav_features.frames import FloatArray
+from semnav_features.lidar_spec import LidarSpec
 
 SAME_DIRECTION_ANGLE = 1e-7
 """Directions closer together than this are one, radians."""

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose, compose, points_to_local
-from semnav_env.features.lidar_spec import LidarSpec, lidar_spec
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Arc, Scene, Wall
-from semnav_env.features.settings import ExtractorSettings
 from semnav_env.lidar.lidar import Lidar
 from semnav_env.maps.floor_plan import FloorPlan
+from semnav_features.frames import FloatArray, Pose, compose, points_to_local
+from semnav_features.lidar_spec import LidarSpec, lidar_spec
+from semnav_features.scan import Scan
+from semnav_features.scene import Arc, Scene, Wall
+from semnav_features.settings import ExtractorSettings
 from studies.truth.corners import find_joints
 from studies.truth.corridors import true_corridors
 from studies.truth.doors import open_doors, see_door

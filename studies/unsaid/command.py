@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.agents.registry import make_agent
+from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.scripts.progress import tracked
+from semnav_scripts.progress import tracked
 from studies.unsaid.unsaid import Followed, Unsaid, follow, unsaid_trials
 
 

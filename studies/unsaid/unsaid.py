@@ -14,16 +14,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.agents.base import Agent
-from semnav_env.agents.evaluation.drive import drive
+from semnav_agents.base import Agent
+from semnav_agents.evaluation.drive import drive
 from semnav_env.commands import Command, DoorReference, GoToDoor, Leave, Side, Turn, Turning
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError
 from semnav_env.maps import FloorPlan
 from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import RobotSpec
 from semnav_env.verifier import place, plan_goals
+from semnav_features.frames import Pose
 
 MAX_ORDINAL = 3
 """Doors are counted up to this."""

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from semnav_env.agents.evaluation import run_suite
-from semnav_env.agents.evaluation.provenance import provenance
-from semnav_env.agents.hearing.card import CARD_FILE
+from semnav_agents.evaluation import run_suite
+from semnav_agents.evaluation.provenance import provenance
+from semnav_agents.hearing.card import CARD_FILE
 from semnav_env.episodes import evenly, load_episodes
-from semnav_env.scripts.jsonl import JsonLines
+from semnav_scripts.jsonl import JsonLines
 from studies.wordless.wordless import WordlessAgent, train
 
 

@@ -17,14 +17,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.agents.base import Observation
-from semnav_env.agents.hearing.agent import HearingAgent
-from semnav_env.agents.hearing.card import NETWORK_FILE, ModelCard
-from semnav_env.agents.hearing.collecting import Collector, GroundedGoal, Samples, ShownAgent
-from semnav_env.agents.hearing.learning import Learner
-from semnav_env.agents.hearing.network import NetworkShape
-from semnav_env.agents.hearing.torch_network import TorchGrounding
-from semnav_env.agents.learning.files import save_tensors
+from semnav_agents.base import Observation
+from semnav_agents.hearing.agent import HearingAgent
+from semnav_agents.hearing.card import NETWORK_FILE, ModelCard
+from semnav_agents.hearing.collecting import Collector, GroundedGoal, Samples, ShownAgent
+from semnav_agents.hearing.learning import Learner
+from semnav_agents.hearing.network import NetworkShape
+from semnav_agents.hearing.torch_network import TorchGrounding
+from semnav_agents.learning.files import save_tensors
 from semnav_env.commands import encode, parse
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import Episode

@@ -7,10 +7,10 @@ from itertools import product
 import numpy as np
 import pytest
 
-from semnav_env.agents.evaluation import SUITES, Trial, run_suite
-from semnav_env.agents.evaluation.runner import run_trial
-from semnav_env.agents.registry import make_agent
-from semnav_env.agents.scripted import ScriptedAgent
+from semnav_agents.evaluation import SUITES, Trial, run_suite
+from semnav_agents.evaluation.runner import run_trial
+from semnav_agents.registry import make_agent
+from semnav_agents.scripted import ScriptedAgent
 from semnav_env.dynamics import Dynamics
 from semnav_env.env import SemNavEnv
 from semnav_env.maps.placement import placement_error

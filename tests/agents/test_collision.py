@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.ndimage import distance_transform_edt
 
-from semnav_env.agents.planning.collision import FIELD_CELL, footprint_of, is_clear, obstacle_field
-from semnav_env.agents.planning.distance import distance_to_marked
-from semnav_env.agents.planning.free import all_clear, clearances
-from semnav_env.agents.planning.nudge import best_nudge, path_clearance
-from semnav_env.features.frames import compose
+from semnav_agents.planning.collision import FIELD_CELL, footprint_of, is_clear, obstacle_field
+from semnav_agents.planning.distance import distance_to_marked
+from semnav_agents.planning.free import all_clear, clearances
+from semnav_agents.planning.nudge import best_nudge, path_clearance
 from semnav_env.robots import ROBOTS
+from semnav_features.frames import compose
 from tests.support.kinematics import footprint
 
 coordinates = st.floats(-2.0, 2.0)

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver
+from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver
 from semnav_env.observations import GOAL, UNBOUNDED
 from semnav_env.robots import ROBOTS
 from semnav_env.vector import SemNavVectorEnv

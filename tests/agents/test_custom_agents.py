@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from semnav_env.agents.custom import agent_factory
-from semnav_env.agents.evaluation import SUITES, run_suite
-from semnav_env.agents.registry import make_agent
+from semnav_agents.custom import agent_factory
+from semnav_agents.evaluation import SUITES, run_suite
+from semnav_agents.registry import make_agent
 from semnav_env.robots import RobotSpec
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 from tests.support.paths import ROOT
 
 MODULE = '''

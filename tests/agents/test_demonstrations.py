@@ -13,17 +13,17 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
-from semnav_env.agents.demonstration_file import DemonstrationFile
-from semnav_env.agents.demonstrations import Demonstration, demonstrate
-from semnav_env.agents.expert import Expert
-from semnav_env.agents.registry import make_agent
+from semnav_agents.demonstration_file import DemonstrationFile
+from semnav_agents.demonstrations import Demonstration, demonstrate
+from semnav_agents.expert import Expert
+from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import evenly, load_episodes
-from semnav_env.features.interruption import uninterrupted
 from semnav_env.observations import MODES, EntryObservation
-from semnav_env.scripts import demonstrate as script
-from semnav_env.scripts.main import main
 from semnav_env.tasks import RewardWeights
+from semnav_features.interruption import uninterrupted
+from semnav_scripts import demonstrate as script
+from semnav_scripts.main import main
 
 minari = pytest.importorskip("minari", reason="the extra 'data' is not installed")
 

@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.agents.planning.doorway import barriers_across, target_behind
-from semnav_env.agents.planning.driver import Driver
-from semnav_env.agents.planning.follower import PathProgress, follow
-from semnav_env.agents.planning.guard import safe_share
-from semnav_env.agents.planning.obstacles import points_of_segments
-from semnav_env.agents.planning.planner import DriveTarget, plan
-from semnav_env.agents.planning.track import PathTrack
+from semnav_agents.planning.doorway import barriers_across, target_behind
+from semnav_agents.planning.driver import Driver
+from semnav_agents.planning.follower import PathProgress, follow
+from semnav_agents.planning.guard import safe_share
+from semnav_agents.planning.obstacles import points_of_segments
+from semnav_agents.planning.planner import DriveTarget, plan
+from semnav_agents.planning.track import PathTrack
 from semnav_env.robots import SPOT, WHEELCHAIR
 from tests.support.kinematics import (
     HALLWAY_STARTS,

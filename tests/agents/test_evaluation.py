@@ -13,13 +13,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from semnav_env.agents.evaluation import SUITES, Result, misreading, runner, suite, summarise
-from semnav_env.agents.evaluation.drive import drive
-from semnav_env.agents.evaluation.intervals import wilson_interval
-from semnav_env.agents.evaluation.provenance import provenance
-from semnav_env.agents.evaluation.suites import Trial
-from semnav_env.agents.hearing.agent import HearingAgent
-from semnav_env.agents.registry import make_agent
+from semnav_agents.evaluation import SUITES, Result, misreading, runner, suite, summarise
+from semnav_agents.evaluation.drive import drive
+from semnav_agents.evaluation.intervals import wilson_interval
+from semnav_agents.evaluation.provenance import provenance
+from semnav_agents.evaluation.suites import Trial
+from semnav_agents.hearing.agent import HearingAgent
+from semnav_agents.registry import make_agent
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import (
@@ -29,14 +29,14 @@ from semnav_env.episodes import (
     load_episodes,
     write_episodes,
 )
-from semnav_env.features.frames import compose, relative, to_parent
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import placement_error
 from semnav_env.metrics import METRIC_NAMES, Metrics
 from semnav_env.metrics.final_belief import FinalBelief
 from semnav_env.robots import ROBOTS, RobotSpec
-from semnav_env.scripts.main import main
 from semnav_env.verifier import plan_goals
+from semnav_features.frames import compose, relative, to_parent
+from semnav_scripts.main import main
 
 TWENTIETH = {"command": "take the twentieth door", "language": "en"}
 NOTHING = Metrics(**dict.fromkeys(METRIC_NAMES, 0))
@@ -130,8 +130,8 @@ def test_where_nothing_failed_no_picture_is_spoken_of(
 ) -> None:
     trial = Trial("plan", "stop", (0.0, 0.0, 0.0))
     done = replace(result(True), group=trial.group)
-    monkeypatch.setattr("semnav_env.scripts.evaluate.suite", lambda _: [trial])
-    monkeypatch.setattr("semnav_env.scripts.evaluate.run_suite", lambda *_: iter([done]))
+    monkeypatch.setattr("semnav_scripts.evaluate.suite", lambda _: [trial])
+    monkeypatch.setattr("semnav_scripts.evaluate.run_suite", lambda *_: iter([done]))
     assert main(["evaluate", "--pictures", str(tmp_path / "pictures")]) == 0
     assert capsys.readouterr().out.endswith("nothing failed, so there are no pictures\n")
 

@@ -8,7 +8,7 @@ import pickle
 import numpy as np
 import pytest
 
-from semnav_env.agents.expert import Expert, true_goal
+from semnav_agents.expert import Expert, true_goal
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import evenly, load_episodes
 from semnav_env.grounding.goal import GoalKind

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from semnav_env.agents.base import steps
-from semnav_env.agents.registry import make_agent
+from semnav_agents.base import steps
+from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from tests.support.episodes import START
 

@@ -10,12 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from semnav_env.agents.planning.free import points_around
-from semnav_env.agents.planning.heuristic import COARSE_CELL, seconds_to
-from semnav_env.agents.planning.motion import MotionCosts, crowding_at
-from semnav_env.agents.planning.planner import PlannerSettings, _costs
-from semnav_env.features.frames import FloatArray, points_to_local
+from semnav_agents.planning.free import points_around
+from semnav_agents.planning.heuristic import COARSE_CELL, seconds_to
+from semnav_agents.planning.motion import MotionCosts, crowding_at
+from semnav_agents.planning.planner import PlannerSettings, _costs
 from semnav_env.robots import WHEELCHAIR
+from semnav_features.frames import FloatArray, points_to_local
 
 COSTS = _costs(WHEELCHAIR, PlannerSettings())
 

@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from semnav_env.agents.learning.compact import COMPACT_SIZE, VELOCITY
-from semnav_env.agents.learning.inertia import PUSH_DECISIONS, REST_DECISIONS, Inertia
+from semnav_agents.learning.compact import COMPACT_SIZE, VELOCITY
+from semnav_agents.learning.inertia import PUSH_DECISIONS, REST_DECISIONS, Inertia
 from semnav_env.robots import ROBOTS
 
 HERE = (0.0, 0.0, 0.0)

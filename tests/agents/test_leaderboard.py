@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.agents.evaluation.attempts import Attempt, read_attempts, write_attempts
-from semnav_env.agents.evaluation.leaderboard import Standing, standings
-from semnav_env.agents.evaluation.provenance import UNKNOWN, provenance
-from semnav_env.scripts.main import main
+from semnav_agents.evaluation.attempts import Attempt, read_attempts, write_attempts
+from semnav_agents.evaluation.leaderboard import Standing, standings
+from semnav_agents.evaluation.provenance import UNKNOWN, provenance
+from semnav_scripts.main import main
 
 RULES = "0123456789abcdef"
 DOCS = Path(__file__).parents[2] / "docs"

@@ -9,17 +9,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.agents.learned import PRETRAINED_FOLDER, LearnedAgent, pretrained_names
-from semnav_env.agents.learning.actions import for_body, from_body
-from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver
-from semnav_env.agents.learning.files import (
+from semnav_agents.learned import PRETRAINED_FOLDER, LearnedAgent, pretrained_names
+from semnav_agents.learning.actions import for_body, from_body
+from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver
+from semnav_agents.learning.files import (
     AGENT_FILE,
     POLICY_FILE,
     AgentDescription,
     save_tensors,
 )
-from semnav_env.agents.learning.policy import Policy
-from semnav_env.agents.learning.presets import PRESETS
+from semnav_agents.learning.policy import Policy
+from semnav_agents.learning.presets import PRESETS
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import GOAL
 from semnav_env.robots import ROBOTS

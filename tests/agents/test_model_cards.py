@@ -4,7 +4,7 @@ import pytest
 
 pytest.importorskip("safetensors", reason='needs the extra "rl"')
 
-from semnav_env.agents.hearing.card import ModelCard
+from semnav_agents.hearing.card import ModelCard
 from studies.figures.cards import LISTENER, drive_card, results_of
 
 TOLD = {"what", "data", "hours", "made", "chosen_on", "results", "limits"}

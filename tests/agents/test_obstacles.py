@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from semnav_env.agents.planning.obstacles import ObstacleMemory, points_of_segments
-from semnav_env.features.frames import compose
+from semnav_agents.planning.obstacles import ObstacleMemory, points_of_segments
+from semnav_features.frames import compose
 from tests.support.raycaster import polygon, scan_of
 
 ROOM = polygon((-2.0, -2.0), (3.0, -2.0), (3.0, 2.0), (-2.0, 2.0))

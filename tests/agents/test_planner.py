@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.agents.planning.doorway import target_behind
-from semnav_env.agents.planning.obstacles import points_of_segments
-from semnav_env.agents.planning.path import joined
-from semnav_env.agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
-from semnav_env.features.frames import compose, to_local
-from semnav_env.features.scene import Door
+from semnav_agents.planning.doorway import target_behind
+from semnav_agents.planning.obstacles import points_of_segments
+from semnav_agents.planning.path import joined
+from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
 from semnav_env.robots import SPOT, WHEELCHAIR
+from semnav_features.frames import compose, to_local
+from semnav_features.scene import Door
 from tests.support.kinematics import (
     HALLWAY_STARTS,
     around,

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from semnav_env.agents.evaluation import provenance as made_by
+from semnav_agents.evaluation import provenance as made_by
 
 MODULE = '''"""Of a module."""
 
@@ -75,8 +75,8 @@ def test_a_copy_of_the_sources_has_their_fingerprint(package: Path) -> None:
         ("rules.py", "stand_off: Length = 0.9", "stand_off: Length = 0.8"),
         ("grounding/goals.py", "import annotations", "import annotations, division"),
         ("verifier/verifier.py", "import annotations", "import annotations, division"),
-        ("features/extraction.py", "import annotations", "import annotations, division"),
-        ("features/kernels/doors.py", "import annotations", "import annotations, division"),
+        ("semnav_features/extraction.py", "import annotations", "import annotations, division"),
+        ("semnav_features/kernels/doors.py", "import annotations", "import annotations, division"),
         ("commands/english.json", "door", "gate"),
     ],
 )

@@ -18,13 +18,13 @@ if "ray" not in sys.modules:
     os.environ |= {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER": "0"}
 ray = pytest.importorskip("ray", reason='needs the extra "ray", in an environment of its own')
 
-from semnav_env.agents.learned import LearnedAgent  # noqa: E402
-from semnav_env.agents.learning.compact import COMPACT_SIZE  # noqa: E402
-from semnav_env.agents.learning.files import load_tensors  # noqa: E402
-from semnav_env.agents.learning.presets import PRESETS, PPOSettings  # noqa: E402
-from semnav_env.agents.learning.rllib.options import RayOptions  # noqa: E402
-from semnav_env.agents.learning.rllib.start import start_training  # noqa: E402
-from semnav_env.agents.learning.rllib.weights import RLLIB_FILE  # noqa: E402
+from semnav_agents.learned import LearnedAgent  # noqa: E402
+from semnav_agents.learning.compact import COMPACT_SIZE  # noqa: E402
+from semnav_agents.learning.files import load_tensors  # noqa: E402
+from semnav_agents.learning.presets import PRESETS, PPOSettings  # noqa: E402
+from semnav_agents.learning.rllib.options import RayOptions  # noqa: E402
+from semnav_agents.learning.rllib.start import start_training  # noqa: E402
+from semnav_agents.learning.rllib.weights import RLLIB_FILE  # noqa: E402
 
 TINY = replace(
     PRESETS["hallway"],

@@ -8,22 +8,22 @@ import pytest
 
 pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 
-from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver
-from semnav_env.agents.learning.files import AGENT_FILE
-from semnav_env.agents.learning.preset_envs import options_of_body
-from semnav_env.agents.learning.presets import PRESETS
-from semnav_env.agents.learning.rllib.options import RayOptions
-from semnav_env.agents.learning.rllib.runner_env import runner_envs
-from semnav_env.agents.learning.rllib.start import start_training
-from semnav_env.agents.learning.rllib.weights import (
+from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver
+from semnav_agents.learning.files import AGENT_FILE
+from semnav_agents.learning.preset_envs import options_of_body
+from semnav_agents.learning.presets import PRESETS
+from semnav_agents.learning.rllib.options import RayOptions
+from semnav_agents.learning.rllib.runner_env import runner_envs
+from semnav_agents.learning.rllib.start import start_training
+from semnav_agents.learning.rllib.weights import (
     RLlibState,
     beginning,
     policy_from,
 )
-from semnav_env.agents.learning.training import LOGGED_KEYS
+from semnav_agents.learning.training import LOGGED_KEYS
 from semnav_env.robots import robot_spec
-from semnav_env.scripts import main as cli
 from semnav_env.vector import SemNavVectorEnv
+from semnav_scripts import main as cli
 
 BRIEF = replace(PRESETS["hallway"], max_seconds=0.5, envs=6)
 

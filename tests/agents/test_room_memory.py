@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.agents.learning.room_memory import (
+from semnav_agents.learning.room_memory import (
     NO_HIT,
     PROBED_MOVES,
     SECTORS,

@@ -13,10 +13,10 @@ sb3 = pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 from stable_baselines3.common.evaluation import evaluate_policy  # noqa: E402
 from stable_baselines3.common.vec_env import DummyVecEnv, VecEnv, VecMonitor  # noqa: E402
 
-from semnav_env.agents.learning.compact import COMPACT_SIZE, CompactObserver  # noqa: E402
-from semnav_env.agents.learning.preset_envs import dealt, preset_envs  # noqa: E402
-from semnav_env.agents.learning.presets import PRESETS  # noqa: E402
-from semnav_env.agents.learning.sb3_vec_env import as_sb3_vec_env  # noqa: E402
+from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver  # noqa: E402
+from semnav_agents.learning.preset_envs import dealt, preset_envs  # noqa: E402
+from semnav_agents.learning.presets import PRESETS  # noqa: E402
+from semnav_agents.learning.sb3_vec_env import as_sb3_vec_env  # noqa: E402
 from semnav_env.env import SemNavEnv  # noqa: E402
 from semnav_env.episodes import load_episodes  # noqa: E402
 from semnav_env.vector import SemNavVectorEnv  # noqa: E402
@@ -215,7 +215,7 @@ def test_each_environment_of_a_split_stays_in_its_floor_plans():
 def test_without_stable_baselines3_the_extra_is_named():
     program = (
         "import sys; sys.modules['stable_baselines3'] = None;"
-        "from semnav_env.agents.learning.sb3_vec_env import as_sb3_vec_env"
+        "from semnav_agents.learning.sb3_vec_env import as_sb3_vec_env"
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert run.stderr.splitlines()[-1].endswith('pip install "semnav-env[rl]"')

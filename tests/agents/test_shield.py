@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.agents.learning.shield import Shield
+from semnav_agents.learning.shield import Shield
 from semnav_env.robots import ROBOTS
 
 HERE = (0.0, 0.0, 0.0)

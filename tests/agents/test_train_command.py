@@ -13,18 +13,18 @@ import pytest
 pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 pytest.importorskip("torch", reason='needs the extra "rl"')
 
-from semnav_env.agents.learning.cloning import EPOCHS
-from semnav_env.agents.learning.files import (
+from semnav_agents.learning.cloning import EPOCHS
+from semnav_agents.learning.files import (
     AGENT_FILE,
     POLICY_FILE,
     TRAINING_FILE,
     AgentDescription,
     load_tensors,
 )
-from semnav_env.agents.learning.presets import PRESETS
-from semnav_env.agents.learning.training import Trainer
-from semnav_env.features.sole_writer import sole_writer
-from semnav_env.scripts import main as cli
+from semnav_agents.learning.presets import PRESETS
+from semnav_agents.learning.training import Trainer
+from semnav_features.sole_writer import sole_writer
+from semnav_scripts import main as cli
 from tests.support.paths import ROOT
 from tests.support.tiny_training import TINY, same
 
@@ -134,11 +134,11 @@ def test_a_batch_that_does_not_divide_a_rollout_is_no_warning(tmp_path):
 
 TRAIN_TINY = """
 import sys
-from semnav_env.agents.learning.presets import PRESETS
-from semnav_env.features.sole_writer import sole_writer
+from semnav_agents.learning.presets import PRESETS
+from semnav_features.sole_writer import sole_writer
 from tests.support.tiny_training import TINY
 PRESETS["tiny"] = TINY
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 sys.exit(main(["train", "tiny", "--steps", "1000000000", "--out", sys.argv[1]]))
 """
 
@@ -169,7 +169,7 @@ def test_a_hearing_training_is_refused_in_a_folder_in_use(capsys, tmp_path):
 
 
 def test_without_the_extra_the_error_says_what_to_install(capsys, tmp_path, monkeypatch):
-    monkeypatch.delitem(sys.modules, "semnav_env.agents.learning.training")
+    monkeypatch.delitem(sys.modules, "semnav_agents.learning.training")
     monkeypatch.setitem(sys.modules, "stable_baselines3", None)
     code, _, err = run(capsys, "train", "quick", "--out", tmp_path / "none")
     assert code == 2

@@ -15,10 +15,10 @@ import pytest
 pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 torch = pytest.importorskip("torch", reason='needs the extra "rl"')
 
-from semnav_env.agents.learned import LearnedAgent  # noqa: E402
-from semnav_env.agents.learning.cloning import EPOCHS  # noqa: E402
-from semnav_env.agents.learning.compact import CompactObserver  # noqa: E402
-from semnav_env.agents.learning.files import (  # noqa: E402
+from semnav_agents.learned import LearnedAgent  # noqa: E402
+from semnav_agents.learning.cloning import EPOCHS  # noqa: E402
+from semnav_agents.learning.compact import CompactObserver  # noqa: E402
+from semnav_agents.learning.files import (  # noqa: E402
     AGENT_FILE,
     CURVE_FILE,
     POLICY_FILE,
@@ -27,9 +27,9 @@ from semnav_env.agents.learning.files import (  # noqa: E402
     load_tensors,
     save_tensors,
 )
-from semnav_env.agents.learning.imitation import load_demonstrations  # noqa: E402
-from semnav_env.agents.learning.presets import PRESETS  # noqa: E402
-from semnav_env.agents.learning.training import Trainer  # noqa: E402
+from semnav_agents.learning.imitation import load_demonstrations  # noqa: E402
+from semnav_agents.learning.presets import PRESETS  # noqa: E402
+from semnav_agents.learning.training import Trainer  # noqa: E402
 from semnav_env.metrics import spl  # noqa: E402
 from tests.support.paths import ROOT  # noqa: E402
 from tests.support.tiny_training import (  # noqa: E402
@@ -155,10 +155,10 @@ def test_a_full_disk_leaves_the_last_checkpoint(tmp_path, monkeypatch):
 TRAIN_LONG = """
 import sys
 from dataclasses import replace
-from semnav_env.agents.learning.presets import PRESETS
+from semnav_agents.learning.presets import PRESETS
 from tests.agents.test_training import LONG
 PRESETS["long"] = LONG
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 sys.exit(main(["train", "long", "--out", sys.argv[1], "--steps", sys.argv[2], *sys.argv[3:]]))
 """
 

@@ -8,24 +8,24 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from semnav_env.agents.translating import interpreter
-from semnav_env.agents.translating.files import (
+from semnav_agents.translating import interpreter
+from semnav_agents.translating.files import (
     BUNDLED_FOLDER,
     CARD_FILE,
     WEIGHTS_FILE,
     load_translator,
     save_translator,
 )
-from semnav_env.agents.translating.interpreter import (
+from semnav_agents.translating.interpreter import (
     DoubtLimits,
     LearnedInterpreter,
     TranslationQuestionError,
 )
-from semnav_env.agents.translating.masking import MAX_VALUES, masked
-from semnav_env.agents.translating.network import TranslatorNetwork, TranslatorShape
-from semnav_env.agents.translating.programs import UnsayableError, command_of, symbols_of
-from semnav_env.agents.translating.support import TextSupport
-from semnav_env.agents.translating.translator import MAX_TRANSLATED_WORDS, translate
+from semnav_agents.translating.masking import MAX_VALUES, masked
+from semnav_agents.translating.network import TranslatorNetwork, TranslatorShape
+from semnav_agents.translating.programs import UnsayableError, command_of, symbols_of
+from semnav_agents.translating.support import TextSupport
+from semnav_agents.translating.translator import MAX_TRANSLATED_WORDS, translate
 from semnav_env.commands import (
     AmbiguousCommandError,
     Command,
@@ -283,7 +283,7 @@ def test_a_broken_card_is_named(tmp_path) -> None:
 def test_asking_needs_no_torch() -> None:
     code = (
         "import sys\n"
-        "from semnav_env.agents.translating.interpreter import LearnedInterpreter\n"
+        "from semnav_agents.translating.interpreter import LearnedInterpreter\n"
         "try: LearnedInterpreter().interpret('mosey to the third door')\n"
         "except ValueError: pass\n"
         "assert 'torch' not in sys.modules"

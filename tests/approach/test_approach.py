@@ -16,12 +16,12 @@ from semnav_env.approach import (
 )
 from semnav_env.approach.in_plan import side_towards
 from semnav_env.approach.poses import body_at
-from semnav_env.features import Scan, extract
-from semnav_env.features.frames import Pose, compose, points_to_parent
-from semnav_env.features.scene import Door
 from semnav_env.maps import load_floor_plan
 from semnav_env.robots import ROBOTS, SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.simulator import RobotSetup, Simulator
+from semnav_features import Scan, extract
+from semnav_features.frames import Pose, compose, points_to_parent
+from semnav_features.scene import Door
 
 VILLA = load_floor_plan("villa_hall")
 AROUND = Surroundings.of_plan(VILLA)

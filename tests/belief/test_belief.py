@@ -11,15 +11,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.agents.base import steps
-from semnav_env.agents.registry import make_agent
+from semnav_agents.base import steps
+from semnav_agents.registry import make_agent
 from semnav_env.belief import BeliefTracker
 from semnav_env.belief.log_following import follow_log
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.features.readers import LogRecord
-from semnav_env.features.scan import Scan
-from semnav_env.scripts.main import main
+from semnav_features.readers import LogRecord
+from semnav_features.scan import Scan
+from semnav_scripts.main import main
 from tests.support import robots_side
 from tests.support.paths import ROOT
 from tests.support.robots_side import Recorded, described

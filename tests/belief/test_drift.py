@@ -9,22 +9,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.agents.base import steps
-from semnav_env.agents.registry import make_agent
+from semnav_agents.base import steps
+from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.features import extract
-from semnav_env.features.frames import FloatArray, Pose, compose, relative, to_parent
-from semnav_env.features.kernels.drift import (
-    MAX_LANDMARK_OFFSET,
-    MIN_LANDMARK_SIGHTINGS,
-)
-from semnav_env.features.kernels.lanes import WIDTH
-from semnav_env.features.kernels.remembered import WALL_ROWS
-from semnav_env.features.kernels.scene_drift import without_drift
-from semnav_env.features.memory import SceneMemory
 from semnav_env.lidar import Lidar
 from semnav_env.maps import load_floor_plan
 from semnav_env.simulator.odometry import OdometrySettings
+from semnav_features import extract
+from semnav_features.frames import FloatArray, Pose, compose, relative, to_parent
+from semnav_features.kernels.drift import (
+    MAX_LANDMARK_OFFSET,
+    MIN_LANDMARK_SIGHTINGS,
+)
+from semnav_features.kernels.lanes import WIDTH
+from semnav_features.kernels.remembered import WALL_ROWS
+from semnav_features.kernels.scene_drift import without_drift
+from semnav_features.memory import SceneMemory
 
 ROOM = np.array([(4, 3, -4, 3), (-4, 3, -4, -3), (-4, -3, 4, -3), (4, -3, 4, 3)], dtype=float)
 CORRIDOR = ROOM[[0, 2]]

@@ -9,10 +9,10 @@ import pytest
 
 from semnav_env.belief.log_following import follow_log, lidar_of
 from semnav_env.commands import parse
-from semnav_env.features import Scan
-from semnav_env.features.frames import Pose, compose
-from semnav_env.features.lidar_spec import LidarSpec
-from semnav_env.features.readers import LogError, LogRecord
+from semnav_features import Scan
+from semnav_features.frames import Pose, compose
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.readers import LogError, LogRecord
 
 BACKWARDS = (0.2, 0.1, math.pi)
 """A mount of the lidar."""

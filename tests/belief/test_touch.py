@@ -11,20 +11,20 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from semnav_env.agents.registry import make_agent
+from semnav_agents.registry import make_agent
 from semnav_env.belief import BeliefTracker
 from semnav_env.belief.bump_limits import LIMITS, MOST_PIECES
 from semnav_env.belief.bump_map import BumpMap
 from semnav_env.belief.understand import LOOK_DUE, understand
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import MOST_CONTACTS, Contact, Pose, points_to_parent, to_parent
-from semnav_env.features.lidar_spec import lidar_spec
-from semnav_env.features.scene import Door, Scene
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_env.observations import table
 from semnav_env.robots import ROBOTS
 from semnav_env.world import World
+from semnav_features.frames import MOST_CONTACTS, Contact, Pose, points_to_parent, to_parent
+from semnav_features.lidar_spec import lidar_spec
+from semnav_features.scene import Door, Scene
 from tests.support.small_plans import closed, plan_of
 
 SPEC = lidar_spec("tim561")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from semnav_env.agents.translating.interpreter import understand
+from semnav_agents.translating.interpreter import understand
 from semnav_env.commands import parse
 from semnav_env.commands.corpora import (
     ParseOutcome,
@@ -19,7 +19,7 @@ from semnav_env.commands.corpora import (
 from semnav_env.commands.corpora.meanings import meaning_of, normal
 from semnav_env.commands.corpora.notation import read_meaning
 from semnav_env.commands.corpora.sentences import Sentence
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 
 FROZEN = {
     "english": "c6715a0370b6e6dec67ecacbe6edee88a9997e0dc590327c044b2aa12eaa3c81",

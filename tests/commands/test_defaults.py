@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from semnav_env.agents.translating.interpreter import LearnedInterpreter, understand
+from semnav_agents.translating.interpreter import LearnedInterpreter, understand
 from semnav_env.commands import (
     AmbiguousCommandError,
     Approach,
@@ -21,7 +21,7 @@ from semnav_env.commands import (
 from semnav_env.env import SemNavEnv
 from semnav_env.grounding import ground
 from semnav_env.maps import load_floor_plan
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 
 THROUGH = {
     "second door on the right": "go through the second door on the right",

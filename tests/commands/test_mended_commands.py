@@ -4,8 +4,8 @@ import pytest
 
 from semnav_env.commands import AmbiguousCommandError, CommandError, parse, readings
 from semnav_env.episodes import load_episodes
-from semnav_env.scripts.ground import understood
 from semnav_env.tasks.request import EpisodeRequest
+from semnav_scripts.ground import understood
 
 ROOMS = ("lab", "office", "kitchen")
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.agents.translating.interpreter import understand
+from semnav_agents.translating.interpreter import understand
 from semnav_env.commands import CommandError, parse, readings
 
 FIRST = {

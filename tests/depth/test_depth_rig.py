@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.depth import DepthRig, FaceKind, raise_plan
-from semnav_env.features.frames import compose
 from semnav_env.maps import load_floor_plan
+from semnav_features.frames import compose
 from tests.support.raised_plans import exact_camera, exact_rig, walled_door
 from tests.support.small_plans import empty_hall
 

@@ -13,10 +13,10 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
-from semnav_env.agents.evaluation import run_suite, suite
+from semnav_agents.evaluation import run_suite, suite
 from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.env import SemNavEnv
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 from tests.support.episodes import actions, digest, rollout
 from tests.support.paths import ROOT
 

@@ -16,11 +16,11 @@ from gymnasium.utils.env_checker import check_env
 import semnav_env
 from semnav_env.commands import CommandError
 from semnav_env.env import SemNavEnv
-from semnav_env.features.memory import SceneMemory
 from semnav_env.grounding import GroundingError
 from semnav_env.maps import bundled_names
 from semnav_env.observations import MODES
 from semnav_env.robots import ROBOTS
+from semnav_features.memory import SceneMemory
 from tests.support.episodes import START, actions, fresh
 
 CROSS = {"floor_plan": "office_cross"}
@@ -196,7 +196,7 @@ def test_bad_arguments_list_what_would_have_worked(arguments: dict, words: str) 
         ("observation", "there are: semantic"),
         ("lidar", "there are: tim561"),
         ("odometry", "there are: usual, exact"),
-        ("extractor", "it must be a semnav_env.features.settings.ExtractorSettings"),
+        ("extractor", "it must be a semnav_features.settings.ExtractorSettings"),
         ("rewards", "it must be a semnav_env.tasks.RewardWeights"),
         ("dynamics", "it must be a semnav_env.dynamics.settings.Dynamics"),
         ("render_mode", "there are: rgb_array"),

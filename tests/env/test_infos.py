@@ -9,11 +9,11 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
-from semnav_env.agents.oracle import OracleAgent
+from semnav_agents.oracle import OracleAgent
 from semnav_env.env import SemNavEnv
-from semnav_env.features.lidar_spec import TIM561, LidarSpec
 from semnav_env.robots import SPOT, RobotSpec
 from semnav_env.tasks import RandomisedRobot
+from semnav_features.lidar_spec import TIM561, LidarSpec
 
 MAX_PICKLED_BYTES = 2000
 """Largest size of an `info` as it is sent, bytes."""

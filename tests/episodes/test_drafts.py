@@ -34,8 +34,6 @@ from semnav_env.episodes.generate import (
 from semnav_env.episodes.random_clauses import CommandTopic
 from semnav_env.episodes.site import LARGEST_BODY, Site
 from semnav_env.episodes.wording import worded
-from semnav_env.features.corridor import corridor_at
-from semnav_env.features.frames import Pose, to_local
 from semnav_env.grounding import Goal, ReachGoal
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import is_clear, placement_error
@@ -43,6 +41,8 @@ from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.tasks.starts import LEAST_AHEAD, WIDEST_HALF, is_in_junction, sample_start
 from semnav_env.verifier import Verdict, Verifier, plan_goals, plan_mission
 from semnav_env.verifier.recheck import recheck
+from semnav_features.corridor import corridor_at
+from semnav_features.frames import Pose, to_local
 from tests.support.erring import ghost, targets
 
 OFFICE = "office:medium:2000017"

@@ -30,8 +30,8 @@ from semnav_env.episodes.fingerprint import fingerprint
 from semnav_env.episodes.generate import generate_split
 from semnav_env.episodes.random_clauses import topics_of
 from semnav_env.maps import generate_office, load_floor_plan
-from semnav_env.scripts.main import main
 from semnav_env.verifier import Verdict
+from semnav_scripts.main import main
 from tests.support.paths import DATA
 
 EPISODE = Episode(

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import Arc, ExtractorSettings, Scan, extract
-from semnav_env.features.frames import FloatArray, Point, Pose
-from semnav_env.features.kernels.circles import NO_RAY, algebraic_circle, refine_circle
+from semnav_features import Arc, ExtractorSettings, Scan, extract
+from semnav_features.frames import FloatArray, Point, Pose
+from semnav_features.kernels.circles import NO_RAY, algebraic_circle, refine_circle
 from tests.support.raycaster import polygon, polyline, scan_of
 from tests.support.strategies import Room, rooms
 

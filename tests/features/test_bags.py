@@ -12,7 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features.readers import Geometry, LogError, TruncatedLogError, open_log
+from semnav_features.readers import Geometry, LogError, TruncatedLogError, open_log
 
 pytest.importorskip("rosbags", reason="the extra `ros` is not installed")
 

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import ExtractorSettings, Scan, extract
-from semnav_env.features.extraction import beam_directions
-from semnav_env.features.kernels.scratch import allocate_scratch
-from semnav_env.features.kernels.segmentation import group_points
-from semnav_env.features.strategies import BreakpointRule, strategy_names
+from semnav_features import ExtractorSettings, Scan, extract
+from semnav_features.extraction import beam_directions
+from semnav_features.kernels.scratch import allocate_scratch
+from semnav_features.kernels.segmentation import group_points
+from semnav_features.strategies import BreakpointRule, strategy_names
 from tests.numpy_oracle.breakpoints import threshold
 from tests.numpy_oracle.sweep import Sweep
 from tests.support.raycaster import heidelberg, scan_of

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features.readers import Geometry, LogError, TruncatedLogError, open_log
+from semnav_features.readers import Geometry, LogError, TruncatedLogError, open_log
 from tests.support.paths import DATA
 
 INTEL = DATA / "carmen" / "intel-corrected.log.gz"

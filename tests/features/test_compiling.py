@@ -11,9 +11,9 @@ from weakref import ref
 import numpy as np
 import pytest
 
-from semnav_env.features.kernels import cache_key
-from semnav_env.features.kernels.compile_notice import PATIENCE, CompileNotice
-from semnav_env.features.kernels.compiling import kernel
+from semnav_features.kernels import cache_key
+from semnav_features.kernels.compile_notice import PATIENCE, CompileNotice
+from semnav_features.kernels.compiling import kernel
 from tests.support.paths import ROOT
 from tests.support.small_kernels import (
     counting,
@@ -176,14 +176,18 @@ def test_a_place_that_cannot_be_written_to_is_replaced(tmp_path):
 
 
 KERNEL_MODULE = (
-    "from semnav_env.features.kernels.compiling import kernel\n"
+    "from semnav_features.kernels.compiling import kernel\n"
     "from semnav_env.lidar.limits import LIMIT\n"
 )
 
 
 def test_an_edit_counts_where_a_kernel_imports_it_and_nowhere_else(monkeypatch):
     def key(limit, unrelated):
-        sources = {"a/kernels": KERNEL_MODULE, "lidar/limits": limit, "scripts/main": unrelated}
+        sources = {
+            "a/kernels": KERNEL_MODULE,
+            "lidar/limits": limit,
+            "semnav_scripts/main": unrelated,
+        }
         monkeypatch.setattr(cache_key, "installed_sources", lambda: iter(sources.items()))
         return cache_key.version_key()
 
@@ -193,8 +197,13 @@ def test_an_edit_counts_where_a_kernel_imports_it_and_nowhere_else(monkeypatch):
 def test_the_modules_behind_kernels_are_found():
     sources = dict(cache_key.installed_sources())
     behind = cache_key.behind_kernels(sources)
-    assert {"agents/planning/search", "belief/understand", "features/frames", "rules"} <= behind
-    assert behind.isdisjoint({"env", "scripts/main", "rendering/viewer"})
+    assert {
+        "semnav_agents/planning/search",
+        "belief/understand",
+        "semnav_features/frames",
+        "rules",
+    } <= behind
+    assert behind.isdisjoint({"env", "semnav_scripts/main", "rendering/viewer"})
 
 
 def test_long_compiling_is_announced_once_and_short_is_not(capsys, monkeypatch):
@@ -210,6 +219,6 @@ def test_long_compiling_is_announced_once_and_short_is_not(capsys, monkeypatch):
 
 
 def test_numba_offers_what_the_kernels_use():
-    from semnav_env.features.kernels.compiling import NUMBA_FITS
+    from semnav_features.kernels.compiling import NUMBA_FITS
 
     assert NUMBA_FITS

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features.corridor import corridor_at, doorway_at
-from semnav_env.features.frames import Pose, compose, wrap_angle
-from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.maps import load_floor_plan
+from semnav_features.corridor import corridor_at, doorway_at
+from semnav_features.frames import Pose, compose, wrap_angle
+from semnav_features.scene import Door, Scene, Wall
 from tests.support.corridors import START, ways_on, with_walls
 from tests.support.hand_made import L_LEFT, ROOM, SIDE_ARMS, T_JUNCTION, X_JUNCTION, corridor
 

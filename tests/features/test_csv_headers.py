@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.features.readers import Geometry, LogError
+from semnav_features.readers import Geometry, LogError
 from tests.features.test_tables import FORWARD, read, written
 
 ROSTOPIC = """\

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import CornerKind, ExtractorSettings, Scan, extract
-from semnav_env.features.frames import points_to_parent
-from semnav_env.features.kernels.curvature import MIN_TURN, cut_where_it_turns
-from semnav_env.features.kernels.scratch import allocate_scratch
+from semnav_features import CornerKind, ExtractorSettings, Scan, extract
+from semnav_features.frames import points_to_parent
+from semnav_features.kernels.curvature import MIN_TURN, cut_where_it_turns
+from semnav_features.kernels.scratch import allocate_scratch
 from tests.numpy_oracle import extract_reference
 from tests.support.raycaster import polyline, scan_of
 from tests.support.strategies import Opening, Room, awkward_scans, openings, rooms

@@ -8,9 +8,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features.frames import FloatArray, Point, Pose, middle_of, to_local, wrap_angle
-from semnav_env.features.kernels.corridor_survey import PROBE_COUNT
-from semnav_env.features.kernels.door_counting import (
+from semnav_features.frames import FloatArray, Point, Pose, middle_of, to_local, wrap_angle
+from semnav_features.kernels.corridor_survey import PROBE_COUNT
+from semnav_features.kernels.door_counting import (
     AHEAD,
     COUNTED,
     LEFT,

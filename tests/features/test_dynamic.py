@@ -7,10 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from semnav_env.features import ExtractorSettings, Scan, extract
-from semnav_env.features.frames import points_to_parent
-from semnav_env.features.kernels.optimal_partition import PIECE_PRICE, partition
-from semnav_env.features.kernels.scratch import allocate_scratch
+from semnav_features import ExtractorSettings, Scan, extract
+from semnav_features.frames import points_to_parent
+from semnav_features.kernels.optimal_partition import PIECE_PRICE, partition
+from semnav_features.kernels.scratch import allocate_scratch
 from tests.numpy_oracle import extract_reference
 from tests.support.raycaster import heidelberg, scan_of
 from tests.support.strategies import Room, awkward_scans, rooms

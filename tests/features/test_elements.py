@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from semnav_env.features import Arc, Scene, Wall
+from semnav_features import Arc, Scene, Wall
 
 
 def test_a_column_spans_the_half_that_faces_the_scanner() -> None:

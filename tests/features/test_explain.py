@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import CornerKind, ExtractorSettings, Rejection, Scan, Scene, extract
-from semnav_env.features.frames import FloatArray
+from semnav_features import CornerKind, ExtractorSettings, Rejection, Scan, Scene, extract
+from semnav_features.frames import FloatArray
 from tests.support.raycaster import polyline, scan_of
 from tests.support.strategies import Opening, Room, awkward_scans, openings, rooms
 

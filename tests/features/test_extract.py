@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import CornerKind, Door, ExtractorSettings, Scan, Scene, Wall, extract
-from semnav_env.features.frames import Point, to_local
+from semnav_features import CornerKind, Door, ExtractorSettings, Scan, Scene, Wall, extract
+from semnav_features.frames import Point, to_local
 from tests.support.raycaster import full_circle, heidelberg, polygon, polyline, scan_of
 from tests.support.strategies import Opening, Room, openings, rooms
 

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import CornerKind, extract
-from semnav_env.features.frames import Point
+from semnav_features import CornerKind, extract
+from semnav_features.frames import Point
 from tests.numpy_oracle.corners import corner_kind
 from tests.support.raycaster import polyline, scan_of
 

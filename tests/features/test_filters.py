@@ -10,12 +10,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import ExtractorSettings, Scan, Scene, extract
-from semnav_env.features.extraction import beam_directions
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.filters import filter_ranges
-from semnav_env.features.kernels.full_circle import count_beams_per_turn
-from semnav_env.features.kernels.scratch import allocate_scratch
+from semnav_features import ExtractorSettings, Scan, Scene, extract
+from semnav_features.extraction import beam_directions
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.filters import filter_ranges
+from semnav_features.kernels.full_circle import count_beams_per_turn
+from semnav_features.kernels.scratch import allocate_scratch
 from tests.numpy_oracle.filters import filtered
 from tests.numpy_oracle.sweep import Sweep
 from tests.support.raycaster import polyline, scan_of

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import STRtree
 
-from semnav_env.features.frames import Point, Pose, to_parent
 from semnav_env.maps.importers.fitting import fit_door
 from semnav_env.maps.importers.labels import DoorLabel
+from semnav_features.frames import Point, Pose, to_parent
 
 metres = st.floats(-20.0, 20.0)
 poses = st.tuples(metres, metres, st.floats(-math.pi, math.pi))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.memory import MAX_DOORS, MAX_WALLS, SceneMemory
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Scene
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.memory import MAX_DOORS, MAX_WALLS, SceneMemory
+from semnav_features.scan import Scan
+from semnav_features.scene import Scene
 from tests.support.remembering import (
     ANGLES,
     DOOR_A,

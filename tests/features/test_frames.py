@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numba import njit
 
-from semnav_env.features.frames import wrap_angle
+from semnav_features.frames import wrap_angle
 
 half_turns = st.integers(-40, 40).map(lambda n: n * math.pi)
 

@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import CornerKind, Scan, Scene, extract
-from semnav_env.features.extraction import beam_directions
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.kernels.chain import extract_arrays
-from semnav_env.features.kernels.layout import WALLS
-from semnav_env.features.kernels.scratch import allocate_features, allocate_scratch
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features import CornerKind, Scan, Scene, extract
+from semnav_features.extraction import beam_directions
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.chain import extract_arrays
+from semnav_features.kernels.layout import WALLS
+from semnav_features.kernels.scratch import allocate_features, allocate_scratch
+from semnav_features.settings import ExtractorSettings
 from tests.support.raycaster import cast, heidelberg, polyline, scan_of
 from tests.support.strategies import Opening, Room, openings, rooms
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from scipy.sparse import lil_array
 from scipy.sparse.csgraph import dijkstra
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.grid_search import descent, least_costs
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.grid_search import descent, least_costs
 
 DIAGONAL = math.sqrt(2.0)
 

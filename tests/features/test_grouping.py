@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features import ExtractorSettings
-from semnav_env.features.extraction import beam_directions
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.breakpoints import breakpoint_terms
-from semnav_env.features.kernels.lanes import WIDTH
-from semnav_env.features.kernels.lines import farthest
-from semnav_env.features.kernels.scratch import allocate_scratch
-from semnav_env.features.kernels.segmentation import group_points
-from semnav_env.features.strategies import BreakpointRule, strategy_names
+from semnav_features import ExtractorSettings
+from semnav_features.extraction import beam_directions
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.breakpoints import breakpoint_terms
+from semnav_features.kernels.lanes import WIDTH
+from semnav_features.kernels.lines import farthest
+from semnav_features.kernels.scratch import allocate_scratch
+from semnav_features.kernels.segmentation import group_points
+from semnav_features.strategies import BreakpointRule, strategy_names
 
 RANGE_MIN, LIMIT, INCREMENT = 0.05, 10.0, math.radians(0.5)
 

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numba.core.errors import TypingError
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels import lanes
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.lanes import (
+from semnav_features.frames import FloatArray
+from semnav_features.kernels import lanes
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.lanes import (
     WIDTH,
     first_lanes,
     larger,

@@ -5,9 +5,9 @@ import pickle
 import numpy as np
 import pytest
 
-from semnav_env.features.elements import CorridorProbe
-from semnav_env.features.kernels.layout import CORRIDOR
-from semnav_env.features.lazy_items import LazyItems
+from semnav_features.elements import CorridorProbe
+from semnav_features.kernels.layout import CORRIDOR
+from semnav_features.lazy_items import LazyItems
 
 ROWS = [(0.0, 1.0, 2.0, 3.0), (4.0, 5.0, 6.0, 7.0)]
 ITEMS = tuple(CorridorProbe((a, b), (c, d)) for a, b, c, d in ROWS)

@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, box
 
-from semnav_env.features import Scene, extract
-from semnav_env.features.frames import compose
-from semnav_env.features.mapping import KeyframeRule, LineMap, MapSettings, ScanOdometry
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, Surface, load_floor_plan
+from semnav_features import Scene, extract
+from semnav_features.frames import compose
+from semnav_features.mapping import KeyframeRule, LineMap, MapSettings, ScanOdometry
 
 metres = st.floats(-5.0, 5.0)
 poses = st.tuples(metres, metres, st.floats(-math.pi, math.pi))

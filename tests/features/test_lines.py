@@ -9,8 +9,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import ExtractorSettings, Scan, Wall, extract
-from semnav_env.features.frames import Point
+from semnav_features import ExtractorSettings, Scan, Wall, extract
+from semnav_features.frames import Point
 from tests.support.raycaster import polyline, scan_of
 
 coordinates = st.floats(-10.0, 10.0)

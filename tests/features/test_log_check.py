@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.features import Scan
-from semnav_env.features.frames import Pose
-from semnav_env.features.readers import LogCheck, LogRecord, open_log
-from semnav_env.features.readers.log_check import PoseSource
+from semnav_features import Scan
+from semnav_features.frames import Pose
+from semnav_features.readers import LogCheck, LogRecord, open_log
+from semnav_features.readers.log_check import PoseSource
 from tests.support.paths import DATA
 
 REAL_LOGS = (*sorted(DATA.glob("carmen/*.log.gz")), *DATA.glob("breezyslam/*.dat.gz"))

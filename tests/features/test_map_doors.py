@@ -10,15 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import box
 
-from semnav_env.features import ExtractorSettings
-from semnav_env.features.elements import Door
-from semnav_env.features.frames import compose, to_local, to_parent
-from semnav_env.features.mapping import MapSettings
-from semnav_env.features.mapping.doorway import DoorwayEvidence
-from semnav_env.features.mapping.map_door import MapDoor
-from semnav_env.features.mapping.map_doors import MapDoors
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, Surface
+from semnav_features import ExtractorSettings
+from semnav_features.elements import Door
+from semnav_features.frames import compose, to_local, to_parent
+from semnav_features.mapping import MapSettings
+from semnav_features.mapping.doorway import DoorwayEvidence
+from semnav_features.mapping.map_door import MapDoor
+from semnav_features.mapping.map_doors import MapDoors
 from studies.doors.map_doors import findings, map_sheets, mapped
 from studies.doors.openings import LabelledOpening, read_openings
 from studies.doors.real_doors import FREIBURG, FREIBURG_LABELS

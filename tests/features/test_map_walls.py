@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features import Scan, extract
-from semnav_env.features.elements import Wall
-from semnav_env.features.frames import ORIGIN, to_parent
-from semnav_env.features.mapping import LineMap, MapSettings
-from semnav_env.features.mapping.duplicate_walls import without_duplicates
-from semnav_env.features.mapping.line_cells import CELL_LENGTH
-from semnav_env.features.mapping.lines import Line, fuse, gap, line_of
-from semnav_env.features.mapping.map_wall import MapWall
+from semnav_features import Scan, extract
+from semnav_features.elements import Wall
+from semnav_features.frames import ORIGIN, to_parent
+from semnav_features.mapping import LineMap, MapSettings
+from semnav_features.mapping.duplicate_walls import without_duplicates
+from semnav_features.mapping.line_cells import CELL_LENGTH
+from semnav_features.mapping.lines import Line, fuse, gap, line_of
+from semnav_features.mapping.map_wall import MapWall
 
 small = st.floats(-0.02, 0.02)
 metres = st.floats(-5.0, 5.0)

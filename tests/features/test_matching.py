@@ -12,15 +12,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import box
 
-from semnav_env.features import Scan
-from semnav_env.features.frames import compose, relative
-from semnav_env.features.lidar_spec import TIM561
-from semnav_env.features.mapping import MatchError, MatchSettings, match_scans
-from semnav_env.features.mapping.matching import without_place
-from semnav_env.features.readers import open_log
 from semnav_env.lidar import Lidar
 from semnav_env.maps import FloorPlan, Surface, load_floor_plan
 from semnav_env.maps.importers import load_vector_map
+from semnav_features import Scan
+from semnav_features.frames import compose, relative
+from semnav_features.lidar_spec import TIM561
+from semnav_features.mapping import MatchError, MatchSettings, match_scans
+from semnav_features.mapping.matching import without_place
+from semnav_features.readers import open_log
 from studies.matching.drift import drift_of
 from studies.matching.matching import (
     CHI_SQUARE_95,

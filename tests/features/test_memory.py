@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features.frames import Pose
-from semnav_env.features.memory import SceneMemory
-from semnav_env.features.scene import ends_of
+from semnav_features.frames import Pose
+from semnav_features.memory import SceneMemory
+from semnav_features.scene import ends_of
 from tests.support.remembering import DOOR_A, DOOR_B, WALL_A, Ends, see
 
 poses = st.tuples(st.floats(-9, 9), st.floats(-9, 9), st.floats(-math.pi, math.pi))

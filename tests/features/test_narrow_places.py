@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features.corridor import corridor_at
-from semnav_env.features.frames import points_to_parent
-from semnav_env.features.kernels.narrowings import is_narrowing
-from semnav_env.features.scene import Door, PlainWalls, Scene
 from semnav_env.grounding.counted_doors import doors_along
+from semnav_features.corridor import corridor_at
+from semnav_features.frames import points_to_parent
+from semnav_features.kernels.narrowings import is_narrowing
+from semnav_features.scene import Door, PlainWalls, Scene
 
 OPENING = np.array([0.0, 0.6, 0.0, -0.6])
 

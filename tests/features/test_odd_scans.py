@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from semnav_env.features import ExtractorSettings, Scan, Scene, extract
+from semnav_features import ExtractorSettings, Scan, Scene, extract
 from tests.support.raycaster import full_circle, polyline, scan_of
 from tests.support.strategies import Room, awkward_scans
 

@@ -6,8 +6,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
 
-from semnav_env.features import Arc, Corner, CornerKind, CorridorProbe, Door, Scan, Scene, Wall
-from semnav_env.features.plot import draw_scene, save_page
+from semnav_features import Arc, Corner, CornerKind, CorridorProbe, Door, Scan, Scene, Wall
+from semnav_features.plot import draw_scene, save_page
 
 SCAN = Scan(np.full(90, 3.0), -math.pi / 4, math.pi / 180)
 SCENE = Scene(

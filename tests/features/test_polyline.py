@@ -7,9 +7,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from semnav_env.features import Scan, polylines
-from semnav_env.features.kernels.polyline_refinement import refine_vertices
-from semnav_env.features.kernels.polyline_vertices import choose_vertices
+from semnav_features import Scan, polylines
+from semnav_features.kernels.polyline_refinement import refine_vertices
+from semnav_features.kernels.polyline_vertices import choose_vertices
 
 STEP = 0.05
 MISSED = 0.4

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import DTypeLike
 
-from semnav_env.features import CornerKind, ExtractorSettings, Scan, Scene, extract
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.strategies import BreakpointRule, Segmentation, strategy_names
+from semnav_features import CornerKind, ExtractorSettings, Scan, Scene, extract
+from semnav_features.frames import FloatArray
+from semnav_features.strategies import BreakpointRule, Segmentation, strategy_names
 from studies.features.overlap import Overlap
 from tests.support.raycaster import FIELD_OF_VIEW, cast, scan_of
 from tests.support.strategies import Opening, Room, awkward_scans, openings, rooms

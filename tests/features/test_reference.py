@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import ExtractorSettings, Scan, Scene, extract
+from semnav_features import ExtractorSettings, Scan, Scene, extract
 from tests.numpy_oracle import extract_reference
 from tests.support.raycaster import heidelberg, scan_of
 from tests.support.strategies import Opening, Room, awkward_scans, openings, rooms

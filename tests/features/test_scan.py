@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from semnav_env.features import Scan
-from semnav_env.features.scan import plain_codes
+from semnav_features import Scan
+from semnav_features.scan import plain_codes
 from tests.support.strategies import awkward_scans
 
 

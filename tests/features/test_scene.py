@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features import Corner, CornerKind, CorridorProbe, Door, Scene, Wall
-from semnav_env.features.frames import Pose
+from semnav_features import Corner, CornerKind, CorridorProbe, Door, Scene, Wall
+from semnav_features.frames import Pose
 
 coordinates = st.floats(-20.0, 20.0)
 poses = st.tuples(coordinates, coordinates, st.floats(-math.pi, math.pi))

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features.kernels.selection import finite_values, value_of_rank
+from semnav_features.kernels.selection import finite_values, value_of_rank
 
 FEW_VALUES = st.sampled_from([0.5, 1.0, 1.5, 2.0])
 """Sides of corridors repeat the same few distances."""

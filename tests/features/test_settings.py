@@ -6,8 +6,8 @@ from dataclasses import FrozenInstanceError, fields
 import numpy as np
 import pytest
 
-from semnav_env.features import ExtractorSettings
-from semnav_env.features.strategies import BreakpointRule
+from semnav_features import ExtractorSettings
+from semnav_features.strategies import BreakpointRule
 
 
 def test_the_record_holds_every_field_by_name() -> None:

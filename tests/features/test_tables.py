@@ -14,7 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from semnav_env.features.readers import Geometry, LogError, TruncatedLogError, open_log
+from semnav_features.readers import Geometry, LogError, TruncatedLogError, open_log
 from tests.support.paths import DATA
 
 BREEZY = DATA / "breezyslam" / "exp1.dat.gz"

@@ -8,22 +8,22 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.kernels.drift import (
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.drift import (
     MAX_LANDMARK_OFFSET,
     MIN_LANDMARK_SIGHTINGS,
     MIN_OVERLAP,
     MIN_PARALLEL_COSINE,
     _nearest_like,
 )
-from semnav_env.features.kernels.lanes import WIDTH
-from semnav_env.features.kernels.memory import (
+from semnav_features.kernels.lanes import WIDTH
+from semnav_features.kernels.memory import (
     SAME_DIRECTION_COSINE,
     _nearly_in_line,
     _on_one_line,
     remember_wall,
 )
-from semnav_env.features.kernels.remembered import HITS, WALL_ROWS, Ends
+from semnav_features.kernels.remembered import HITS, WALL_ROWS, Ends
 
 seeds, sizes = st.integers(0, 2**32 - 1), st.integers(0, 8 * WIDTH + 3)
 

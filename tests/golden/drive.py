@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from semnav_env.agents.evaluation import run_suite
+from semnav_agents.evaluation import run_suite
 from semnav_env.episodes import evenly, load_episodes
 
 GOLDEN = Path(__file__).with_suffix(".json")

@@ -22,12 +22,12 @@ from semnav_env.commands import (
 )
 from semnav_env.commands.command import Link, links_of, room_of
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Pose
-from semnav_env.features.scene import Scene
 from semnav_env.grounding import PassGoal, SeekGoal, StopGoal
 from semnav_env.grounding.follower import Follower
 from semnav_env.maps import load_floor_plan
 from semnav_env.verifier import plan_goals
+from semnav_features.frames import Pose
+from semnav_features.scene import Scene
 from tests.support.command_strategies import commands
 from tests.support.hand_made import X_JUNCTION, corridor
 

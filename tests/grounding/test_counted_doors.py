@@ -7,12 +7,12 @@ import math
 import pytest
 
 from semnav_env.commands import Side
-from semnav_env.features.corridor import corridor_at
-from semnav_env.features.frames import Pose
-from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import GroundingError, PassGoal, ground
 from semnav_env.grounding.counted_doors import doors_along
 from semnav_env.maps import load_floor_plan
+from semnav_features.corridor import corridor_at
+from semnav_features.frames import Pose
+from semnav_features.scene import Door, Scene, Wall
 from tests.support.grounded import DOORS, QUARTER, START, clause, goal_of, middle
 from tests.support.hand_made import box, corridor
 

@@ -12,14 +12,14 @@ from shapely import box
 from semnav_env.belief import BeliefTracker
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.features import ExtractorSettings
-from semnav_env.features.frames import Pose, relative, to_parent
-from semnav_env.features.rules import DoorRules
 from semnav_env.grounding.goal import PassGoal
 from semnav_env.lidar import Lidar
 from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Surface
 from semnav_env.rules import Rules, with_doors_of
 from semnav_env.verifier import plan_goals
+from semnav_features import ExtractorSettings
+from semnav_features.frames import Pose, relative, to_parent
+from semnav_features.rules import DoorRules
 from tests.support.small_plans import closed
 
 COMMAND = "go through the second door on the right"

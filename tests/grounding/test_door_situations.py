@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.features import extract
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.scene import Door
+from semnav_features import extract
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.scene import Door
 from studies.doors.door_sightings import matches
 from tests.support.raycaster import polygon, polyline, scan_of
 

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 from shapely import LineString, Point
 
 from semnav_env.commands import parse
-from semnav_env.features.frames import Pose, compose
-from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding.crossing import first_crossed
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import PassGoal, ReachGoal, SeekGoal, StopGoal
+from semnav_features.frames import Pose, compose
+from semnav_features.scene import Door, Scene
 from tests.support.hand_made import SIDE_ARMS, X_JUNCTION, corridor
 
 START: Pose = (0.0, 0.0, 0.0)

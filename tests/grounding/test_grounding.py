@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features.frames import Pose, compose, wrap_angle
-from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import GroundingError, ReachGoal, StopGoal, ground
+from semnav_features.frames import Pose, compose, wrap_angle
+from semnav_features.scene import Door, Scene, Wall
 from tests.support.grounded import DOORS, QUARTER, START, clause, goal_of, middle
 from tests.support.hand_made import (
     L_LEFT,

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from semnav_env.features.corridor import corridor_at
-from semnav_env.features.scene import Door, Scene, Wall
+from semnav_features.corridor import corridor_at
+from semnav_features.scene import Door, Scene, Wall
 from tests.support.corridors import START, ways_on, with_walls
 from tests.support.hand_made import (
     L_LEFT,

@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.commands import Leave, parse
-from semnav_env.features.frames import Pose, compose, to_parent
-from semnav_env.features.scene import Door, Scene, Wall
 from semnav_env.grounding import PassGoal, ReachGoal, SeekGoal, ground
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.lookouts import MAX_LOOKOUTS, next_lookout
+from semnav_features.frames import Pose, compose, to_parent
+from semnav_features.scene import Door, Scene, Wall
 
 HERE: Pose = (1.2, 2.0, 0.0)
 AROUND: Pose = (1.2, 2.0, math.pi)

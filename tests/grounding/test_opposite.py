@@ -11,14 +11,14 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from semnav_env.agents.evaluation import drive
-from semnav_env.agents.registry import make_agent
+from semnav_agents.evaluation import drive
+from semnav_agents.registry import make_agent
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Pose, compose
-from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding import Goal, GroundingError, PassGoal, ReachGoal, SeekGoal
 from semnav_env.grounding.follower import Follower
+from semnav_features.frames import Pose, compose
+from semnav_features.scene import Door, Scene
 from tests.grounding.test_wider_grounding import last_goal
 from tests.support.hand_made import DOOR_WIDTH, ROOM, corridor
 

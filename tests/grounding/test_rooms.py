@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from shapely import Point
 
-from semnav_env.agents.registry import make_agent
+from semnav_agents.registry import make_agent
 from semnav_env.commands import (
     Command,
     CommandError,
@@ -27,8 +27,6 @@ from semnav_env.commands import (
 )
 from semnav_env.commands.rooms import plain_name, spoken_names
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Pose, compose, to_local, wrap_angle
-from semnav_env.features.scene import Door, Scene
 from semnav_env.grounding import GroundingError, PassGoal, ReachGoal, SeekGoal, ground
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.known_way import next_on_way
@@ -38,6 +36,8 @@ from semnav_env.maps.geodesic import Geodesic
 from semnav_env.routes.room_guide import RoomGuide
 from semnav_env.rules import GroundingRules
 from semnav_env.verifier import Motion, Verdict, Verifier, plan_goals, plan_mission
+from semnav_features.frames import Pose, compose, to_local, wrap_angle
+from semnav_features.scene import Door, Scene
 from tests.support.hand_made import corridor
 
 PLAN = load_floor_plan("office_cross")

@@ -12,7 +12,6 @@ import pytest
 
 from semnav_env.belief import BeliefTracker
 from semnav_env.commands import parse
-from semnav_env.features.frames import Point, Pose, compose, relative, to_parent
 from semnav_env.grounding import GroundingError
 from semnav_env.grounding.goal import door_of
 from semnav_env.lidar import Lidar
@@ -20,6 +19,7 @@ from semnav_env.robots import WHEELCHAIR
 from semnav_env.routes.route import Route
 from semnav_env.rules import GroundingRules
 from semnav_env.verifier import plan_goals
+from semnav_features.frames import Point, Pose, compose, relative, to_parent
 from tests.support.paths import ROOT
 from tests.support.situations import ROWS, Row, situation
 

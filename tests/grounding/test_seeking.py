@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from semnav_env.features.scene import Scene, Wall
 from semnav_env.grounding import GroundingError, PassGoal, ReachGoal, SeekGoal, ground
+from semnav_features.scene import Scene, Wall
 from tests.support.grounded import DOORS, START, clause, middle
 from tests.support.hand_made import L_LEFT, corridor
 

@@ -7,11 +7,11 @@ import math
 import pytest
 
 from semnav_env.commands import parse
-from semnav_env.features.frames import Pose
-from semnav_env.features.scene import Scene
 from semnav_env.grounding import Goal, GroundingError, PassGoal, SeekGoal, ground
 from semnav_env.grounding.follower import Follower
 from semnav_env.grounding.goal import door_of
+from semnav_features.frames import Pose
+from semnav_features.scene import Scene
 from tests.support.hand_made import L_LEFT, SIDE_ARMS, T_JUNCTION, X_JUNCTION, corridor
 
 START: Pose = (0.0, 0.0, 0.0)

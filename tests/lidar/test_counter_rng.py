@@ -7,8 +7,8 @@ import pytest
 from numba import njit
 from scipy import stats
 
-from semnav_env.features.frames import FloatArray
 from semnav_env.lidar.counter_rng import QUANTILES, bits, normal, stream, uniform
+from semnav_features.frames import FloatArray
 
 N = 400_000
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features.frames import Pose, compose
 from semnav_env.lidar import BARBRET, LIDARS, TIM561, Lidar, LidarSpec, lidar_spec
+from semnav_features.frames import Pose, compose
 from tests.support.small_plans import empty_hall, furnished_hall
 
 KEY = (1, 2, 3)

@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from shapely import LineString, Point
 
 from semnav_env.dynamics import Dynamics, PlanSource
-from semnav_env.features.frames import Pose
 from semnav_env.lidar import Lidar, LidarSpec
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import SPOT
 from semnav_env.world import World
+from semnav_features.frames import Pose
 from tests.support.small_plans import plan_of
 from tests.world.test_one_geometry import physics_ranges, without_glass
 

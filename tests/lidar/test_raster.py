@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.bench.brute_force import brute_force_ranges
-from semnav_env.features.frames import FloatArray, Pose
-from semnav_env.features.lidar_spec import BARBRET, TIM561, LidarSpec
 from semnav_env.lidar.culling import CELL_SIZE, MAX_CULLING_CELLS, Culling, cell_of
 from semnav_env.lidar.raster import cast
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.lidar_spec import BARBRET, TIM561, LidarSpec
 from tests.support.small_plans import closed, empty_hall, furnished_hall, plan_of
 
 AROUND = LidarSpec("around", 360, -math.pi, math.tau / 360)

@@ -7,9 +7,9 @@ import math
 import numpy as np
 from hypothesis import strategies as st
 
-from semnav_env.features.clouds.detected_door import DetectedDoor
-from semnav_env.features.elements import Door
-from semnav_env.features.frames import FloatArray, Point, Pose, to_local
+from semnav_features.clouds.detected_door import DetectedDoor
+from semnav_features.elements import Door
+from semnav_features.frames import FloatArray, Point, Pose, to_local
 
 JAMB_SIGMA = 0.03
 """Standard deviation of a detected jamb, metres."""

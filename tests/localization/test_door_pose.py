@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features.clouds.detected_door import DetectedDoor
-from semnav_env.features.frames import Pose
 from semnav_env.localization import pose_from_door
 from semnav_env.localization.door_pose import seen_jambs
+from semnav_features.clouds.detected_door import DetectedDoor
+from semnav_features.frames import Pose
 from tests.localization.doors import JAMB_SIGMA, LEFT, door_seen_from, poses, turned_about
 
 

@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features.clouds.detected_door import DetectedDoor
-from semnav_env.features.elements import Door
-from semnav_env.features.frames import FloatArray, Pose, compose
 from semnav_env.localization import LocalizerRules, PlanLocalizer
 from semnav_env.localization.door_pose import seen_jambs
 from semnav_env.simulator import EXACT, SPOT_ODOMETRY
 from semnav_env.simulator.odometry import Odometry
+from semnav_features.clouds.detected_door import DetectedDoor
+from semnav_features.elements import Door
+from semnav_features.frames import FloatArray, Pose, compose
 from tests.localization.doors import JAMB_SIGMA, LEFT, RIGHT, door_seen_from, poses, turned_about
 
 USUAL, EXACT_PLAN = LocalizerRules(), LocalizerRules(plan_sigma=1e-6)

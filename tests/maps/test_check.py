@@ -22,7 +22,7 @@ from semnav_env.maps.placement import footprint
 from semnav_env.maps.plan_fault import PlanFault
 from semnav_env.maps.reach import reach
 from semnav_env.robots import SPOT, WHEELCHAIR
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 from studies.__main__ import STUDIES
 
 

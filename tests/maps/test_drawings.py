@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.maps.importers import Drawing, import_map
 from semnav_env.maps.rules import FloorPlanError
-from semnav_env.scripts import main as cli
+from semnav_scripts import main as cli
 
 WALLS = ((0, 0), (4, 0), (4, 3), (0, 3), (0, 0)), ((2, 0), (2, 1)), ((2, 2), (2, 3))
 """Two rooms of 2 m by 3 m with a doorway of 1 m at (2, 1) to (2, 2)."""

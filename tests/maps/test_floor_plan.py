@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from shapely import box
 
-from semnav_env.features.rules import DoorRules
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_env.maps.doorways import DoorState, clear_width, door_state
+from semnav_features.rules import DoorRules
 
 
 def hall(*extra: Surface, door_open: bool = True) -> FloorPlan:

@@ -11,11 +11,11 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features.frames import FloatArray
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.geodesic import CLEARANCE, GRID_SPACING, Geodesic
 from semnav_env.maps.recent_fields import RecentFields
+from semnav_features.frames import FloatArray
 
 PLAN = load_floor_plan("office_cross")
 GEODESIC = Geodesic(PLAN)

@@ -22,7 +22,7 @@ from semnav_env.maps.importers import (
     trace,
 )
 from semnav_env.maps.importers.outlines import outlines
-from semnav_env.scripts import main as cli
+from semnav_scripts import main as cli
 from tests.support.drawn_maps import DOORS, FREE, PLACES, SOLID, UNKNOWN, two_rooms, write_map
 from tests.support.paths import DATA
 

@@ -24,7 +24,7 @@ from semnav_env.maps.importers.building_doors import without_leaves
 from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.occupancy_export import draw_pixels, export_map
 from semnav_env.maps.rules import FloorPlanError
-from semnav_env.scripts import main as cli
+from semnav_scripts import main as cli
 from tests.support.small_plans import closed
 
 EXACT = Tracing(mend=0, simplify=0.0, straighten=0.0)

@@ -9,7 +9,7 @@ import pytest
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.draw import save_picture
 from semnav_env.routes.draw import save_routes
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 
 DRAWING = {
     "show": ["map", "show", "villa_hall", "--out"],

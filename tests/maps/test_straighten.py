@@ -17,7 +17,6 @@ from shapely import LineString, MultiLineString, box
 from shapely.affinity import rotate, translate
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.features.frames import FloatArray
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Surface
 from semnav_env.maps.importers import Tracing, import_map
 from semnav_env.maps.importers.building_doors import with_walls
@@ -27,7 +26,8 @@ from semnav_env.maps.importers.redrawing import RedrawnOutline, clashing
 from semnav_env.maps.importers.runs import PixelRun, Span
 from semnav_env.maps.importers.straighten import straighten
 from semnav_env.maps.rules import FloorPlanError
-from semnav_env.scripts import main as cli
+from semnav_features.frames import FloatArray
+from semnav_scripts import main as cli
 from tests.support.drawn_maps import narrowing, two_rooms, write_map
 from tests.support.paths import DATA
 

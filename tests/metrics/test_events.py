@@ -12,7 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import FloatArray
 from semnav_env.maps import load_floor_plan
 from semnav_env.metrics import Recorder, Recording
 from semnav_env.metrics.event_log import events_of, runs
@@ -25,6 +24,7 @@ from semnav_env.metrics.events import (
     Stopped,
     Turned,
 )
+from semnav_features.frames import FloatArray
 from tests.support.driving import at_the_wall
 from tests.support.episodes import START, actions
 

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from semnav_env.commands import parse
-from semnav_env.features.frames import FloatArray
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.metrics import (
@@ -31,6 +30,7 @@ from semnav_env.metrics import (
 from semnav_env.robots import SPOT
 from semnav_env.rules import Rules, SuccessRules
 from semnav_env.verifier import Motion, Verifier, plan_mission
+from semnav_features.frames import FloatArray
 from tests.support.erring import ghost
 from tests.support.small_plans import empty_hall, plan_of
 

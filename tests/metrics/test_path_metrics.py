@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from semnav_env.features.frames import FloatArray, path_length, points_to_parent
 from semnav_env.metrics import cls, dtw, ndtw, resampled, sdtw, soft_spl, spl
+from semnav_features.frames import FloatArray, path_length, points_to_parent
 
 ROUTE = np.array([(0.0, 0.0), (1.0, 0.0), (2.0, 1.0), (3.0, 2.0)])
 STRAIGHT = np.array([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0)])

@@ -11,14 +11,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from semnav_env.dynamics import Dynamics
-from semnav_env.features.frames import path_length
-from semnav_env.features.scene import Door
 from semnav_env.maps import load_floor_plan
 from semnav_env.metrics import Recorder, Recording
 from semnav_env.metrics.final_belief import FinalBelief
 from semnav_env.metrics.picture import TRAIL_LENGTH, draw_belief, draw_episode, save_episode
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.world import World
+from semnav_features.frames import path_length
+from semnav_features.scene import Door
 
 ROUTE = np.array([(1.3, 9.1), (5.0, 9.1)])
 

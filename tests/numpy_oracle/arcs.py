@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.elements import Arc
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.elements import Arc
+from semnav_features.frames import FloatArray
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.circles import Circle, EdgeRay, algebraic_circle, refined
 from tests.numpy_oracle.constants import ARC_RUNS, CIRCLE_FIT
 from tests.numpy_oracle.sweep import Sweep

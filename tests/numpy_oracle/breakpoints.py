@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.settings import ExtractorSettings
 
 Threshold = Callable[[float, float, float, ExtractorSettings], float]
 """From both ranges in beam order, the angle between them and the settings to a distance."""

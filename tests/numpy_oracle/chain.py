@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from semnav_env.features.scan import Scan
-from semnav_env.features.scene import Corner, Scene, Wall
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.scan import Scan
+from semnav_features.scene import Corner, Scene, Wall
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.arcs import find_arcs
 from tests.numpy_oracle.constants import PRIOR_POINTS
 from tests.numpy_oracle.corners import find_corners

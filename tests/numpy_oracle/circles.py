@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
+from semnav_features.frames import FloatArray
 from tests.numpy_oracle.constants import CIRCLE_FIT
 
 

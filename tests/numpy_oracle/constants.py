@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from importlib.resources import files
 
-SCORER_FILE = files("semnav_env.features") / "door_scorer.json"
+SCORER_FILE = files("semnav_features") / "door_scorer.json"
 """The weights of the scorer of doors, which are data of the package."""
 
 PRIOR_POINTS = 4

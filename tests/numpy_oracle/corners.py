@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.scene import CornerKind
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.frames import FloatArray, Point
+from semnav_features.scene import CornerKind
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.constants import NEXT_WALLS
 from tests.numpy_oracle.walls import Piece
 

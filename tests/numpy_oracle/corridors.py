@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.scene import CornerKind, CorridorProbe
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.frames import FloatArray
+from semnav_features.scene import CornerKind, CorridorProbe
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.constants import END_ON
 from tests.numpy_oracle.corners import FoundCorner
 from tests.numpy_oracle.sweep import Sweep

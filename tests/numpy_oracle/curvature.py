@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.frames import FloatArray
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.constants import CURVATURE
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from semnav_env.features.elements import SceneLeaf
+from semnav_features.elements import SceneLeaf
 from tests.numpy_oracle.constants import LEAF
 from tests.numpy_oracle.door_evidence import Gap
 from tests.numpy_oracle.walls import Piece

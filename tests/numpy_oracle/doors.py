@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.scene import Door
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.frames import FloatArray
+from semnav_features.scene import Door
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.constants import LONGEST_SPACING, SCORER_FILE
 from tests.numpy_oracle.door_evidence import Gap, Jamb, evidence_of, is_open
 from tests.numpy_oracle.door_leaf import find_leaf

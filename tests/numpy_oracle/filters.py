@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.breakpoints import incidence_factor, threshold
 from tests.numpy_oracle.constants import MOST_VEILED, ROUNDING
 from tests.numpy_oracle.sweep import Sweep

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.constants import MERGE_CHI_SQUARE
 from tests.numpy_oracle.walls import Piece
 

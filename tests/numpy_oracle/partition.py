@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
+from semnav_features.frames import FloatArray
 
 
 def best_cuts(points: FloatArray, variance: float, price: float) -> list[int]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.constants import FEWEST_BEAMS
 from tests.numpy_oracle.sweep import Sweep
 from tests.numpy_oracle.walls import Piece

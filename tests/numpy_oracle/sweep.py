@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.scan import Scan
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.frames import FloatArray
+from semnav_features.scan import Scan
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.breakpoints import threshold
 
 

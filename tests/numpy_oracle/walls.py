@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.settings import ExtractorSettings
+from semnav_features.frames import FloatArray
+from semnav_features.settings import ExtractorSettings
 from tests.numpy_oracle.constants import PIECE_PRICE, ROBUST
 from tests.numpy_oracle.curvature import curvature_peaks
 from tests.numpy_oracle.partition import best_cuts

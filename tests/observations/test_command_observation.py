@@ -14,8 +14,6 @@ from gymnasium.spaces import MultiDiscrete, Text
 from semnav_env.commands import decode, parse
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import load_episodes
-from semnav_env.features.corridor import corridor_at
-from semnav_env.features.frames import points_to_local, to_local
 from semnav_env.observations import (
     MEMORY_TABLES,
     MODES,
@@ -25,6 +23,8 @@ from semnav_env.observations import (
     read_odometry,
     table,
 )
+from semnav_features.corridor import corridor_at
+from semnav_features.frames import points_to_local, to_local
 from tests.support.episodes import START, actions, fresh, rollout
 
 OFFICE = {"floor_plan": "office_cross", "command": "take the first door on the right"}

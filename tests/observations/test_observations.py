@@ -9,9 +9,9 @@ import pytest
 
 from semnav_env.commands import decode
 from semnav_env.env import SemNavEnv
-from semnav_env.features.extraction import to_scene
 from semnav_env.grounding import GoalKind
 from semnav_env.observations import MODES, TABLES, SeenGoal, table
+from semnav_features.extraction import to_scene
 from tests.support.episodes import START, actions, fresh, rollout
 
 

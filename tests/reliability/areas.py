@@ -20,18 +20,18 @@ from hypothesis import strategies as st
 
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.features import extract
-from semnav_env.features.lidar_spec import LidarSpec
-from semnav_env.features.settings import ExtractorSettings
 from semnav_env.lidar import Lidar
 from semnav_env.robots import SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.robots.actions import Actions
-from semnav_env.scripts.main import main
 from semnav_env.simulator import OdometrySettings
 from semnav_env.simulator.odometry import Odometry
 from semnav_env.tasks import RewardWeights
 from semnav_env.tasks.request import OPTIONS
 from semnav_env.world import World
+from semnav_features import extract
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.settings import ExtractorSettings
+from semnav_scripts.main import main
 from tests.reliability.children import PROCESSOR_SECONDS, Outcome, in_child, outcome_of
 from tests.reliability.hostile import VALUES, constructed, drawn, settings_classes, settings_of
 from tests.reliability.long_texts import RUNS, read_run

@@ -15,7 +15,7 @@ from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 import numpy as np
 from hypothesis import strategies as st
 
-from semnav_env.features.checked_fields import ANY_NUMBER, Bounds, OneOf
+from semnav_features.checked_fields import ANY_NUMBER, Bounds, OneOf
 from tests.test_layers import MODULES
 
 VALUES: tuple[Any, ...] = (

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 from hypothesis import strategies as st
 
-from semnav_env.agents.translating.interpreter import understand
+from semnav_agents.translating.interpreter import understand
 from semnav_env.commands import CommandError, parse
 
 CHARACTERS = (

@@ -6,13 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from semnav_env.agents.learning.files import MAX_FILE_SIZE
+from semnav_agents.learning.files import MAX_FILE_SIZE
 from semnav_env.episodes.files import MAX_BYTES as MAX_EPISODES
-from semnav_env.features.readers.chunks import MAX_CHUNK_BYTES
-from semnav_env.features.readers.npz_arrays import MAX_BYTES as MAX_ARRAY
-from semnav_env.features.readers.text import MAX_EXPANSION
-from semnav_env.features.reading import WHOLE_FILE
-from semnav_env.features.writing import write_file
 from semnav_env.maps.cell_budget import MAX_CELLS
 from semnav_env.maps.geodesic import COARSEST_SPACING, GRID_SPACING, RECENT_FIELDS
 from semnav_env.maps.importers.documents import MAX_YAML_BYTES
@@ -31,6 +26,11 @@ from semnav_env.maps.importers.svg_budget import (
 from semnav_env.maps.library import MAX_KEPT_OFFICES
 from semnav_env.maps.reach import COARSEST_SPACING as COARSEST_REACH
 from semnav_env.rescue.visible_floor import STANDPOINT
+from semnav_features.readers.chunks import MAX_CHUNK_BYTES
+from semnav_features.readers.npz_arrays import MAX_BYTES as MAX_ARRAY
+from semnav_features.readers.text import MAX_EXPANSION
+from semnav_features.reading import WHOLE_FILE
+from semnav_features.writing import write_file
 from tests.reliability.children import PROCESSOR_SECONDS
 from tests.reliability.long_runs import RUN_BYTES, TOKENS
 from tests.support.paths import ROOT
@@ -46,8 +46,8 @@ what was accepted works.
 
 - **Settings** (`RobotSpec`, `LidarSpec`, `RewardWeights`, `Dynamics` and all others) say in their
   annotations what each field takes, and check it when they are made
-  (`features/checked_fields.py`). A body that Chipmunk could not carry is never made.
-- **Files** are written by one writer (`features/writing.py`): to a part beside the file, which
+  (`semnav_features/checked_fields.py`). A body that Chipmunk could not carry is never made.
+- **Files** are written by one writer (`semnav_features/writing.py`): to a part beside the file, which
   takes its place when it is complete and on the disk. A full disk, an error, Ctrl-C or a kill
   leaves the old file as it was. Files of lines keep the lines so far, and a dataset the episodes
   so far, if the end is an error or Ctrl-C. After a kill a part may stay (`*.part*`). Of a command
@@ -55,7 +55,7 @@ what was accepted works.
 - **Two writers** of one file never mix: parts have names that nobody can know before, and are new
   files, so no link is followed that somebody has put there. The file is a whole one, of the writer
   that was done last. What takes long, files of lines and datasets, has one writer at a time
-  (`features/sole_writer.py`): a second one is refused before it begins, and says so. A link in the
+  (`semnav_features/sole_writer.py`): a second one is refused before it begins, and says so. A link in the
   place of the file itself is followed if it is yours or root's, and refused otherwise.
 - **Readers** have a budget of bytes, below. What does not end (a pipe, an alias of aliases, a
   view that counts for ever) is refused before it is read.
@@ -105,7 +105,7 @@ Tests hold every use of such plans, among them an episode, below a gigabyte
 ## Texts of files
 
 What a file says is printed as text: control characters, escape sequences and marks that turn the
-direction of writing are written out, such as `\\x1b` (`scripts/printable.py`).
+direction of writing are written out, such as `\\x1b` (`semnav_scripts/printable.py`).
 
 ## Bad inputs
 

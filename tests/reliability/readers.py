@@ -13,13 +13,13 @@ import numpy as np
 from ezdxf.enums import InsertUnits
 from PIL import Image
 
-from semnav_env.agents.learned import LearnedAgent
-from semnav_env.agents.learning.files import load_tensors, save_tensors
+from semnav_agents.learned import LearnedAgent
+from semnav_agents.learning.files import load_tensors, save_tensors
 from semnav_env.episodes import load_episodes, write_episodes
-from semnav_env.features.readers import Geometry, open_log
 from semnav_env.maps import load_floor_plan, save_floor_plan
 from semnav_env.maps.importers import Drawing, import_map
 from semnav_env.metrics import Recording
+from semnav_features.readers import Geometry, open_log
 from tests.support.bags import BagFile, Moved, Sweep, storage
 from tests.support.drawn_maps import two_rooms, write_map
 from tests.support.small_plans import empty_hall
@@ -119,9 +119,9 @@ def _tensors(folder: Path) -> Path:
 
 
 def _agent(folder: Path) -> Path:
-    import semnav_env.agents
+    import semnav_agents
 
-    bundled = Path(semnav_env.agents.__file__).parent / "pretrained" / "drive"
+    bundled = Path(semnav_agents.__file__).parent / "pretrained" / "drive"
     for file in bundled.iterdir():
         (folder / file.name).write_bytes(file.read_bytes())
     return folder / "agent.json"

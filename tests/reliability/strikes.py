@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import semnav
-from semnav_env.scripts.dispatch import BAD_INPUT, INTERRUPTED, TERMINATED
-from semnav_env.scripts.main import main
+from semnav_scripts.dispatch import BAD_INPUT, INTERRUPTED, TERMINATED
+from semnav_scripts.main import main
 from tests.reliability.children import WALL_SECONDS
 from tests.reliability.writers import WRITERS, Writer, make_inputs, shorten
 

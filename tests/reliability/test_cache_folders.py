@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from semnav_env.features.kernels import cache_folder as folders
-from semnav_env.features.kernels import version_folders
-from semnav_env.features.kernels.cache_repair import OLD_PART, OLD_VERSION, repair
-from semnav_env.features.private_folder import make_private
+from semnav_features.kernels import cache_folder as folders
+from semnav_features.kernels import version_folders
+from semnav_features.kernels.cache_repair import OLD_PART, OLD_VERSION, repair
+from semnav_features.private_folder import make_private
 
 VERSION = "0123456789abcdef0123"
 KERNEL = f"module.kernel-1.{VERSION}.bin"

@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.features.writing import replacing, write_file
 from semnav_env.maps import load_floor_plan, save_floor_plan
 from semnav_env.rendering.video import save_gif, save_png
-from semnav_env.scripts.main import main
+from semnav_features.writing import replacing, write_file
+from semnav_scripts.main import main
 from tests.test_layers import MODULES
 
 WRITING_METHODS = {
@@ -25,12 +25,12 @@ WRITING_METHODS = {
 }
 WRITING_MODES = set("wax+")
 WRITE_BY_THEMSELVES = {
-    "features/writing.py": "the writer",
-    "scripts/jsonl.py": "line by line into a part of the writer",
-    "features/sole_writer.py": "an empty file",
-    "scripts/dispatch.py": "what a closed pipe did not take, to nowhere",
+    "semnav_features/writing.py": "the writer",
+    "semnav_scripts/jsonl.py": "line by line into a part of the writer",
+    "semnav_features/sole_writer.py": "an empty file",
+    "semnav_scripts/dispatch.py": "what a closed pipe did not take, to nowhere",
     "semnav_env/bench/peers.py": "into a temporary folder",
-    "scripts/warming.py": "into a temporary folder",
+    "semnav_scripts/warming.py": "into a temporary folder",
 }
 
 

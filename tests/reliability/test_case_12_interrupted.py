@@ -11,8 +11,8 @@ import pytest
 
 from semnav_env.env import SemNavEnv
 from semnav_env.maps import generate_office, save_floor_plan
-from semnav_env.scripts.dispatch import LONGEST_LINE
-from semnav_env.scripts.main import main
+from semnav_scripts.dispatch import LONGEST_LINE
+from semnav_scripts.main import main
 from tests.support.paths import ROOT
 
 INTERRUPTED_AT_AN_IMPORT = """
@@ -53,7 +53,7 @@ TERMINATED_AT_WORK = """
 import os, signal, sys
 sys.path.insert(0, {root!r})
 import semnav
-from semnav_env.scripts.map_list import Arguments
+from semnav_scripts.map_list import Arguments
 
 def run(self):
     try:

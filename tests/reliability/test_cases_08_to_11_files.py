@@ -15,10 +15,10 @@ import pytest
 
 from semnav_env.episodes import load_episodes
 from semnav_env.episodes.files import to_line
-from semnav_env.features.decompression import decompressed
-from semnav_env.features.readers import open_log
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.importers import import_map
+from semnav_features.decompression import decompressed
+from semnav_features.readers import open_log
 from tests.reliability.bombs import BOMBS
 from tests.reliability.children import PROCESSOR_SECONDS, in_child, outcome_of
 from tests.reliability.mutations import write_mutated

@@ -15,7 +15,6 @@ import numpy as np
 import pytest
 import shapely
 
-from semnav_env.features.frames import FloatArray
 from semnav_env.lidar import Lidar
 from semnav_env.lidar.culling import CELL_SIZE, Culling
 from semnav_env.maps import FloorPlan, Surface, bundled_names, load_floor_plan, save_floor_plan
@@ -24,6 +23,7 @@ from semnav_env.maps.geodesic import COARSEST_SPACING, GRID_SPACING, Geodesic
 from semnav_env.maps.nearness import clear_near
 from semnav_env.maps.reach import REACH_SPACING, reach
 from semnav_env.robots import WHEELCHAIR
+from semnav_features.frames import FloatArray
 from tests.reliability.children import MEMORY, Outcome, in_child
 from tests.reliability.vast_plans import FAR, PLANS, USES, crossed, large, search, vast
 

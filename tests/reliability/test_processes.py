@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from semnav_env.features.kernels.kernel_cache import unsealed
+from semnav_features.kernels.kernel_cache import unsealed
 from tests.support.episodes import actions, digest, fresh, rollout
 from tests.support.paths import ROOT
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from semnav_env.features.interruption import Terminated, interruption_in, uninterrupted
-from semnav_env.scripts import dispatch
+from semnav_features.interruption import Terminated, interruption_in, uninterrupted
+from semnav_scripts import dispatch
 from tests.reliability.signals import COMMANDS, SIGNALS, fault
 from tests.support.paths import ROOT
 
@@ -72,7 +72,7 @@ INTERRUPTED_WHERE_NOBODY_HEARS = """
 import os, signal, sys, time
 sys.path.insert(0, {root!r})
 import semnav
-from semnav_env.scripts import dispatch
+from semnav_scripts import dispatch
 
 class Deaf:
     def __del__(self):

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import pytest
 
-from semnav_env.scripts.main import SEMNAV
-from semnav_env.scripts.map import COMMANDS as MAP
+from semnav_scripts.main import SEMNAV
+from semnav_scripts.map import COMMANDS as MAP
 from tests.reliability.strikes import STRIKES, Strike, fault
 from tests.reliability.writers import WRITERS, Writer
 

@@ -17,9 +17,9 @@ import pytest
 from semnav_env.belief import BeliefTracker
 from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.features.one_thread import ThreadDoor
 from semnav_env.simulator import Simulator
 from semnav_env.vector import SemNavVectorEnv
+from semnav_features.one_thread import ThreadDoor
 from tests.support.episodes import START
 from tests.support.paths import ROOT
 

@@ -12,17 +12,17 @@ from typing import Any
 
 import pytest
 
-from semnav_env.features import writing
-from semnav_env.features.sole_writer import sole_writer
-from semnav_env.features.writing import replacing, write_file
-from semnav_env.scripts.jsonl import JsonLines
-from semnav_env.scripts.main import main
+from semnav_features import writing
+from semnav_features.sole_writer import sole_writer
+from semnav_features.writing import replacing, write_file
+from semnav_scripts.jsonl import JsonLines
+from semnav_scripts.main import main
 from tests.support.command_line import scenes
 from tests.support.paths import ROOT
 
 WRITE_SLOWLY = """
 import pathlib, sys, time
-from semnav_env.scripts.jsonl import JsonLines
+from semnav_scripts.jsonl import JsonLines
 with JsonLines(pathlib.Path(sys.argv[1])) as out:
     out.write({"of": sys.argv[2]})
     print("begun", flush=True)

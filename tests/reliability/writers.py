@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 import h5py
 from safetensors.numpy import load
 
-from semnav_env.agents.evaluation.attempts import Attempt, write_attempts
-from semnav_env.agents.learning.files import AGENT_FILE, POLICY_FILE, TRAINING_FILE
+from semnav_agents.evaluation.attempts import Attempt, write_attempts
+from semnav_agents.learning.files import AGENT_FILE, POLICY_FILE, TRAINING_FILE
 from semnav_env.episodes import SPLITS
 from semnav_env.lidar import Lidar
 from semnav_env.maps import load_floor_plan, save_floor_plan

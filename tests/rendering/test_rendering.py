@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from semnav_env.features.scene import Corner, CornerKind, CorridorProbe, Scene, Wall
 from semnav_env.grounding.goal import PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.maps.floor_plan import Material, Surface
 from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.legend import LEGEND_HEIGHT, ROW_HEIGHT, legend_entries
 from semnav_env.rendering.viewer import Viewer
 from semnav_env.robots import SPOT, WHEELCHAIR
+from semnav_features.scene import Corner, CornerKind, CorridorProbe, Scene, Wall
 from tests.support.small_office import DOOR, PLAIN, PLAN, office
 
 pytest.importorskip("pygame", reason="pictures need the extra `render`")

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from semnav_env.dynamics import Dynamics, PlanSource
 from semnav_env.dynamics.victims import VICTIM_SPACING, victims_of
-from semnav_env.features.lidar_spec import TIM561
 from semnav_env.maps import FloorPlan, Material, Surface, generate_office
 from semnav_env.rescue import (
     PersonDetectorSettings,
@@ -25,6 +24,7 @@ from semnav_env.rescue.outcome import Report, judge_reports
 from semnav_env.rescue.person_detector import PersonDetector
 from semnav_env.rescue.room_coverage import RoomCoverage
 from semnav_env.robots import SPOT
+from semnav_features.lidar_spec import TIM561
 
 SURE = PersonDetectorSettings(
     hit_near=1.0, hit_far=1.0, look_alikes=0.0, clutter=0.0, range_std=0.0, bearing_std=0.0

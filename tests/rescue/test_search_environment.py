@@ -8,14 +8,14 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
-from semnav_env.agents.base import steps
-from semnav_env.agents.registry import make_agent
+from semnav_agents.base import steps
+from semnav_agents.registry import make_agent
 from semnav_env.commands import Command, GoBack, SearchHouse
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import to_local
 from semnav_env.rescue import PersonSearch, PersonTrack
 from semnav_env.rescue.environment import search_and_rescue
 from semnav_env.rescue.people_entry import read_people
+from semnav_features.frames import to_local
 
 NAME = "semnav_env:SearchAndRescue-v0"
 

@@ -7,14 +7,14 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.agents.searching.search_map import FREE, HIT, LOOKED, SAFE, SearchMap, without_lost
-from semnav_env.agents.searching.searcher import Searcher
-from semnav_env.agents.searching.settings import SearchSettings
-from semnav_env.agents.searching.view_kernels import fits
-from semnav_env.agents.searching.views import Looker, ViewGrid, best_view, shown_from
-from semnav_env.agents.searching.ways import ways_from
-from semnav_env.features.frames import compose
+from semnav_agents.searching.search_map import FREE, HIT, LOOKED, SAFE, SearchMap, without_lost
+from semnav_agents.searching.searcher import Searcher
+from semnav_agents.searching.settings import SearchSettings
+from semnav_agents.searching.view_kernels import fits
+from semnav_agents.searching.views import Looker, ViewGrid, best_view, shown_from
+from semnav_agents.searching.ways import ways_from
 from semnav_env.robots import SPOT
+from semnav_features.frames import compose
 
 LOOKER = Looker(SPOT, math.radians(120.0), 6.0)
 GRID = ViewGrid(0.35, 60)

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from semnav_env.commands import Approach, Command, DoorReference, parse, sample_clause
 from semnav_env.commands.command import reference_of
-from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError, PassGoal
 from semnav_env.grounding.goal import door_of
 from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
@@ -26,6 +25,7 @@ from semnav_env.routes.follow import follows
 from semnav_env.routes.route import HEADING_STEP, POSE_SPACING, Route, RouteError
 from semnav_env.routes.route_to import comfortable, route_to
 from semnav_env.verifier import plan_goals
+from semnav_features.frames import Pose
 
 PLANS = {name: load_floor_plan(name) for name in bundled_names()}
 GEODESICS = {name: comfortable(plan) for name, plan in PLANS.items()}

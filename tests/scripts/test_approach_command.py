@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 from tests.approach.test_thesis_tables import DOORS, TABLE_7_2
 
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from semnav_env.scripts.bench import _in_scans
+from semnav_scripts.bench import _in_scans
 from tests.support.command_line import run
 
 FEW = ("--runs", "1", "--steps", "20", "--robots", "2", "--threads", "1")

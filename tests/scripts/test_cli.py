@@ -11,12 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.maps import bundled_names, load_floor_plan, save_floor_plan
-from semnav_env.scripts import main as cli
-from semnav_env.scripts import progress
-from semnav_env.scripts.arguments import parse
-from semnav_env.scripts.checks import InstallationCheck
-from semnav_env.scripts.doctor import Arguments as Doctor
-from semnav_env.scripts.map import COMMANDS as MAP
+from semnav_scripts import main as cli
+from semnav_scripts import progress
+from semnav_scripts.arguments import parse
+from semnav_scripts.checks import InstallationCheck
+from semnav_scripts.doctor import Arguments as Doctor
+from semnav_scripts.map import COMMANDS as MAP
 from tests.support.command_line import run
 
 COMMANDS = cli.SEMNAV.commands
@@ -46,7 +46,7 @@ def test_a_demo_says_why_the_robot_gave_up(capsys, monkeypatch):
     why = "no second door on the right: the hallway ended after 1"
     end = {"is_success": False, "verdicts": (), "crossed_doors": (), "collisions": 0}
     end |= {"impossible": why, "path_length": 0.0, "route_length": 1.0}
-    monkeypatch.setattr("semnav_env.scripts.demo.steps", lambda *_: [SimpleNamespace(info=end)])
+    monkeypatch.setattr("semnav_scripts.demo.steps", lambda *_: [SimpleNamespace(info=end)])
     words = ("demo", "go through the second door on the right")
     code, said, _ = run(capsys, *words)
     assert (code, said.splitlines()[-1]) == (1, f"the robot took it for impossible: {why}")
@@ -118,14 +118,13 @@ def test_the_help_names_every_command(capsys):
 def loaded_by(*words):
     """The modules of a process in which `semnav` was called with these words."""
     program = (
-        f"import sys; from semnav_env.scripts.main import main; main({list(words)});"
-        "print(*sys.modules)"
+        f"import sys; from semnav_scripts.main import main; main({list(words)});print(*sys.modules)"
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     return set(run.stdout.splitlines()[-1].split())
 
 
-KERNELS = {"numba", "scipy", "matplotlib", "pymunk", "semnav_env.features.kernels"}
+KERNELS = {"numba", "scipy", "matplotlib", "pymunk", "semnav_features.kernels"}
 
 
 @pytest.mark.parametrize("words", [("--help",), ("map", "--help")])
@@ -201,8 +200,8 @@ def test_doctor_finds_this_installation_sound(capsys):
 @pytest.mark.parametrize(("needed", "code"), [(True, 1), (False, 0)])
 def test_doctor_fails_only_for_what_is_needed(capsys, monkeypatch, needed, code):
     missing = InstallationCheck("thing", False, "not installed", "pip install thing", needed)
-    monkeypatch.setattr("semnav_env.scripts.checks.requirements", lambda: [missing])
-    monkeypatch.setattr("semnav_env.scripts.doctor._TRIALS", {})
+    monkeypatch.setattr("semnav_scripts.checks.requirements", lambda: [missing])
+    monkeypatch.setattr("semnav_scripts.doctor._TRIALS", {})
     assert parse(Doctor, [], "semnav doctor").run() == code
     assert "pip install thing" in capsys.readouterr().out
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from semnav_env.commands import from_program, parse
-from semnav_env.scripts.main import main
+from semnav_scripts.main import main
 
 
 def described(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]:

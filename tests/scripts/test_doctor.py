@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from semnav_env.features.kernels.cache_repair import OLD_PART, OLD_VERSION, repair
-from semnav_env.features.kernels.kernel_cache import sealed, unsealed
-from semnav_env.scripts import checks
-from semnav_env.scripts.main import main
+from semnav_features.kernels.cache_repair import OLD_PART, OLD_VERSION, repair
+from semnav_features.kernels.kernel_cache import sealed, unsealed
+from semnav_scripts import checks
+from semnav_scripts.main import main
 
 
 def kept(folder: Path, name: str, content: bytes = sealed(b"kernel"), age: float = 0.0) -> Path:
@@ -68,9 +68,7 @@ def test_the_doctor_mends_the_cache_that_is_used(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     broken = kept(tmp_path / HERE, named("broken"), b"half")
-    monkeypatch.setattr(
-        "semnav_env.features.kernels.cache_folder.cache_folder", lambda: broken.parent
-    )
+    monkeypatch.setattr("semnav_features.kernels.cache_folder.cache_folder", lambda: broken.parent)
     [_, cache] = checks.kernels()
     assert "removed 1 damaged" in cache.detail
     assert not broken.exists()

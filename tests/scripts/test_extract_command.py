@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.scripts import progress
-from semnav_env.scripts.sampling import EvenSample
+from semnav_scripts import progress
+from semnav_scripts.sampling import EvenSample
 from tests.support.command_line import run, scenes
 
 
@@ -131,7 +131,7 @@ def test_an_interruption_keeps_the_finished_lines(tmp_path, monkeypatch, capsys,
             raise KeyboardInterrupt
         return {"line": record.line}
 
-    monkeypatch.setattr("semnav_env.scripts.extract.document", interrupted)
+    monkeypatch.setattr("semnav_scripts.extract.document", interrupted)
     code, _, said = run(capsys, "extract", log, "--out", out)
     assert code == 130
     assert said.endswith(f"semnav: interrupted; '{out}' holds the 4 lines so far\n")
@@ -146,7 +146,7 @@ def test_an_error_says_where_the_lines_before_it_are(tmp_path, monkeypatch, caps
             raise OSError(28, "No space left on device")
         return {"line": record.line}
 
-    monkeypatch.setattr("semnav_env.scripts.extract.document", full)
+    monkeypatch.setattr("semnav_scripts.extract.document", full)
     code, _, said = run(capsys, "extract", log, "--out", out)
     assert code == 2
     assert said.endswith(f"No space left on device; '{out}' holds the 1 line so far\n")

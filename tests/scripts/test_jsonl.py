@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from semnav_env.scripts.jsonl import JsonLines
+from semnav_scripts.jsonl import JsonLines
 from tests.support.command_line import scenes
 
 
@@ -16,7 +16,7 @@ def test_a_killed_run_leaves_whole_lines_and_the_older_file(tmp_path):
     path.write_text("older\n")
     program = (
         "import os, signal, sys, pathlib\n"
-        "from semnav_env.scripts.jsonl import JsonLines\n"
+        "from semnav_scripts.jsonl import JsonLines\n"
         "with JsonLines(pathlib.Path(sys.argv[1])) as out:\n"
         "    for i in range(100):\n"
         "        out.write({'i': i, 'long': 'x' * 9999})\n"

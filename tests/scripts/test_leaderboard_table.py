@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from semnav_env.scripts.leaderboard import HEADINGS
-from semnav_env.scripts.leaderboard_text import plain_table
+from semnav_scripts.leaderboard import HEADINGS
+from semnav_scripts.leaderboard_text import plain_table
 
 INTERVAL = "0.967 (0.92 to 1.00)"
 

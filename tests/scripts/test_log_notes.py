@@ -12,10 +12,10 @@ import pytest
 
 from semnav_env.belief.log_following import PoseChoice, follow_log
 from semnav_env.commands import parse
-from semnav_env.features import Scan
-from semnav_env.features.frames import Pose
-from semnav_env.features.readers import Geometry, open_log
 from semnav_env.lidar import Lidar
+from semnav_features import Scan
+from semnav_features.frames import Pose
+from semnav_features.readers import Geometry, open_log
 from tests.support.command_line import run
 from tests.support.small_plans import empty_hall
 

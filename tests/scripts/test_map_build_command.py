@@ -8,12 +8,12 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.features import Scan
-from semnav_env.features.frames import compose, relative
-from semnav_env.features.mapping import ScanOdometry
-from semnav_env.features.mapping.matched_log import matched
-from semnav_env.features.readers import LogRecord
 from semnav_env.maps import load_floor_plan
+from semnav_features import Scan
+from semnav_features.frames import compose, relative
+from semnav_features.mapping import ScanOdometry
+from semnav_features.mapping.matched_log import matched
+from semnav_features.readers import LogRecord
 from tests.support.command_line import run
 
 ANGLES = np.linspace(-math.pi, math.pi, 720, endpoint=False)

@@ -7,8 +7,8 @@ from semnav_env.maps import load_floor_plan
 from semnav_env.routes.describe import describe
 from semnav_env.routes.route import RouteError
 from semnav_env.routes.route_to import route_to
-from semnav_env.scripts import main as cli
-from semnav_env.scripts.outputs import check_file, check_folder, counted
+from semnav_scripts import main as cli
+from semnav_scripts.outputs import check_file, check_folder, counted
 from tests.support.drawn_maps import DOORS, two_rooms, write_map
 
 
@@ -47,7 +47,7 @@ EVALUATE = ("evaluate", "heidelberg", "--seeds", "1")
 )
 def test_unwritable_paths_are_refused_before_the_work(capsys, monkeypatch, here, words, message):
     for name in ("evaluate.run_suite", "demo.SemNavEnv", "extract.open_log", "map_build.open_log"):
-        monkeypatch.delattr(f"semnav_env.scripts.{name}")
+        monkeypatch.delattr(f"semnav_scripts.{name}")
     assert message in refusal(capsys, *words)
     assert (here / "afile").read_text() == "kept"
 

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.maps import load_floor_plan
-from semnav_env.scripts.printable import LAYOUT, UNPRINTABLE, printable
+from semnav_scripts.printable import LAYOUT, UNPRINTABLE, printable
 from tests.reliability.readers import READERS, Reader
 from tests.support.command_line import run
 from tests.support.plan_documents import hall
@@ -55,7 +55,7 @@ def test_the_source_of_a_plan_is_shown_as_text(
     path.write_text(json.dumps(hall() | {"source": f"drawn by {evil}"}))
     if words == "map list":
         plan = load_floor_plan(path)
-        monkeypatch.setattr("semnav_env.scripts.map_list.load_floor_plan", lambda name: plan)
+        monkeypatch.setattr("semnav_scripts.map_list.load_floor_plan", lambda name: plan)
     _, out, err = run(capsys, *words.split(), *([] if words == "map list" else [path]))
     assert is_plain(out + err)
     assert "hall" in out
@@ -113,7 +113,7 @@ def test_no_message_of_a_reader_holds_an_escape_sequence(
         reader.read(Path(path))
         raise ValueError(f"{path} was read")
 
-    monkeypatch.setattr("semnav_env.scripts.map_show.load_floor_plan", show)
+    monkeypatch.setattr("semnav_scripts.map_show.load_floor_plan", show)
     for seed in range(12):
         chance = random.Random(seed)
         at = chance.randrange(len(data))

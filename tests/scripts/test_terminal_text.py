@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from semnav_env.scripts.terminal_text import as_utf8, write_utf8
+from semnav_scripts.terminal_text import as_utf8, write_utf8
 
 ASCII_LOCALE = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
 
@@ -30,9 +30,9 @@ def test_an_ascii_stream_writes_utf8_afterwards() -> None:
 
 def test_umlauts_are_understood_and_written_in_an_ascii_locale() -> None:
     code = (
-        "import sys; from semnav_env.scripts.arguments import parse; "
-        "from semnav_env.scripts.demo import Arguments; "
-        "from semnav_env.scripts.terminal_text import write_utf8; write_utf8(sys.stdout); "
+        "import sys; from semnav_scripts.arguments import parse; "
+        "from semnav_scripts.demo import Arguments; "
+        "from semnav_scripts.terminal_text import write_utf8; write_utf8(sys.stdout); "
         "print(parse(Arguments, sys.argv[1:], 'demo').command)"
     )
     done = subprocess.run(

@@ -10,7 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import Pose, compose, relative
 from semnav_env.robots import SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.simulator import (
     ODOMETRIES,
@@ -20,6 +19,7 @@ from semnav_env.simulator import (
     Simulator,
 )
 from semnav_env.simulator.odometry import EXACT, Odometry, OdometrySettings
+from semnav_features.frames import Pose, compose, relative
 from tests.support.small_plans import empty_hall
 
 START: Pose = (3.0, -2.0, 0.7)

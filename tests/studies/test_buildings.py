@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.features import ExtractorSettings
-from semnav_env.features.scene import Door
 from semnav_env.maps.floor_plan import PlanDoor
 from semnav_env.maps.importers import read_occupancy
 from semnav_env.maps.importers.segments import plan_of_segments
+from semnav_features import ExtractorSettings
+from semnav_features.scene import Door
 from studies.__main__ import STUDIES
 from studies.buildings.buildings import (
     building_row,

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from semnav_env.features.clouds import DetectedDoor
+from semnav_features.clouds import DetectedDoor
 from studies.clouds import detectors
 from studies.clouds.detectors import judge
 from studies.clouds.scenes import POSES, draw_scenes

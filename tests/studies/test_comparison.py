@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import Arc, Corner, CornerKind, CorridorProbe, Scene, Wall
+from semnav_features import Arc, Corner, CornerKind, CorridorProbe, Scene, Wall
 from studies.features.comparison import compare_doors
 from studies.features.metrics import calibration, calibration_error, score, segmentation_rates
 from studies.features.overlap import Overlap, segmentation_rate

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features.frames import to_local
-from semnav_env.features.scene import Door
+from semnav_features.frames import to_local
+from semnav_features.scene import Door
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches
 from studies.doors.openings import LABELS_FOLDER, read_openings
 from tests.support.raycaster import polyline, scan_of

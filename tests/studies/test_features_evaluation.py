@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 from PIL import Image
 
-from semnav_env.features import Door, ExtractorSettings, Scene
 from semnav_env.maps import bundled_names, load_floor_plan
+from semnav_features import Door, ExtractorSettings, Scene
 from studies.__main__ import STUDIES
 from studies.doors.door_sightings import Gate
 from studies.doors.openings import read_openings

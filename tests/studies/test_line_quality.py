@@ -4,7 +4,7 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.features import Scan, polylines
+from semnav_features import Scan, polylines
 from studies.lines.command import Arguments
 from studies.lines.line_baselines import end_point_fit, greedy_polylines
 from studies.lines.line_quality import (

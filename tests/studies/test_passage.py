@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.features import ExtractorSettings, Scene, Wall, extract
+from semnav_features import ExtractorSettings, Scene, Wall, extract
 from studies.__main__ import STUDIES
 from studies.places.passage import PassageLimits, is_corridor, passages
 from studies.places.place_scans import called_corridor, place_sheets, read_place_labels

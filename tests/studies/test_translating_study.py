@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from semnav_env.agents.translating.files import BUNDLED_FOLDER
+from semnav_agents.translating.files import BUNDLED_FOLDER
 from semnav_env.commands import parse
 from semnav_env.commands.corpora import (
     ParseOutcome,

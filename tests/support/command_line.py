@@ -2,7 +2,7 @@
 
 import json
 
-from semnav_env.scripts import main as cli
+from semnav_scripts import main as cli
 
 
 def run(capsys, *words, command=cli.main):

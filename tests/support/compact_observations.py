@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from semnav_env.agents.learning.compact import CompactObserver
-from semnav_env.features.lidar_spec import lidar_spec
+from semnav_agents.learning.compact import CompactObserver
 from semnav_env.observations import GOAL
 from semnav_env.observations.layout import BUMP_ROWS
 from semnav_env.robots import ROBOTS
+from semnav_features.lidar_spec import lidar_spec
 
 LIDAR = lidar_spec("tim561")
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from semnav_env.features.corridor import Corridor
-from semnav_env.features.frames import Pose
-from semnav_env.features.scene import Scene, Wall
+from semnav_features.corridor import Corridor
+from semnav_features.frames import Pose
+from semnav_features.scene import Scene, Wall
 
 START: Pose = (0.0, 0.0, 0.0)
 

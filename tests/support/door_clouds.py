@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from semnav_env.features.clouds import PointCloud
-from semnav_env.features.elements import Door
+from semnav_features.clouds import PointCloud
+from semnav_features.elements import Door
 
 DOOR = Door((2.0, 0.45), (2.0, -0.45))
 """Two metres ahead; the robot is to the left of start-end."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from semnav_env.features.frames import Pose
 from semnav_env.robots import WHEELCHAIR, RobotSpec
 from semnav_env.world import World
+from semnav_features.frames import Pose
 from tests.support.small_plans import empty_hall
 
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.agents.oracle import OracleAgent
-from semnav_env.features.frames import FloatArray, Point, wrap_angle
+from semnav_agents.oracle import OracleAgent
 from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.metrics import Recording
 from semnav_env.verifier import Motion, Verifier, place
+from semnav_features.frames import FloatArray, Point, wrap_angle
 
 PERIOD = 1.0 / 15.0
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from semnav_env.features import Wall
 from semnav_env.maps import load_floor_plan
+from semnav_features import Wall
 from studies.features.cases import draw_cases
 from studies.features.comparison import compare
 from studies.features.records import CountingLimits, Detection, Sighting, as_table

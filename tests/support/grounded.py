@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from semnav_env.commands import Clause, parse
-from semnav_env.features.frames import Pose
-from semnav_env.features.scene import Scene
 from semnav_env.grounding import Goal, ground
 from semnav_env.grounding.goal import door_of
+from semnav_features.frames import Pose
+from semnav_features.scene import Scene
 from tests.support.hand_made import corridor
 
 START: Pose = (0.0, 0.0, 0.0)

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from semnav_env.features.frames import Point
-from semnav_env.features.scene import Door, Scene, Wall
+from semnav_features.frames import Point
+from semnav_features.scene import Door, Scene, Wall
 
 BACK = -3.0
 DOOR_WIDTH = 0.9

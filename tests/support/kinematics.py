@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from semnav_env.agents.planning.doorway import target_behind
-from semnav_env.agents.planning.driver import Driver
-from semnav_env.agents.planning.obstacles import ObstacleMemory, points_of_segments
-from semnav_env.agents.planning.planner import DriveTarget
-from semnav_env.features.frames import FloatArray, Pose, compose, points_to_parent, relative
-from semnav_env.features.scene import Door
+from semnav_agents.planning.doorway import target_behind
+from semnav_agents.planning.driver import Driver
+from semnav_agents.planning.obstacles import ObstacleMemory, points_of_segments
+from semnav_agents.planning.planner import DriveTarget
 from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Pose, compose, points_to_parent, relative
+from semnav_features.scene import Door
 from tests.support.raycaster import heidelberg, polygon, polyline, scan_of
 
 PERIOD, SUBSTEPS = 1.0 / 15.0, 4

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from semnav_env.features import Scan
-from semnav_env.features.frames import FloatArray, Point, Pose
 from semnav_env.maps import load_floor_plan
+from semnav_features import Scan
+from semnav_features.frames import FloatArray, Point, Pose
 
 FIELD_OF_VIEW = math.radians(270.0)
 

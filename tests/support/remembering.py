@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Pose, to_local
-from semnav_env.features.kernels.layout import CAPACITY, DOOR, DOORS, WALL, WALLS
-from semnav_env.features.memory import SceneMemory
+from semnav_features.frames import FloatArray, Pose, to_local
+from semnav_features.kernels.layout import CAPACITY, DOOR, DOORS, WALL, WALLS
+from semnav_features.memory import SceneMemory
 
 Ends = tuple[float, float, float, float]
 

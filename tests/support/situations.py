@@ -15,9 +15,9 @@ from typing import Any
 
 from shapely import box
 
-from semnav_env.features.frames import Point, Pose
-from semnav_env.features.scene import Scene, Wall
 from semnav_env.maps import FloorPlan, Material, PlanDoor, Surface, load_floor_plan
+from semnav_features.frames import Point, Pose
+from semnav_features.scene import Scene, Wall
 from tests.support.hand_made import corridor, polyline
 
 TABLE: dict[str, Any] = json.loads(Path(__file__).with_name("rules.json").read_text())

@@ -3,8 +3,8 @@
 import numpy as np
 from numba.experimental import structref
 
-from semnav_env.features.kernels.compiling import kernel
-from semnav_env.features.kernels.structures import ArraysType
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.structures import ArraysType
 
 
 @kernel

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from shapely import box
 
-from semnav_env.features.frames import Point
 from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
+from semnav_features.frames import Point
 
 
 def closed(*points: Point, material: Material = Material.WALL) -> Surface:

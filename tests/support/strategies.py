@@ -9,8 +9,8 @@ import numpy as np
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from semnav_env.features import Scan
-from semnav_env.features.frames import FloatArray, Point, Pose
+from semnav_features import Scan
+from semnav_features.frames import FloatArray, Point, Pose
 from tests.support.raycaster import polyline
 
 awkward_ranges = st.one_of(

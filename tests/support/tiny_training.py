@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.agents.learning.presets import PRESETS, PPOSettings
-from semnav_env.agents.learning.training import Trainer
+from semnav_agents.learning.presets import PRESETS, PPOSettings
+from semnav_agents.learning.training import Trainer
 
 TINY = replace(
     PRESETS["hallway"],

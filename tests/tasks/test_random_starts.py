@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from semnav_env.commands import Command
-from semnav_env.features.corridor import corridor_at
 from semnav_env.grounding import GroundingError
 from semnav_env.maps import load_floor_plan
 from semnav_env.robots import robot_spec
@@ -15,6 +14,7 @@ from semnav_env.tasks import EpisodeRequest, MissionMaker, starts
 from semnav_env.tasks.sampling import DOORS, TURNS, leads_nowhere
 from semnav_env.tasks.starts import LEAST_AHEAD, WIDEST_HALF
 from semnav_env.verifier import plan_goals
+from semnav_features.corridor import corridor_at
 
 PLAN = load_floor_plan("office_cross")
 

@@ -11,7 +11,6 @@ import pytest
 
 from semnav_env.commands import Command, Turn, Turning
 from semnav_env.env import SemNavEnv
-from semnav_env.features.lidar_spec import LidarSpec
 from semnav_env.lidar import TIM561
 from semnav_env.robots import SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.simulator import EXACT, OdometrySettings
@@ -26,6 +25,7 @@ from semnav_env.tasks import (
     as_task,
     wrapping,
 )
+from semnav_features.lidar_spec import LidarSpec
 
 AROUND = "turn around"
 LEFT = Command((Turn(Turning.LEFT, degrees=90),))

@@ -5,9 +5,9 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from semnav_env.features.kernels.compiling import kernel
 from semnav_env.vector import SemNavVectorEnv
 from semnav_env.vector.marks import is_set, set_mark
+from semnav_features.kernels.compiling import kernel
 
 ROBOTS, STEPS = 40, 60
 

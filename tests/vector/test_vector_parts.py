@@ -8,13 +8,13 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
-from semnav_env.agents.learning.sb3_vec_env import as_sb3_vec_env
+from semnav_agents.learning.sb3_vec_env import as_sb3_vec_env
 from semnav_env.env import SemNavEnv
-from semnav_env.features.lidar_spec import TIM561
 from semnav_env.observations import EntryObservation
 from semnav_env.rescue import PersonSearch
 from semnav_env.tasks import EpisodeRequest, RewardWeights
 from semnav_env.vector import SemNavVectorEnv
+from semnav_features.lidar_spec import TIM561
 
 COARSE = replace(TIM561, name="coarse", beams=271, angle_increment=3.0 * TIM561.angle_increment)
 AHEAD = np.full((2, 2), 0.3, np.float32)

@@ -12,7 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.commands import parse
-from semnav_env.features.frames import Pose
 from semnav_env.maps import load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.simulator.sensed import Motion
@@ -20,6 +19,7 @@ from semnav_env.tasks import EpisodeJudge
 from semnav_env.verifier import Verdict, Verifier, plan_mission
 from semnav_env.verifier.exact_hypot import exact_hypot
 from semnav_env.verifier.judge_record import ASTRAY, DOOR_CROSSED, TOO_STILL, judge_motion
+from semnav_features.frames import Pose
 
 PLAN = load_floor_plan("office_cross")
 MISSION = plan_mission(

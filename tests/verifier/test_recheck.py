@@ -13,13 +13,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.agents.evaluation import drive
-from semnav_env.agents.oracle import OracleAgent
+from semnav_agents.evaluation import drive
+from semnav_agents.oracle import OracleAgent
 from semnav_env.commands import Clause, Command, GoBack, GoToRoom, parse
 from semnav_env.commands.rooms import plain_name
 from semnav_env.commands.sampling import sample_command
 from semnav_env.env import SemNavEnv
-from semnav_env.features.frames import FloatArray, Pose
 from semnav_env.grounding import Goal, GroundingError
 from semnav_env.maps import bundled_names, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
@@ -32,6 +31,7 @@ from semnav_env.verifier import FAILURES, Verdict, Verifier, plan_mission, verif
 from semnav_env.verifier import recheck as second
 from semnav_env.verifier.astray import wrong_arms
 from semnav_env.verifier.recheck import recheck
+from semnav_features.frames import FloatArray, Pose
 from tests.support.erring import ErringAgent, ghost, targets
 
 PLANS = {name: load_floor_plan(name) for name in bundled_names()}

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from semnav_env.commands import parse
-from semnav_env.features.frames import Pose
 from semnav_env.grounding import GroundingError, PassGoal
 from semnav_env.maps import PlanDoor, load_floor_plan
 from semnav_env.maps.geodesic import Geodesic
 from semnav_env.tasks import EpisodeJudge
 from semnav_env.verifier import Motion, Verdict, Verifier, plan_mission
 from semnav_env.verifier.verdict import verdicts
+from semnav_features.frames import Pose
 
 PLAN = load_floor_plan("office_cross")
 GEODESIC = Geodesic(PLAN)

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from semnav_env.dynamics import Dynamics
-from semnav_env.features.frames import MOST_CONTACTS, Contact, Pose
 from semnav_env.robots import ROBOTS, SPOT
 from semnav_env.world import World, chipmunk, world
 from semnav_env.world.contacts import Contacts
+from semnav_features.frames import MOST_CONTACTS, Contact, Pose
 from tests.support.driving import at_the_wall, random_commands
 from tests.support.moving_worlds import world_of
 from tests.support.small_plans import empty_hall, furnished_hall

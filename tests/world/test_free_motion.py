@@ -10,12 +10,12 @@ import pytest
 from shapely import Point
 
 from semnav_env.dynamics import Dynamics
-from semnav_env.features.frames import Pose, wrap_angle
 from semnav_env.lidar.culling import cell_of
 from semnav_env.maps import FloorPlan, load_floor_plan
 from semnav_env.robots import ROBOTS, SPOT, RobotSpec
 from semnav_env.world import World
 from semnav_env.world.free_motion import culling_around
+from semnav_features.frames import Pose, wrap_angle
 from tests.support.driving import random_commands
 from tests.support.moving_worlds import world_of
 from tests.support.small_plans import empty_hall, furnished_hall

@@ -10,11 +10,11 @@ import pymunk
 import pytest
 from shapely import LineString
 
-from semnav_env.features.frames import Pose, to_parent
 from semnav_env.lidar import Lidar, LidarSpec
 from semnav_env.maps import FloorPlan, Material, bundled_names, load_floor_plan
 from semnav_env.robots import SPOT
 from semnav_env.world import World
+from semnav_features.frames import Pose, to_parent
 from tests.support.small_plans import furnished_hall
 
 AROUND = LidarSpec("around", 720, -math.pi, math.tau / 720)

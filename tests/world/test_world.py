@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from shapely import LineString, Polygon
 
-from semnav_env.features.frames import Point, Pose, to_parent, wrap_angle
 from semnav_env.robots import ROBOTS, SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.world import GRAVITY, GRIP, World
+from semnav_features.frames import Point, Pose, to_parent, wrap_angle
 from tests.support.driving import at_the_wall, random_commands
 from tests.support.small_plans import empty_hall, furnished_hall, plan_of
 

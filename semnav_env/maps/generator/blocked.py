@@ -7,7 +7,6 @@ from typing import cast
 
 import shapely
 
-from semnav_env.features.frames import Point
 from semnav_env.maps.floor_plan import FloorPlan, Material, Region, Surface
 from semnav_env.maps.generator.boxes import Box
 from semnav_env.maps.generator.lots import Lot
@@ -15,6 +14,7 @@ from semnav_env.maps.generator.openings import Doorway
 from semnav_env.maps.reach import reach
 from semnav_env.maps.reachability import SEARCH_GRIDS
 from semnav_env.robots import WHEELCHAIR
+from semnav_features.frames import Point
 
 NARROW_GAP = 0.7
 """Gap beside a leaf below which it is checked whether a wheelchair gets around the leaf, metres."""

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 from numpy.random import Generator
 
-from semnav_env.features.frames import Point
 from semnav_env.maps.generator.boxes import Box, Span
 from semnav_env.maps.generator.chance import centimetres, chance
 from semnav_env.maps.generator.lots import Lot, OfficeWall
 from semnav_env.maps.generator.settings import OfficeSettings
+from semnav_features.frames import Point
 
 CORNER_DISTANCE = 15
 """Least distance from a door to the nearest corner, cm."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
-from semnav_env.features.checked_fields import Bounds, Share, check_fields, require_span
+from semnav_features.checked_fields import Bounds, Share, check_fields, require_span
 
 MAX_CROSSINGS = 8
 """Largest number of parallel lines of corridors."""

@@ -11,7 +11,6 @@ import shapely
 from numpy.random import Generator
 from shapely import Polygon
 
-from semnav_env.features.frames import Point
 from semnav_env.maps.floor_plan import Material, Surface
 from semnav_env.maps.generator.boxes import Box, Span, without
 from semnav_env.maps.generator.chance import chance
@@ -19,6 +18,7 @@ from semnav_env.maps.generator.corridors import OfficeCorridor
 from semnav_env.maps.generator.lots import Lot, OfficeWall
 from semnav_env.maps.generator.openings import Doorway
 from semnav_env.maps.generator.settings import OfficeSettings
+from semnav_features.frames import Point
 
 Line: TypeAlias = tuple[bool, int]
 """Whether it runs along x, and its place across that, cm."""

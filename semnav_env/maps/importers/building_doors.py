@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from semnav_env.features.frames import FloatArray, Point, middle_of
 from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 from semnav_env.maps.importers.fitting import fit_door
 from semnav_env.maps.importers.gaps import LEAST_DOORWAY_DISTANCE, find_doorways
 from semnav_env.maps.importers.labels import DoorLabel
 from semnav_env.maps.rules import FloorPlanError, check_door, check_doorway
+from semnav_features.frames import FloatArray, Point, middle_of
 
 
 def with_doors(

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
-from semnav_env.features.frames import FloatArray
+from semnav_features.frames import FloatArray
 
 PIECE_TOLERANCE = 2.0
 """Distance within which a straight piece of an outline lies from the line between its ends,

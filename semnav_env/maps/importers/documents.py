@@ -8,9 +8,9 @@ from typing import Any
 
 import yaml
 
-from semnav_env.features import reading
-from semnav_env.features.validation import clipped, shown
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features import reading
+from semnav_features.validation import clipped, shown
 
 MAX_YAML_BYTES = 200_000
 """Size of the largest YAML file that is read, bytes."""

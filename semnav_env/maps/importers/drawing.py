@@ -13,8 +13,6 @@ from typing import Annotated
 import numpy as np
 from shapely import STRtree
 
-from semnav_env.features.checked_fields import Bounds, check_fields
-from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.importers.building_doors import with_doors
 from semnav_env.maps.importers.fitting import fit_door
 from semnav_env.maps.importers.imported import ImportedPlan
@@ -22,6 +20,8 @@ from semnav_env.maps.importers.labels import DoorLabel
 from semnav_env.maps.importers.segments import Row, plan_of_segments
 from semnav_env.maps.rules import FloorPlanError
 from semnav_env.maps.units import unit_fault
+from semnav_features.checked_fields import Bounds, check_fields
+from semnav_features.frames import FloatArray, Point
 
 CURVE_TOLERANCE = 0.01
 """Largest distance of the lines that stand for a curve from the curve, metres."""

@@ -9,8 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.features.reading import check_file
-from semnav_env.features.validation import clipped
 from semnav_env.maps.importers.drawing import (
     CURVE_TOLERANCE,
     MAX_DRAWING_EXTENT,
@@ -20,6 +18,8 @@ from semnav_env.maps.importers.drawing import (
 )
 from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features.reading import check_file
+from semnav_features.validation import clipped
 
 CURVE_TYPES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
 """Types of DXF entities that are read as lines and curves."""

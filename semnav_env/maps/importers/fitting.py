@@ -10,9 +10,9 @@ import numpy as np
 import shapely
 from shapely import STRtree
 
-from semnav_env.features.frames import FloatArray, Point, Pose, points_to_local, to_parent
 from semnav_env.maps.doorways import NARROWEST_ROBOT
 from semnav_env.maps.importers.labels import DoorLabel
+from semnav_features.frames import FloatArray, Point, Pose, points_to_local, to_parent
 
 MAX_JAMB_SHIFT = 0.6
 """Largest distance of a jamb beyond the marked one, metres."""

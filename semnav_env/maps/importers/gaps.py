@@ -9,10 +9,10 @@ from itertools import pairwise
 import shapely
 from shapely import LineString, STRtree
 
-from semnav_env.features.frames import Point, middle_of
 from semnav_env.maps.doorways import NARROWEST_ROBOT
 from semnav_env.maps.floor_plan import PlanDoor, Region
 from semnav_env.maps.importers.fitting import Band
+from semnav_features.frames import Point, middle_of
 
 DOORWAY_WIDTHS = (0.6, 2.2)
 """Width of the narrowest and of the widest doorway, metres."""

@@ -10,9 +10,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point
 from semnav_env.maps.importers.documents import finite, read_yaml
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features.frames import FloatArray, Point
 
 DOORS_FILE = "doors.yaml"
 """Name of the file with the labels of doors, beside the YAML file of the map."""

@@ -10,12 +10,12 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.checked_fields import Bounds, Share, check_fields, require_order
-from semnav_env.features.frames import FloatArray, Point, Pose, points_to_parent, to_local
-from semnav_env.features.validation import shown
 from semnav_env.maps.importers.documents import finite, read_yaml
 from semnav_env.maps.importers.raster import free_pixels, read_grey, solid_pixels
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features.checked_fields import Bounds, Share, check_fields, require_order
+from semnav_features.frames import FloatArray, Point, Pose, points_to_parent, to_local
+from semnav_features.validation import shown
 
 IMAGE_SUFFIXES = (".pgm", ".png", ".ppm", ".bmp", ".tif", ".tiff", ".gif")
 """Endings of the names of images that may be maps."""

@@ -8,7 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
-from semnav_env.features.validation import clipped
 from semnav_env.maps.importers.building import load_building
 from semnav_env.maps.importers.documents import read_text
 from semnav_env.maps.importers.drawing import Drawing
@@ -22,6 +21,7 @@ from semnav_env.maps.importers.svg import load_svg
 from semnav_env.maps.importers.tracing import Tracing, trace
 from semnav_env.maps.rules import FloorPlanError
 from semnav_env.maps.units import certain_unit_fault, unit_fault
+from semnav_features.validation import clipped
 
 IMPORTED_FORMATS = (
     "a map_server map (.yaml, or its image with a resolution)",

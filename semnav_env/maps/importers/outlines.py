@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
+from semnav_features.frames import FloatArray
 
 EAST, NORTH, WEST, SOUTH = range(4)
 EDGE_STEPS = np.array(((1, 0), (0, -1), (-1, 0), (0, 1)))

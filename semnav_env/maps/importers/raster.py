@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 from scipy.ndimage import binary_closing
 
-from semnav_env.features.frames import FloatArray
-from semnav_env.features.reading import check_file
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features.frames import FloatArray
+from semnav_features.reading import check_file
 
 MAX_PIXELS = 25_000_000
 """Number of pixels beyond which an image is refused before it is decoded."""

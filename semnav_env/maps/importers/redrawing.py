@@ -9,8 +9,8 @@ import numpy as np
 import shapely
 from shapely import STRtree
 
-from semnav_env.features.frames import FloatArray
 from semnav_env.maps.importers.runs import PixelRun
+from semnav_features.frames import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

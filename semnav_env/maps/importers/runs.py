@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.features.frames import FloatArray
 from semnav_env.maps.importers.directions import LEAST_PIECE_LENGTH, spread_out
+from semnav_features.frames import FloatArray
 
 LEAST_RUN_LENGTH = LEAST_PIECE_LENGTH
 """Length of the shortest run, pixels."""

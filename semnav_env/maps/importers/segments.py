@@ -10,11 +10,11 @@ from typing import TypeAlias
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.importers.documents import finite, read_text
 from semnav_env.maps.importers.imported import ImportedPlan, ImportReport, boundary_of
 from semnav_env.maps.rules import LEAST_SEGMENT_LENGTH, FloorPlanError
+from semnav_features.frames import FloatArray
 
 Row: TypeAlias = tuple[float, float, float, float]
 """The ends x1, y1, x2, y2 of a segment, metres."""

@@ -6,11 +6,11 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from semnav_env.features.frames import FloatArray, points_to_local, points_to_parent
 from semnav_env.maps.importers.directions import dominant_direction
 from semnav_env.maps.importers.outlines import closed_ring
 from semnav_env.maps.importers.redrawing import clashing, redrawn
 from semnav_env.maps.importers.runs import PixelRun, runs_of
+from semnav_features.frames import FloatArray, points_to_local, points_to_parent
 
 ALIGNMENT_TOLERANCE = 1.0
 """Largest distance between the lines of two runs of one wall, pixels."""

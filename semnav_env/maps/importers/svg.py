@@ -12,8 +12,6 @@ from xml.etree.ElementTree import ParseError, fromstring
 
 import numpy as np
 
-from semnav_env.features.frames import FloatArray, Point
-from semnav_env.features.validation import clipped
 from semnav_env.maps.importers.documents import read_text
 from semnav_env.maps.importers.drawing import (
     CURVE_TOLERANCE,
@@ -25,6 +23,8 @@ from semnav_env.maps.importers.drawing import (
 from semnav_env.maps.importers.imported import ImportedPlan
 from semnav_env.maps.importers.svg_budget import MAX_ELEMENTS, check_budget
 from semnav_env.maps.rules import FloorPlanError
+from semnav_features.frames import FloatArray, Point
+from semnav_features.validation import clipped
 
 MAX_STEPS = 200
 """Largest number of lines that stand for a piece of a curve."""

@@ -10,8 +10,6 @@ from typing import Annotated, TypeAlias
 
 import numpy as np
 
-from semnav_env.features.checked_fields import Bounds, check_fields
-from semnav_env.features.frames import FloatArray
 from semnav_env.maps.floor_plan import FloorPlan, Surface
 from semnav_env.maps.importers.imported import ImportedPlan, ImportReport, boundary_of
 from semnav_env.maps.importers.occupancy import OccupancyMap, OccupancySpec
@@ -19,6 +17,8 @@ from semnav_env.maps.importers.outlines import outlines
 from semnav_env.maps.importers.raster import mended
 from semnav_env.maps.importers.straighten import Straightened, straighten
 from semnav_env.maps.rules import LEAST_SEGMENT_LENGTH, FloorPlanError
+from semnav_features.checked_fields import Bounds, check_fields
+from semnav_features.frames import FloatArray
 
 Pixels: TypeAlias = Annotated[float, Bounds(0.0, 5.0, "pixels")]
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from semnav_env.agents.hearing.clause_state import ClauseState
-from semnav_env.agents.hearing.elements import MOST_ELEMENTS, describe
-from semnav_env.agents.hearing.network import GroundingNetwork, NetworkShape
-from semnav_env.agents.hearing.tokens import COMMAND_SIZE, describe_clauses
+from semnav_agents.hearing.clause_state import ClauseState
+from semnav_agents.hearing.elements import MOST_ELEMENTS, describe
+from semnav_agents.hearing.network import GroundingNetwork, NetworkShape
+from semnav_agents.hearing.tokens import COMMAND_SIZE, describe_clauses
 from semnav_env.commands import encode, parse
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import read_odometry, table
@@ -75,7 +75,7 @@ def test_description_is_in_the_frame_of_the_corridor(moment):
 
 def test_numpy_says_what_torch_says(moment):
     torch = pytest.importorskip("torch")
-    from semnav_env.agents.hearing.torch_network import TorchGrounding
+    from semnav_agents.hearing.torch_network import TorchGrounding
 
     observation, state, lidar = moment
     description = describe(observation, state, *lidar)

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from semnav_env.agents.hearing.agent import REST_SECONDS, HearingAgent
-from semnav_env.agents.hearing.clause_state import ClauseState
-from semnav_env.agents.hearing.network import NetworkOutput
-from semnav_env.agents.hearing.told import outward_of
+from semnav_agents.hearing.agent import REST_SECONDS, HearingAgent
+from semnav_agents.hearing.clause_state import ClauseState
+from semnav_agents.hearing.network import NetworkOutput
+from semnav_agents.hearing.told import outward_of
 from semnav_env.commands import encode, parse
 from semnav_env.env import SemNavEnv
 from semnav_env.grounding import GoalKind

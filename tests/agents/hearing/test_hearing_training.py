@@ -8,18 +8,18 @@ import pytest
 
 torch = pytest.importorskip("torch", reason='needs the extra "rl"')
 
-from semnav_env.agents.base import steps  # noqa: E402
-from semnav_env.agents.hearing.agent import HearingAgent  # noqa: E402
-from semnav_env.agents.hearing.card import CARD_FILE, NETWORK_FILE, ModelCard  # noqa: E402
-from semnav_env.agents.hearing.learning import batches  # noqa: E402
-from semnav_env.agents.hearing.mirror import mirrored  # noqa: E402
-from semnav_env.agents.hearing.network import NetworkShape  # noqa: E402
-from semnav_env.agents.hearing.presets import HEARING_PRESETS, HearingRound  # noqa: E402
-from semnav_env.agents.hearing.training import HearingTrainer  # noqa: E402
-from semnav_env.agents.learning.files import load_tensors  # noqa: E402
-from semnav_env.agents.registry import make_agent  # noqa: E402
+from semnav_agents.base import steps  # noqa: E402
+from semnav_agents.hearing.agent import HearingAgent  # noqa: E402
+from semnav_agents.hearing.card import CARD_FILE, NETWORK_FILE, ModelCard  # noqa: E402
+from semnav_agents.hearing.learning import batches  # noqa: E402
+from semnav_agents.hearing.mirror import mirrored  # noqa: E402
+from semnav_agents.hearing.network import NetworkShape  # noqa: E402
+from semnav_agents.hearing.presets import HEARING_PRESETS, HearingRound  # noqa: E402
+from semnav_agents.hearing.training import HearingTrainer  # noqa: E402
+from semnav_agents.learning.files import load_tensors  # noqa: E402
+from semnav_agents.registry import make_agent  # noqa: E402
 from semnav_env.env import SemNavEnv  # noqa: E402
-from semnav_env.scripts import main as cli  # noqa: E402
+from semnav_scripts import main as cli  # noqa: E402
 
 TINY = replace(
     HEARING_PRESETS["listener"],

@@ -7,11 +7,11 @@ import pytest
 
 pytest.importorskip("safetensors", reason='needs the extra "rl"')
 
-from semnav_env.agents.base import steps
-from semnav_env.agents.hearing.agent import BUNDLED_FOLDER, HearingAgent, hearing_names
-from semnav_env.agents.hearing.card import ModelCard
-from semnav_env.agents.learned import agent_label
-from semnav_env.agents.registry import make_agent
+from semnav_agents.base import steps
+from semnav_agents.hearing.agent import BUNDLED_FOLDER, HearingAgent, hearing_names
+from semnav_agents.hearing.card import ModelCard
+from semnav_agents.learned import agent_label
+from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.episodes import load_episodes
 from tests.support.paths import GOLDEN

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.features import Door, Scene
-from semnav_env.features.clouds import (
+from semnav_features import Door, Scene
+from semnav_features.clouds import (
     MesDetector,
     MesStep,
     PointCloud,
@@ -17,7 +17,7 @@ from semnav_env.features.clouds import (
     find_door,
     fused,
 )
-from semnav_env.features.frames import compose
+from semnav_features.frames import compose
 from tests.support.door_clouds import DOOR, door_cloud, turned, turned_door
 
 SEEDS = st.integers(0, 2**32 - 1)

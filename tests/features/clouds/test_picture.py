@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from semnav_env.features.clouds import PointCloud, find_door
-from semnav_env.features.clouds.picture import save_cloud
+from semnav_features.clouds import PointCloud, find_door
+from semnav_features.clouds.picture import save_cloud
 from tests.support.door_clouds import DOOR, door_cloud
 
 RED = (214, 39, 40)

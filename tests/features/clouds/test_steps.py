@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from semnav_env.features.clouds import (
+from semnav_features.clouds import (
     CropBox,
     crop,
     euclidean_clusters,
@@ -19,7 +19,7 @@ from semnav_env.features.clouds import (
     upright_line,
     voxel_grid,
 )
-from semnav_env.features.clouds.upright_line import UprightLine
+from semnav_features.clouds.upright_line import UprightLine
 from tests.support.door_clouds import DOOR, turned, turned_door
 
 COORDINATES = st.integers(-200, 200).map(lambda value: value / 100)

@@ -1,0 +1,31 @@
+"""Measures agents: suites of trials, a runner, results and summaries."""
+
+from semnav_agents.evaluation.ambiguity import grammar_of, misreading
+from semnav_agents.evaluation.drive import Drive, drive
+from semnav_agents.evaluation.results import (
+    Result,
+    Summary,
+    common_causes,
+    failure_line,
+    summarise,
+)
+from semnav_agents.evaluation.runner import Extras, conclude, run_suite
+from semnav_agents.evaluation.suites import SUITES, Trial, suite
+
+__all__ = [
+    "SUITES",
+    "Drive",
+    "Extras",
+    "Result",
+    "Summary",
+    "Trial",
+    "common_causes",
+    "conclude",
+    "drive",
+    "failure_line",
+    "grammar_of",
+    "misreading",
+    "run_suite",
+    "suite",
+    "summarise",
+]

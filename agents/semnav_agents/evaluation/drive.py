@@ -1,0 +1,133 @@
+"""Lets an agent drive one episode, and records and judges it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from semnav_agents.base import Agent, GoalHolder, steps
+from semnav_agents.evaluation.causes import cause_of
+from semnav_env.env import SemNavEnv
+from semnav_env.metrics import Metrics, Recorder, Recording, measure
+from semnav_env.metrics.event_log import events_of
+from semnav_env.metrics.events import Event
+from semnav_env.metrics.final_belief import FinalBelief
+from semnav_env.rendering.film import Film
+from semnav_env.robots import RobotSpec
+from semnav_env.verifier import Verdict, Verifier
+from semnav_env.verifier.recheck import recheck
+from semnav_features.frames import ORIGIN, compose, relative, to_parent
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """A driven episode.
+
+    Attributes:
+        recording: poses, velocities and contacts of every step.
+        verifier: the judge; it knows the plan, the command, the true route and the goals.
+        metrics: all measures.
+        cause: why it failed, in words; empty after success.
+        robot: the body that drove.
+        social: how near people came, see `World.social`.
+        impossible: why the robot believed at the end that the command is impossible; empty if it
+            did not believe so.
+        belief: what it remembered, and where it was going, at the end.
+    """
+
+    recording: Recording
+    verifier: Verifier
+    metrics: Metrics
+    cause: str
+    robot: RobotSpec
+    social: dict[str, float]
+    impossible: str = ""
+    belief: FinalBelief | None = None
+
+    @property
+    def kind(self) -> str:
+        """The kind of the clause that failed, such as "Turn"; empty after success."""
+        clauses = self.verifier.mission.command.clauses
+        active = min(self.verifier.follower.active, len(clauses) - 1)
+        return "" if self.metrics.success else type(clauses[active]).__name__
+
+    def as_infeasible(self) -> Drive:
+        """The same drive, judged as that of a command that is impossible.
+
+        It is a success if the robot stood still, said that the command is impossible, and had made
+        no mistake before. There is no true route to weigh it by, so it has no SPL and SDTW.
+        """
+        right = recognised_impossible(self.verifier, self.impossible)
+        said = self.impossible or "did not say that it is impossible"
+        cause = "" if right else f"{self.verifier.verdict}; robot: {said}"
+        near = right or self.metrics.oracle_success
+        told = replace(
+            self.metrics, success=right, oracle_success=near, spl=math.nan, sdtw=math.nan
+        )
+        return replace(self, metrics=told, cause=cause)
+
+    def rechecked(self) -> str:
+        """The verdict of the second opinion if it differs from the verifier's; otherwise empty."""
+        verifier, mission = self.verifier, self.verifier.mission
+        found = recheck(self.recording, mission.floor_plan, verifier.goals, mission.rules)
+        return "" if found.verdict == verifier.verdict else found.verdict
+
+    def events(self) -> tuple[Event, ...]:
+        """The events of the drive, in the order of time."""
+        return events_of(self.recording, self.verifier.mission.floor_plan)
+
+    def save_picture(self, path: str | Path, title: str = "") -> None:
+        """Write a picture: plan, true route, path driven, contacts, goals, what was believed."""
+        from semnav_env.metrics.picture import save_episode  # matplotlib only when it is wanted
+
+        mission = self.verifier.mission
+        plan, route, goals = mission.floor_plan, mission.route, mission.goals
+        save_episode(path, plan, self.recording, self.robot, route, goals, title, self.belief)
+
+
+def recognised_impossible(verifier: Verifier, impossible: str | None) -> bool:
+    """Whether a robot answered an impossible command rightly, see `Drive.as_infeasible`.
+
+    Args:
+        verifier: the judge, after the end.
+        impossible: why the robot believes that the command is impossible.
+    """
+    return bool(impossible) and verifier.verdict is Verdict.STOPPED_SHORT
+
+
+def drive(
+    env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any], film: Film | None = None
+) -> Drive:
+    """Let an agent drive one episode to its end.
+
+    Args:
+        env: an environment with the `observation=` of the agent.
+        agent: the driver.
+        seed: of the episode.
+        options: for `env.reset`: "command", "pose", "floor_plan"; or "episode".
+        film: takes frames on the way.
+    """
+    observation, info = env.reset(seed=seed, options=options)
+    recorder = Recorder(env.world)
+    for step in steps(env, agent, observation, info):
+        recorder.note()
+        info = step.info
+        if film is not None:
+            film.note(step.terminated or step.truncated)
+    verifier, recording = env.judge.verifier, recorder.recording()
+    metrics = measure(recording, verifier, env.robot)
+    impossible = info["impossible"]
+    cause = cause_of(verifier, metrics, impossible)
+    social = env.world.social()
+    believed = _final_belief(env, agent)
+    return Drive(recording, verifier, metrics, cause, env.robot, social, impossible or "", believed)
+
+
+def _final_belief(env: SemNavEnv, agent: Agent) -> FinalBelief:
+    """What the robot believes now; its believed pose is put where it truly is."""
+    odometry_frame = compose(env.world.pose, relative(env.belief.pose, ORIGIN))
+    own = agent.own_goal() if isinstance(agent, GoalHolder) else env.belief.goal.pose
+    doors = env.tracker.scene().placed(odometry_frame).doors
+    return FinalBelief(tuple(doors), to_parent(odometry_frame, own[:2]))

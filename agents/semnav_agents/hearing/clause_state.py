@@ -1,0 +1,82 @@
+"""What an agent that hears the command remembers of the clause that it takes to be under way."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.commands.tokens import CLAUSE_FEATURES, CONDITION_CASES, TokenVerb
+from semnav_env.grounding.ways import WAY_SPACING, Trail
+from semnav_features.frames import FloatArray, Point, Pose, to_local
+
+STANDSTILL_SPEED = 0.05
+"""Below it a robot counts as standing, m/s."""
+
+
+class ClauseState:
+    """The agent's own pointer to the clause under way, and what happened since that began.
+
+    All places are in the odometry frame. Nothing here comes from the environment's grounding.
+
+    Args:
+        tokens: of the command, shape (8, 5).
+        pose: of the robot where the command begins.
+
+    Attributes:
+        tokens: of the command.
+        clause: index of the clause under way.
+        begin: where that clause began.
+        farthest: the place at which the robot was farthest along the heading of `begin`.
+        still: for how long it has stood, seconds.
+        way_back: places to the start of the command, shape (n, 2), while the clause is to go back.
+    """
+
+    def __init__(self, tokens: NDArray[np.integer], pose: Pose) -> None:
+        self.tokens = np.asarray(tokens, np.int64).reshape(-1, CLAUSE_FEATURES)
+        self._trail, self.still, self.pose = Trail(pose), 0.0, pose
+        self.start_clause(0, pose, pose)
+
+    @property
+    def done(self) -> bool:
+        """Whether every clause has been carried out."""
+        return self.clause >= len(self.tokens) or not self.tokens[self.clause].any()
+
+    @property
+    def step_when_done(self) -> int:
+        """By how many clauses to go on once the one under way is carried out.
+
+        A clause that was chosen by a condition is followed by what was to be done otherwise.
+        """
+        verb, case = self.tokens[self.clause - 1, :2] if self.clause else (TokenVerb.FOLLOW, 0)
+        return 2 if verb == TokenVerb.IF_THERE and CONDITION_CASES[case][1] else 1
+
+    @property
+    def heading_at_start(self) -> float:
+        """The heading with which the command began, radians."""
+        return self._trail.back(self.pose).heading
+
+    def start_clause(self, clause: int, begin: Pose, pose: Pose) -> None:
+        """Take a clause for the one under way.
+
+        Args:
+            clause: its index.
+            begin: where it begins: where the one before led to.
+            pose: of the robot.
+        """
+        self.clause, self.begin, self.farthest, self.still = clause, begin, pose[:2], 0.0
+        self._farthest_along = to_local(begin, pose[:2])[0]
+        goes_back = not self.done and self.tokens[clause, 0] == TokenVerb.GO_BACK
+        self.way_back: FloatArray | None = (
+            np.array(self._trail.back(pose).places) if goes_back else None
+        )
+
+    def note(self, pose: Pose, speed: float, seconds: float) -> None:
+        """Note where the robot is now; to be called in every control period."""
+        self.pose = pose
+        self.still = self.still + seconds if speed < STANDSTILL_SPEED else 0.0
+        place: Point = pose[:2]
+        along = to_local(self.begin, place)[0]
+        if along > self._farthest_along:
+            self.farthest, self._farthest_along = place, along
+        if np.hypot(*np.subtract(place, self._trail.end)) >= WAY_SPACING:
+            self._trail.note(pose)

@@ -1,0 +1,137 @@
+"""What the environment's grounding says of a moment: what a learner of grounding learns from.
+
+The label of a clause is its goal on what the robot remembers, as `Belief.target` would be, and
+whether the clause is done. Clauses that were not said can be labelled as well, from the same place:
+what the goal would be had another clause been said there. That costs no driving.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.commands.clauses import Clause, GoBack, GoToRoom, IfThere
+from semnav_env.grounding.clause_order import comes_after_corridor, in_context
+from semnav_env.grounding.conditions import is_met
+from semnav_env.grounding.errors import GroundingError
+from semnav_env.grounding.follower import Follower
+from semnav_env.grounding.goal import Goal, GoalKind, ReachGoal, door_of
+from semnav_env.grounding.goals import search_goal
+from semnav_env.grounding.ground import goal_of
+from semnav_env.grounding.known_way import next_on_way
+from semnav_env.grounding.search import Searching
+from semnav_env.grounding.situation import Situation
+from semnav_features.frames import Pose, relative, to_local
+from semnav_features.scene import Scene
+
+NEVER_REACHED = 0.0
+"""Distance tolerance of a goal that only says where to look."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """What is right at a moment; poses in the odometry frame.
+
+    Attributes:
+        goal: where to drive; None where the clause is over and nothing is known of it.
+        advance: by how many clauses to go on; -1 where that is not known.
+    """
+
+    goal: Goal | None
+    advance: int
+
+
+LABEL = np.dtype(
+    [
+        *((name, "?") for name in ("has_goal", "has_door", "has_next")),
+        *((name, "i1") for name in ("kind", "advance")),
+        *((name, "f4", size) for name, size in (("pose", 3), ("next", 3), ("door", 4))),
+    ]
+)
+"""A label as it is kept: poses and jambs in the frame of the description, `next` in that of the
+goal; advance is -1 where it is not known."""
+
+
+def as_record(label: Label, frame: Pose) -> NDArray[np.void]:
+    """A label in the frame of a description, dtype `LABEL`, shape ()."""
+    record = np.zeros((), LABEL)
+    record["advance"] = label.advance
+    goal = label.goal
+    if goal is None:
+        return record
+    record["kind"], record["has_goal"] = goal.kind, True
+    record["pose"] = relative(frame, goal.pose)
+    if goal.kind is not GoalKind.SEEK:
+        record["has_next"], record["next"] = True, relative(goal.pose, goal.next_begin)
+    door = door_of(goal)
+    if door is not None:
+        record["has_door"] = True
+        record["door"] = *to_local(frame, door.start), *to_local(frame, door.end)
+    return record
+
+
+def real_label(follower: Follower, pose: Pose) -> Label | None:
+    """The label of the clause that the environment takes to be under way; None if impossible."""
+    if follower.done or follower.impossible is not None:
+        return None
+    return Label(follower.target(pose), 0)
+
+
+def imagined_label(
+    clauses: Sequence[Clause], index: int, follower: Follower, scene: Scene, pose: Pose
+) -> Label | None:
+    """The label of another clause, had it been said where the one under way began.
+
+    Args:
+        clauses: of another command.
+        index: of the clause in it.
+        follower: of the environment.
+        scene: what the robot remembers, odometry frame.
+        pose: of the robot.
+
+    Returns:
+        None for a clause that needs a way, or that is impossible there.
+    """
+    clause = in_context(clauses, index)
+    if isinstance(clause, GoToRoom | GoBack):
+        return None
+    x, y = follower.progress[0]["farthest"].tolist()
+    corridor_before = comes_after_corridor(clauses, index)
+    rules = follower.rules
+    situation = Situation(
+        scene, follower.begin, (x, y, pose[2]), False, corridor_before, rules=rules
+    )
+    try:
+        if isinstance(clause, IfThere):
+            found = is_met(clause, situation)
+            if isinstance(found, Searching):
+                return Label(search_goal(found), 0)
+            return Label(None, 1 if found.value else 2)
+        goal = goal_of(clause, situation)
+    except GroundingError:
+        return None
+    return Label(
+        next_on_way(goal, pose, rules.grounding),
+        _imagined_advance(goal, pose, rules.grounding.care),
+    )
+
+
+def _imagined_advance(goal: Goal, pose: Pose, care: float) -> int:
+    """0 where a goal is clearly not reached; -1 where that hangs on how the robot came here."""
+    if isinstance(goal, ReachGoal) and goal.distance_tolerance > NEVER_REACHED:
+        return -1 if goal.reached_by(pose, care) else 0
+    return 0 if goal.kind is GoalKind.SEEK or isinstance(goal, ReachGoal) else -1
+
+
+def steps_on(clauses: Sequence[Clause], before: int, after: int) -> int:
+    """By how many clauses a pointer at `before` is to go on where that at `after` is right.
+
+    Several clauses may be over at once; then each asks for its own step.
+    """
+    condition = clauses[before - 1] if before else None
+    if isinstance(clauses[before], IfThere):
+        return 1 if after == before + 1 else 2
+    return 2 if isinstance(condition, IfThere) and condition.otherwise else 1

@@ -1,0 +1,115 @@
+"""What RLlib has learned, as named tensors, and the policy in it; needs no Ray."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_agents.learning.policy import Policy, check_tensors
+
+Weights = Mapping[str, NDArray[np.float32]]
+Tensors = dict[str, NDArray[Any]]
+Moments = Mapping[int, Mapping[str, Any]]
+
+RLLIB_FILE = "rllib.safetensors"
+"""File with the state from which a training on RLlib continues."""
+
+ACTOR, ACTION, LOG_STD = "encoder.actor_encoder.net.mlp.", "pi.net.mlp.", "pi.log_std"
+"""First parts of the names of RLlib's tensors: hidden layers, last layer, spread of the actions."""
+
+STEPS_NAME, WEIGHT_PREFIX, ADAM_PREFIX = "steps", "weights.", "adam."
+"""Name of the number of decisions; first parts of the names of weights and of Adam's tensors."""
+
+ADAM_MOMENTS = ("step", "exp_avg", "exp_avg_sq")
+"""What Adam keeps for each parameter."""
+
+
+def policy_from(weights: Weights, hidden: int) -> Policy:
+    """The part of RLlib's weights that gives the mean action.
+
+    Args:
+        weights: by RLlib's names, in which layers and their activations are counted together.
+        hidden: number of hidden layers.
+    """
+    names = [f"{ACTOR}{2 * i}" for i in range(hidden)] + [f"{ACTION}0"]
+    return Policy(
+        tuple(weights[f"{name}.weight"].copy() for name in names),
+        tuple(weights[f"{name}.bias"].copy() for name in names),
+    )
+
+
+def beginning(weights: Weights, log_std: float) -> Weights:
+    """Weights with which a training begins: actions about zero, with a given spread.
+
+    The last layer is a hundredth of RLlib's, as Andrychowicz et al. (2021) recommend.
+
+    Args:
+        weights: by RLlib's names.
+        log_std: logarithm of the standard deviation of the actions.
+    """
+    scales = {f"{ACTION}0.weight": 0.01, f"{ACTION}0.bias": 0.0}
+    begun = {name: weight * np.float32(scales.get(name, 1.0)) for name, weight in weights.items()}
+    begun[LOG_STD] = np.full_like(weights[LOG_STD], log_std)
+    return begun
+
+
+class RLlibState(NamedTuple):
+    """The state from which a training continues.
+
+    Attributes:
+        weights: by RLlib's names.
+        adam: the moments of each parameter, by its index; empty before the first update.
+        steps: number of decisions so far.
+    """
+
+    weights: Weights
+    adam: Moments
+    steps: int
+
+    def tensors(self) -> Tensors:
+        """The state as named tensors."""
+        named: Tensors = {STEPS_NAME: np.array(self.steps, np.int64)}
+        named |= {WEIGHT_PREFIX + name: weight for name, weight in self.weights.items()}
+        for i, moments in self.adam.items():
+            name = _parameters(self.weights)[i]
+            for moment in ADAM_MOMENTS:
+                named[f"{ADAM_PREFIX}{name}.{moment}"] = np.asarray(moments[moment], np.float32)
+        return named
+
+    @classmethod
+    def from_tensors(cls, tensors: Mapping[str, NDArray[Any]], weights: Weights) -> RLlibState:
+        """The opposite of `tensors`.
+
+        Args:
+            tensors: by name.
+            weights: of a fresh model: what shapes there must be.
+
+        Raises:
+            ValueError: a tensor is missing, too many, of another shape or type, or not finite.
+        """
+        rest = dict(tensors)
+        steps = rest.pop(STEPS_NAME, None)
+        if steps is None or steps.shape != () or steps.dtype != np.int64 or steps < 0:
+            raise ValueError(
+                f"tensor {STEPS_NAME!r} must be one whole number of 64 bits, at least 0"
+            )
+        learned = any(name.startswith(ADAM_PREFIX) for name in rest)
+        names = _parameters(weights) if learned else []
+        shapes = {WEIGHT_PREFIX + name: weight.shape for name, weight in weights.items()}
+        for name in names:
+            shapes[f"{ADAM_PREFIX}{name}.step"] = ()
+            shapes |= {f"{ADAM_PREFIX}{name}.{m}": weights[name].shape for m in ADAM_MOMENTS[1:]}
+        check_tensors(rest, shapes)
+        adam = {
+            i: {moment: rest[f"{ADAM_PREFIX}{name}.{moment}"] for moment in ADAM_MOMENTS}
+            for i, name in enumerate(names)
+        }
+        return cls({name: rest[WEIGHT_PREFIX + name] for name in weights}, adam, int(steps))
+
+
+def _parameters(weights: Weights) -> list[str]:
+    """Names of what is learned, in the order in which Adam counts; constants are left out."""
+    return [name for name in weights if not name.endswith("_const")]

@@ -1,0 +1,204 @@
+"""A last check of a learned action: where would it lead before the robot could stop?
+
+A policy is trained to drive well on average; the check looks at the centimetres. It is a dynamic
+window approach (Fox, Burgard and Thrun 1997) that keeps the policy's twist wherever it may.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_agents.learning.room_memory import BodyShape, body_shape
+from semnav_agents.planning.free import points_around
+from semnav_agents.planning.motion import Move, moved
+from semnav_env.robots import RobotSpec
+from semnav_features.checked_fields import Length, Share, check_fields
+from semnav_features.frames import FloatArray, Pose, Twist
+from semnav_features.kernels.compiling import kernel
+
+REACH = 2.4
+"""Obstacles farther away than this are not reached before the robot stands, metres."""
+
+PERIOD = 0.1
+"""Time between two tested poses, seconds."""
+
+STANDING_SPEED = 0.03
+"""Speed below which a robot stands, m/s or rad/s."""
+
+_SHARES = (1.0, 0.6, 0.3)
+"""Shares of the wanted twist that are tried first."""
+
+_FORWARD = (0.0, 0.15, -0.15, 0.3, -0.3, 0.6)
+_TURNS = (0.0, 0.15, -0.15, 0.3, -0.3, 0.6, -0.6)
+_SIDEWAYS = (0.0, 0.4, -0.4)
+"""Parts of the twists that are tried then, nearest first: shares of the largest speeds."""
+
+
+@dataclass(frozen=True)
+class ShieldSettings:
+    """How a shield checks.
+
+    Attributes:
+        foresight: time for which an action is held before the robot brakes, seconds.
+        margin: distance below which an obstacle counts as touched, metres.
+        deeper: a robot that is nearer already may not come nearer by more than this, metres.
+        patience: time for which a robot that the shield holds waits, seconds; after it the margin
+            is lowered for as long by `give`, as noise may be what holds it.
+        give: metres.
+    """
+
+    foresight: Share = 0.2
+    margin: Length = 0.01
+    deeper: Length = 0.004
+    patience: Share = 0.6
+    give: Length = 0.02
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
+class Shield:
+    """Replaces an action that leads into a remembered obstacle by the nearest one that does not.
+
+    Args:
+        robot: the body.
+        control_hz: actions a second.
+        settings: None for the defaults.
+    """
+
+    def __init__(
+        self, robot: RobotSpec, control_hz: float, settings: ShieldSettings | None = None
+    ) -> None:
+        self._robot, self._settings = robot, settings or ShieldSettings()
+        self._patience = round(self._settings.patience * control_hz)
+        self._shape = body_shape(robot)
+        self._held = self._lenient = 0
+        sideways = _SIDEWAYS if robot.holonomic else (0.0,)
+        self._others = np.array(
+            [(v, left, w) for v in _FORWARD for left in sideways for w in _TURNS]
+        )
+
+    def checked(
+        self, action: NDArray[np.float32], points: FloatArray, pose: Pose, velocity: Twist
+    ) -> NDArray[np.float32]:
+        """The action, or the one nearest to it that leads into no obstacle; else zeros.
+
+        Args:
+            action: of the body.
+            points: obstacles, metres, shape (n, 2), in the frame of `pose`.
+            pose: of the robot.
+            velocity: of the robot's centre.
+        """
+        robot, settings = self._robot, self._settings
+        margin = self._margin(velocity)
+        near = points_around(pose, points, REACH)
+        wanted = np.array([action[0], action[1] if robot.holonomic else 0.0, action[-1]], float)
+        order = np.argsort(np.abs(self._others - wanted).sum(axis=1), kind="stable")
+        tried = np.vstack((np.outer(_SHARES, wanted), self._others[order]))
+        k = first_free(
+            near,
+            self._shape,
+            tried * (robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate),
+            velocity,
+            (robot.max_acceleration, robot.max_acceleration, robot.max_turn_acceleration),
+            settings.foresight,
+            margin,
+            settings.deeper,
+        )
+        self._held = self._held + 1 if k < 0 or k >= len(_SHARES) else 0
+        if k < 0:
+            return np.zeros_like(action)
+        return np.asarray(tried[k] if robot.holonomic else tried[k, [0, 2]], np.float32)
+
+    def _margin(self, velocity: Twist) -> float:
+        """The margin now: less for a while after the shield has held a robot that stands."""
+        settings, steps = self._settings, self._patience
+        if self._held >= steps and max(map(abs, velocity)) < STANDING_SPEED:
+            self._held, self._lenient = 0, steps
+        self._lenient -= self._lenient > 0
+        return settings.margin - (settings.give if self._lenient else 0.0)
+
+
+@kernel(counts_references=True)
+def first_free(
+    points: FloatArray,
+    body: BodyShape,
+    twists: FloatArray,
+    velocity: Twist,
+    limits: Twist,
+    foresight: float,
+    margin: float,
+    deeper: float,
+) -> int:
+    """The first of some twists after which the robot can stop without touching anything.
+
+    Args:
+        points: obstacles, robot frame, metres, shape (n, 2).
+        body: footprint.
+        twists: that are wanted, of the axle, shape (m, 3).
+        velocity: of the centre now.
+        limits: largest accelerations forward, sideways and of the turn.
+        foresight: time for which a twist is held before the robot brakes, seconds.
+        margin: distance below which an obstacle counts as touched, metres.
+        deeper: by how much a robot may come nearer to an obstacle within the margin, metres.
+
+    Returns:
+        Its index, or -1.
+    """
+    near = np.empty((len(points), 3))
+    for p in range(len(points)):
+        x, y = points[p, 0], points[p, 1]
+        near[p, 0], near[p, 1] = x, y
+        near[p, 2] = max(abs(x) - body.half_length, abs(y) - body.half_width)
+    for k in range(len(twists)):
+        wanted = (twists[k, 0], twists[k, 1], twists[k, 2])
+        if stops_free(near, body, wanted, velocity, limits, foresight, margin, deeper):
+            return k
+    return -1
+
+
+@kernel
+def stops_free(
+    near: FloatArray,
+    body: BodyShape,
+    wanted: Twist,
+    velocity: Twist,
+    limits: Twist,
+    foresight: float,
+    margin: float,
+    deeper: float,
+) -> bool:
+    """Whether a robot that holds a twist for a moment and then brakes touches nothing."""
+    pose = (body.axle, 0.0, 0.0)
+    forward, left, turn = velocity
+    left += body.axle * turn  # of the axle, as are the twists that are wanted
+    held = round(foresight / PERIOD)
+    for step in range(60):
+        on = step < held
+        forward = towards(forward, wanted[0] if on else 0.0, limits[0] * PERIOD)
+        left = towards(left, wanted[1] if on else 0.0, limits[1] * PERIOD)
+        turn = towards(turn, wanted[2] if on else 0.0, limits[2] * PERIOD)
+        if not on and max(abs(forward), abs(left), abs(turn)) < 1e-6:
+            return True
+        move = Move(forward * PERIOD, left * PERIOD, turn * PERIOD)
+        pose = moved(pose[0], pose[1], pose[2], move)
+        c, s = math.cos(pose[2]), math.sin(pose[2])
+        x, y = pose[0] - c * body.axle, pose[1] - s * body.axle
+        for p in range(len(near)):
+            dx, dy = near[p, 0] - x, near[p, 1] - y
+            aside = abs(c * dy - s * dx) - body.half_width
+            if aside < margin:
+                outside = max(abs(c * dx + s * dy) - body.half_length, aside)
+                if outside < margin and outside < near[p, 2] - deeper:
+                    return False
+    return True
+
+
+@kernel
+def towards(value: float, wanted: float, most: float) -> float:
+    """A value that changes towards another one, by no more than `most`."""
+    return value + min(max(wanted - value, -most), most)

@@ -1,0 +1,160 @@
+"""Turns a goal into actions, for the scripted agent and the oracle."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_agents.planning.doorway import barriers_across
+from semnav_agents.planning.driver import NO_POINTS, Driver
+from semnav_agents.planning.exit_via_door import ExitViaDoor
+from semnav_agents.planning.follower import Steering
+from semnav_agents.planning.planner import DriveTarget
+from semnav_env.approach import DoorSide
+from semnav_env.grounding import GoalKind
+from semnav_env.observations import SeenGoal
+from semnav_env.robots import RobotSpec
+from semnav_features.frames import (
+    FloatArray,
+    Point,
+    Pose,
+    Twist,
+    compose,
+    points_to_parent,
+    to_parent,
+)
+from semnav_features.scene import Door
+
+STUCK_STEPS, BACKING_STEPS = 8, 12
+"""Steps of pushing without moving after which a robot counts as stuck, and steps of backing out."""
+
+BACKING_SPEED, BACKING_YAW_RATE = 0.2, 0.3
+"""Velocity with which a stuck robot backs out, m/s and rad/s: slow, as it sees little behind it."""
+
+SAME_DOOR_DISTANCE = 0.5
+"""Distance of their middles below which two doors are the same, metres: a door is wider."""
+
+LOOKOUT_TOLERANCE = 0.4
+"""Distance at which a place to look from counts as reached, metres."""
+
+REACH_TOLERANCE, REACH_HEADING_TOLERANCE = 0.2, 0.15
+"""Distance and heading error at which a place to stop at counts as reached, metres and radians."""
+
+
+class Pilot:
+    """Drives a robot to goals with the footprint-aware planner.
+
+    A robot that pushes without moving backs out the way it came and plans anew. On its way to a
+    goal it does not use other doors that it knows, so it takes no way around through the next room.
+
+    Args:
+        robot: the body.
+        alternatives: whether to try other poses where no path leads straight through a door.
+    """
+
+    def __init__(self, robot: RobotSpec, alternatives: bool = True) -> None:
+        self.robot = robot
+        self.driver = Driver(robot)
+        self._exit = ExitViaDoor(robot, alternatives)
+        self._pushed = 0
+        self._backing = 0
+        self._last: Twist = (0.0, 0.0, 0.0)
+
+    def act(
+        self, points: FloatArray, doors: FloatArray, goal: SeenGoal, pose: Pose, velocity: Twist
+    ) -> NDArray[np.float32]:
+        """The next action.
+
+        Args:
+            points: obstacles, shape (n, 2), in the frame of `pose`.
+            doors: x and y of both jambs of the doors it knows, robot frame, shape (m, 4).
+            goal: in the robot frame.
+            pose: of the robot's centre.
+            velocity: of the robot's centre.
+        """
+        if goal.kind is GoalKind.STOP:
+            return self._action(0.0, 0.0, 0.0)
+        if self._is_stuck(velocity):
+            forward, left, yaw_rate = (-sign(speed) for speed in self._last)
+            speed = BACKING_SPEED
+            return self._action(speed * forward, speed * left, BACKING_YAW_RATE * yaw_rate)
+        if goal.door is not None:
+            points = np.vstack((points, [to_parent(pose, jamb) for jamb in goal.door]))
+        barriers = NO_POINTS
+        if goal.kind is not GoalKind.SEEK:  # a robot that explores may go through any door
+            others = barriers_across(_other_doors(doors, goal), self.robot)
+            barriers = points_to_parent(pose, others)
+        door = _side(goal, pose)
+        target = _target(goal, pose) if door is None else self._exit.target(door)
+        steering = self.driver.drive(points, target, pose, velocity, barriers)
+        if door is not None:
+            self._note(steering, points)
+        self._last = steering.twist
+        return self._action(*steering.twist)
+
+    def _note(self, steering: Steering, points: FloatArray) -> None:
+        """Go on to the next pose of a way through a door, or to another way if this one failed."""
+        path = self.driver.path
+        if path is not None and not path.complete:
+            if self._exit.failed(points, path.end):
+                self.driver.plan_at_once()
+        elif steering.done:
+            self._exit.reached()
+
+    def _is_stuck(self, velocity: Twist) -> bool:
+        """Whether it is time to back out of a contact."""
+        if self._backing > 0:
+            self._backing -= 1
+            return True
+        pushing = max(map(abs, self._last)) > 0.03 and max(map(abs, velocity)) < 0.02
+        self._pushed = self._pushed + 1 if pushing else 0
+        if self._pushed >= STUCK_STEPS:
+            self._pushed, self._backing = 0, BACKING_STEPS
+            self.driver.reset()
+        return self._backing > 0
+
+    def _action(self, forward: float, left: float, yaw_rate: float) -> NDArray[np.float32]:
+        """A twist as shares of the robot's limits."""
+        robot = self.robot
+        shares = [forward / robot.max_speed, yaw_rate / robot.max_turn_rate]
+        if robot.holonomic:
+            shares.insert(1, left / robot.max_sideways_speed)
+        return np.clip(np.array(shares, dtype=np.float32), -1.0, 1.0)
+
+
+def sign(value: float) -> float:
+    """The sign of a value, -1, 0 or 1; below 0.01 in size it is 0."""
+    return math.copysign(1.0, value) if abs(value) > 0.01 else 0.0
+
+
+def _other_doors(doors: FloatArray, goal: SeenGoal) -> FloatArray:
+    """The doors that are not the goal's."""
+    if goal.door is None:
+        return doors
+    middles = (doors[:, :2] + doors[:, 2:]) / 2 - np.mean(goal.door, axis=0)
+    others: FloatArray = doors[np.hypot(*middles.T) > SAME_DOOR_DISTANCE]
+    return others
+
+
+def _target(goal: SeenGoal, pose: Pose) -> DriveTarget:
+    """Where to drive for a goal, in the frame of `pose`."""
+    place = compose(pose, goal.pose)
+    if goal.kind is GoalKind.SEEK:
+        return DriveTarget(place, LOOKOUT_TOLERANCE, None)
+    return DriveTarget(place, REACH_TOLERANCE, REACH_HEADING_TOLERANCE)
+
+
+def _side(goal: SeenGoal, pose: Pose) -> DoorSide | None:
+    """The door to pass, from the side of the robot, in the frame of `pose`; None without one."""
+    if goal.kind is not GoalKind.PASS or goal.door is None:
+        return None
+    start, end = (to_parent(pose, jamb) for jamb in goal.door)
+    door, outward = Door(start, end), pose[2] + goal.pose[2]
+    return DoorSide.seen_from(door, _in_front(door.midpoint, outward))
+
+
+def _in_front(midpoint: Point, outward: float) -> Point:
+    """A place 1 m before a door, on the side that `outward` (radians) heads away from."""
+    return midpoint[0] - math.cos(outward), midpoint[1] - math.sin(outward)

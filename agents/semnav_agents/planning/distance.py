@@ -1,0 +1,82 @@
+"""The exact Euclidean distance transform of a square grid.
+
+P. Felzenszwalb, D. Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8
+(2012): the lower envelope of parabolas, once along the rows and once along the columns.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
+
+NO_MARKED_CELL = 1e12
+"""Squared distance where there is no marked cell, in cells: finite, so that differences are too."""
+
+
+@kernel(counts_references=True)
+def distance_to_marked(marked: NDArray[np.bool_], cell: float) -> NDArray[np.float32]:
+    """Distance from each cell's centre to the nearest marked cell's centre, metres, (n, n)."""
+    n = marked.shape[0]
+    squared = np.empty((n, n))
+    place, edge = np.empty(n, dtype=np.int64), np.empty(n + 1)
+    _along_columns(marked, squared)
+    row = np.empty(n)
+    distance = np.empty((n, n), dtype=np.float32)
+    for j in range(n):
+        row[:] = squared[j]
+        _lower_envelope(row, place, edge, squared[j])
+        for i in range(n):
+            distance[j, i] = (
+                cell * np.sqrt(squared[j, i]) if squared[j, i] < NO_MARKED_CELL / 2 else np.inf
+            )
+    return distance
+
+
+@kernel(counts_references=True)
+def _along_columns(marked: NDArray[np.bool_], squared: FloatArray) -> None:
+    """Squared distance to the nearest marked cell of the same column: two sweeps."""
+    n = marked.shape[0]
+    steps = np.full(n, 1e6)
+    for j in range(n):
+        for i in range(n):
+            steps[i] = 0.0 if marked[j, i] else steps[i] + 1.0
+            squared[j, i] = steps[i]
+    steps[:] = 1e6
+    for j in range(n - 1, -1, -1):
+        for i in range(n):
+            steps[i] = 0.0 if marked[j, i] else steps[i] + 1.0
+            squared[j, i] = min(squared[j, i], steps[i]) ** 2
+
+
+@kernel
+def _lower_envelope(
+    values: FloatArray, place: NDArray[np.int64], edge: FloatArray, out: FloatArray
+) -> None:
+    """Minimum over q of values[q] + (i - q)^2 for every i.
+
+    The parabola rooted at place[k] is the lowest one from edge[k] to edge[k + 1].
+    """
+    n = len(values)
+    k = 0
+    place[0], edge[0], edge[1] = 0, -np.inf, np.inf
+    for q in range(1, n):
+        crossing = _crossing(values, q, place[k])
+        while crossing <= edge[k]:  # the new parabola hides the last one altogether
+            k -= 1
+            crossing = _crossing(values, q, place[k])
+        k += 1
+        place[k], edge[k], edge[k + 1] = q, crossing, np.inf
+    k = 0
+    for i in range(n):
+        while edge[k + 1] < i:
+            k += 1
+        out[i] = (i - place[k]) ** 2 + values[place[k]]
+
+
+@kernel
+def _crossing(values: FloatArray, q: int, p: int) -> float:
+    """Where the parabolas rooted at p and at q > p cross."""
+    return float(((values[q] + q * q) - (values[p] + p * p)) / (2.0 * (q - p)))

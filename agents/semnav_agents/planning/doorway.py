@@ -1,0 +1,60 @@
+"""Targets behind doors, and barriers across other doors (point planning: Mes 2021, 2.1 and 5)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from semnav_agents.planning.obstacles import point_counts, points_of_segments
+from semnav_agents.planning.planner import DriveTarget
+from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Point, heading_between, wrap_angle
+from semnav_features.scene import Door
+
+DOORWAY_DISTANCE = 0.1
+"""Distance from the footprint to a doorway's line below which the robot stands in it, metres."""
+
+THROUGH_DISTANCE, THROUGH_TOLERANCE = 1.3, 0.5
+"""Distance from the door and radius of the region in which a robot is through it, metres:
+everywhere in it a robot 1.1 m long has left the doorway."""
+
+
+def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
+    """Points that bar the doorways of other doors, except one in which the robot stands.
+
+    Args:
+        doors: x and y of both jambs, metres, robot frame, shape (n, 4).
+        robot: gives the footprint.
+
+    Returns:
+        shape (N, 2), robot frame.
+    """
+    points = points_of_segments(doors)
+    reach = np.array((robot.length, robot.width)) / 2 + DOORWAY_DISTANCE
+    owner = np.repeat(np.arange(len(doors)), point_counts(doors))
+    stood_in = owner[(np.abs(points) < reach).all(axis=1)]
+    others: FloatArray = points[~np.isin(owner, stood_in)]
+    return others
+
+
+def target_behind(door: Door, approach: Point) -> DriveTarget:
+    """A target wholly through the door, in any heading: a leaf may bar the way along its axis.
+
+    Args:
+        door: its two jambs.
+        approach: a place on the side from which the robot comes, metres.
+
+    Raises:
+        ValueError: the jambs are the same point.
+    """
+    if door.width < 1e-6:
+        raise ValueError(f"the door at {door.start} has no width; its jambs must be two points")
+    heading = heading_between(door.start, door.end) + math.pi / 2
+    x, y = door.midpoint
+    c, s = math.cos(heading), math.sin(heading)
+    if (approach[0] - x) * c + (approach[1] - y) * s > 0:  # that axis heads back to the robot
+        heading, c, s = wrap_angle(heading + math.pi), -c, -s
+    heading = wrap_angle(heading)
+    behind = x + THROUGH_DISTANCE * c, y + THROUGH_DISTANCE * s, heading
+    return DriveTarget(behind, THROUGH_TOLERANCE, None, gate=(door.start, door.end))

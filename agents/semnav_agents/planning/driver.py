@@ -1,0 +1,270 @@
+"""Drives a robot to a target: plans, checks and follows, one call for each step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from semnav_agents.planning.follower import PathProgress, Steering, follow
+from semnav_agents.planning.free import points_around
+from semnav_agents.planning.guard import SPEED_SHARES, safe_share
+from semnav_agents.planning.nudge import best_nudge, path_clearances
+from semnav_agents.planning.path import PlannedPath, joined
+from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
+from semnav_agents.planning.track import FollowerSettings, PathTrack
+from semnav_env.robots import RobotSpec
+from semnav_features.frames import (
+    ORIGIN,
+    FloatArray,
+    Pose,
+    Twist,
+    compose,
+    points_to_parent,
+    relative,
+    wrap_angle,
+)
+
+NO_POINTS: FloatArray = np.empty((0, 2))
+"""No obstacle points, shape (0, 2)."""
+
+STANDSTILL = Steering(0.0, 0.0, 0.0, PathProgress())
+"""Stand still, or brake."""
+
+REPLAN_SHARE = 0.3
+"""A partial path is planned anew when a metre of it is left, or this share of a shorter one. Most
+of it must have been driven: from the same place the same path would be found again."""
+
+LOOKAHEAD = 4.0
+"""Distance beyond which obstacles do not matter to the next metres of a path, metres."""
+
+
+@dataclass
+class Driver:
+    """Drives one robot to targets, planning again when that is needed.
+
+    It plans again when the target moves, when an obstacle lies on the path, when the robot is off
+    the path, and when a path that led only part of the way is nearly driven.
+
+    Attributes:
+        robot: footprint and limits.
+        planner: the planner's settings.
+        follower: the follower's settings.
+        check_every: steps between two checks whether the path is still free.
+        tolerance: loss of clearance at which a path is planned anew, metres.
+        insist_after: refusals of a steering in a row after which it is let through.
+        retry_after: steps to stand still where no way leads on.
+        detour: largest length of a way around barriers, as a multiple of the direct way.
+    """
+
+    robot: RobotSpec
+    planner: PlannerSettings = field(default_factory=PlannerSettings)
+    follower: FollowerSettings = field(default_factory=FollowerSettings)
+    check_every: int = 3
+    tolerance: float = 0.03
+    insist_after: int = 4
+    retry_after: int = 8
+    detour: float = 1.5
+
+    def __post_init__(self) -> None:
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget path and target."""
+        self.path: PlannedPath | None = None
+        self.plans = 0
+        self._track: PathTrack | None = None
+        self._target: DriveTarget | None = None
+        self._progress = PathProgress()
+        self._shift: Pose = ORIGIN
+        self._step = self._wait = 0
+        self._braking = False
+        self._refusals = 0
+        self._heeds_barriers = False
+
+    def plan_at_once(self) -> None:
+        """Plan to the next target without standing still first."""
+        self._wait = 0
+
+    def drive(
+        self,
+        points: FloatArray,
+        target: DriveTarget,
+        pose: Pose,
+        velocity: Twist = (0.0, 0.0, 0.0),
+        barriers: FloatArray = NO_POINTS,
+    ) -> Steering:
+        """The velocities for this step; `done` once the target is reached.
+
+        Args:
+            points: obstacle points, metres, shape (N, 2).
+            target: where to go, in the frame of the points.
+            pose: the centre's pose in that frame.
+            velocity: of the robot now.
+            barriers: points across doorways that do not lead to the target's gate, metres, shape
+                (M, 2); nothing stands there.
+        """
+        self._step += 1
+        self._wait -= 1
+        self._braking = self._braking and max(map(abs, velocity)) > 0.05
+        if self._braking:
+            return STANDSTILL
+        if self._must_plan(points, target, pose, barriers):
+            if self._wait > 0:
+                return STANDSTILL
+            self._plan(points, target, pose, velocity, barriers)
+        assert self._track is not None
+        steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
+        self._progress = steering.progress
+        if steering.deviation > self.follower.lost:
+            return self._stop()
+        return self._guarded(points, pose, velocity, steering)
+
+    def _stop(self) -> Steering:
+        """Brake, and plan anew from standstill."""
+        self._track, self._braking = None, True
+        return STANDSTILL
+
+    def _guarded(
+        self,
+        points: FloatArray,
+        pose: Pose,
+        velocity: Twist,
+        steering: Steering,
+    ) -> Steering:
+        """The steering, slowed down or refused where it leads into an obstacle.
+
+        After `insist_after` refusals in a row it is let through slowly: the obstacle may be noise.
+        """
+        seen = points_around(pose, points, 1.5 * self.robot.length)
+        share = safe_share(seen, steering.twist, velocity, self.robot)
+        if share == 0.0:
+            self._refusals += 1
+            if self._refusals <= self.insist_after:
+                return self._stop()
+            share = SPEED_SHARES[-1]
+        elif share == 1.0:
+            self._refusals = 0
+        if steering.done and self.path is not None and not self.path.complete:
+            return STANDSTILL
+        return steering.slowed(share)
+
+    def _must_plan(
+        self, points: FloatArray, target: DriveTarget, pose: Pose, barriers: FloatArray
+    ) -> bool:
+        if self._track is None or self._target is None or self.path is None:
+            return True
+        if _apart(self._target, target) or _asks_for_more(self._target, target):
+            return True
+        if not self.path.complete and self._remaining() < min(1.0, REPLAN_SHARE * self.path.length):
+            return True
+        if self._step % self.check_every:
+            return False
+        solid = np.vstack((points, barriers)) if self._heeds_barriers else points
+        return not self._stays_free(solid, pose)
+
+    def _plan(
+        self,
+        points: FloatArray,
+        target: DriveTarget,
+        pose: Pose,
+        velocity: Twist,
+        barriers: FloatArray,
+    ) -> None:
+        """Plan from the robot's pose; while it drives, from where it can stop on the old path."""
+        kept = self._path_to_stop(points, pose, velocity)
+        start = pose if kept is None else kept.end
+        self.path = self._path_around(points, start, target, barriers)
+        if kept is not None:
+            self.path = joined(kept, self.path)
+        self.plans += 1
+        self._target, self._progress, self._shift = target, PathProgress(), ORIGIN
+        self._track = PathTrack(self.path, self.robot, self.follower)
+        if not self.path.complete:
+            self._wait = self.retry_after
+
+    def _path_around(
+        self, points: FloatArray, start: Pose, target: DriveTarget, barriers: FloatArray
+    ) -> PlannedPath:
+        """A path through the target's gate, if it has one.
+
+        Barriers count as obstacles if the path then leads through the gate. Without a gate they
+        count if the way around them is no longer than `detour` allows.
+        """
+        path = plan(points, start, target, self.robot, self.planner)
+        self._heeds_barriers = False
+        if not len(barriers) or self._heads_right(path, target, barriers):
+            return path
+        solid = np.vstack((points, barriers))
+        around = plan(solid, start, target, self.robot, self.planner)
+        near = target.gate is not None or around.length < self.detour * path.length
+        leads = around.complete and near and self._heads_right(around, target, barriers)
+        self._heeds_barriers = leads
+        return around if leads else path
+
+    def _heads_right(self, path: PlannedPath, target: DriveTarget, barriers: FloatArray) -> bool:
+        """Whether a path crosses the target's gate, or without one no barrier."""
+        if target.gate is not None:
+            return path.crosses(*target.gate)
+        return is_free(barriers, path.poses, self.robot)
+
+    def _path_to_stop(self, points: FloatArray, pose: Pose, velocity: Twist) -> PlannedPath | None:
+        """The stretch of the old path that braking needs; None if it is not free or not there."""
+        speed = math.hypot(velocity[0], velocity[1])
+        if self._track is None or self.path is None or speed < 0.1:
+            return None
+        braking = self.follower.braking * self.robot.max_acceleration
+        along, first = self._track.distance, self._progress.sample
+        distance = along[first] + speed**2 / (2.0 * braking) + 0.1 * speed
+        last = int(np.searchsorted(along, distance))
+        if last >= len(along) or last == first:
+            return None
+        kept = self.path.part(first, last, self._shift)
+        return kept if is_free(points, kept.poses, self.robot) else None
+
+    def _remaining(self) -> float:
+        assert self._track is not None
+        return float(self._track.distance[-1] - self._track.distance[self._progress.sample])
+
+    def _stays_free(self, points: FloatArray, pose: Pose) -> bool:
+        """Whether the next metres of the path are free, after a small correction if need be."""
+        assert self.path is not None
+        seen, margin = points_around(pose, points, LOOKAHEAD), self.path.margin
+        size = (self.robot.length, self.robot.width)
+        left, turn, _ = best_nudge(seen, self._ahead(pose, 1.2), *size, margin + 0.005)
+        if left or turn:
+            shift = compose((0.0, left, turn), relative(pose, self._shift))
+            self._shift = compose(pose, shift)
+        planned = self.path.clearance[self._samples_ahead(2.5)]
+        now = path_clearances(seen, self._ahead(pose, 2.5), *size, margin)
+        return bool((now > np.minimum(planned, margin) - self.tolerance).all())
+
+    def _samples_ahead(self, distance: float) -> slice:
+        assert self._track is not None
+        along, first = self._track.distance, self._progress.sample
+        return slice(first, int(np.searchsorted(along, along[first] + distance)) + 1, 2)
+
+    def _ahead(self, pose: Pose, distance: float) -> FloatArray:
+        """The centre's poses on the path ahead, about 0.1 m apart, in the robot frame, (M, 3)."""
+        assert self.path is not None
+        poses = self.path.poses[self._samples_ahead(distance)]
+        frame = relative(pose, self._shift)
+        places = points_to_parent(frame, poses[:, :2])
+        return np.column_stack((places, poses[:, 2] + frame[2]))
+
+
+def _apart(a: DriveTarget, b: DriveTarget) -> bool:
+    """Whether the targets differ by more than half a tolerance."""
+    turned = abs(wrap_angle(a.pose[2] - b.pose[2]))
+    heading_matters = b.heading_tolerance is not None and turned > 0.5 * b.heading_tolerance
+    return math.dist(a.pose[:2], b.pose[:2]) > 0.5 * b.position_tolerance or heading_matters
+
+
+def _asks_for_more(a: DriveTarget, b: DriveTarget) -> bool:
+    """Whether a path to the first target may end where the second is not reached yet.
+
+    So it is where a place to look from turns out to be the place to stop at.
+    """
+    heading = a.heading_tolerance is None and b.heading_tolerance is not None
+    return heading or b.position_tolerance < a.position_tolerance

@@ -1,0 +1,139 @@
+"""Where to drive to get through a door, and where else if that fails (Mes 2021, 2.1 and 9.1.2)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import chain
+
+import numpy as np
+
+from semnav_agents.planning.doorway import target_behind
+from semnav_agents.planning.planner import DriveTarget
+from semnav_env.approach import DoorSide, Surroundings, plan_approach
+from semnav_env.approach.poses import is_behind
+from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Pose, compose, relative
+from semnav_features.scene import Door
+
+POSE_TOLERANCE, POSE_HEADING_TOLERANCE = 0.10, 0.15
+"""Distance and heading error at which a pose before or behind a door is reached, metres and
+radians."""
+
+POSES_TRIED = 6
+"""Largest number of poses that are tried on either side of a door."""
+
+SAME_DOOR_DISTANCE = 0.5
+"""Distance of their middles below which two doors are the same, metres."""
+
+AROUND_DOOR = 2.5
+"""Distance from the middle of a door within which obstacles matter to the poses, metres."""
+
+POINT_RADIUS = 0.03
+"""Radius of an obstacle point, metres: remembered ones are 5 cm apart."""
+
+PAUSE = 30
+"""Steps after the last way failed before they are tried anew: somebody may stand in the door."""
+
+WayThrough = tuple[Pose | None, ...]
+"""Poses to drive to in turn, in the frame of the door; None for the region behind it."""
+
+
+@dataclass
+class ExitViaDoor:
+    """Gives the targets that lead a robot through a door.
+
+    The first is the region straight behind the door. If no path leads there, the poses behind the
+    door are tried from best to worst, each forwards and then backwards; and then the poses before
+    it, from each of which the robot goes on to those behind.
+
+    Attributes:
+        robot: the body.
+        alternatives: whether to try anything but the region behind the door.
+    """
+
+    robot: RobotSpec
+    alternatives: bool = True
+    _ways: Iterator[WayThrough] = field(default=iter(()), init=False)
+    _way: WayThrough = field(default=(None,), init=False)
+    _door: DoorSide | None = field(default=None, init=False)
+    _pause: int = field(default=0, init=False)
+
+    def target(self, side: DoorSide) -> DriveTarget:
+        """Where to drive now.
+
+        Args:
+            side: the door and the side from which it is passed, in any frame; a door within
+                `SAME_DOOR_DISTANCE` of the last one is the same, better seen.
+        """
+        known = self._door
+        if known is None or math.dist(known.middle, side.middle) > SAME_DOOR_DISTANCE:
+            self._ways, self._way, self._pause = iter(()), (None,), 0
+        self._door = side
+        pose, last = self._way[0], len(self._way) == 1
+        if pose is None:
+            return target_behind(Door(side.right, side.left), _in_front(side))
+        place, gate = compose(side.frame, pose), (side.right, side.left)
+        tolerances = POSE_TOLERANCE, POSE_HEADING_TOLERANCE
+        return DriveTarget(place, *tolerances, gate=gate if last else None)
+
+    def reached(self) -> None:
+        """Go on to the next pose of the way; at the last one, begin again."""
+        self._way = self._way[1:] or (None,)
+
+    def failed(self, points: FloatArray, end: Pose) -> bool:
+        """Give up the target, and take the next way; returns whether there is one.
+
+        A path that ends far from the door leads nearer to it, and is worth driving.
+
+        Args:
+            points: obstacles, in the frame of the door, shape (n, 2).
+            end: where the path to the target ends before it, in that frame.
+        """
+        far = self._door is None or math.dist(end[:2], self._door.middle) > AROUND_DOOR
+        if self._door is None or far or not self.alternatives:
+            return False
+        way = next(self._ways, None)
+        if way is None and self._pause == 0:
+            self._ways, self._pause = _ways(self._door, points, self.robot), PAUSE
+            way = next(self._ways)
+        elif way is None:
+            self._pause -= 1
+        self._way = way or (None,)
+        return way is not None
+
+
+def _ways(side: DoorSide, points: FloatArray, robot: RobotSpec) -> Iterator[WayThrough]:
+    """The ways through a door among obstacles, the one to try first first."""
+    near = points[np.hypot(*(points - side.middle).T) < AROUND_DOOR]
+    solid = Surroundings(np.empty((0, 4)), np.empty((0, 4))).with_points(near, POINT_RADIUS)
+    behind = _poses(side.opposite, solid, robot)
+    leaving = [
+        local for pose in behind if is_behind(side, pose, robot) for local in _both(side, pose)
+    ]
+    before = [relative(side.frame, pose) for pose in _poses(side, solid, robot)]
+    yield from ((pose,) for pose in leaving)
+    yield from ((pose, None) for pose in before)
+    yield from ((start, end) for start in before for end in leaving[:2])
+    yield (None,)
+
+
+def _poses(side: DoorSide, solid: Surroundings, robot: RobotSpec) -> list[Pose]:
+    """Poses where the body is clear, the safe ones first; none at a door that is too narrow."""
+    if side.width < robot.width:
+        return []
+    plan = plan_approach(side, solid, robot)
+    others = (each.pose for each in plan.ranked if each.body_clear and not each.is_safe)
+    return list(chain(plan.usable, others))[:POSES_TRIED]
+
+
+def _both(side: DoorSide, pose: Pose) -> tuple[Pose, Pose]:
+    """A pose behind the door that looks at it, as one leaves forwards, and backwards."""
+    local = relative(side.frame, pose)
+    return compose(local, (0.0, 0.0, math.pi)), local
+
+
+def _in_front(side: DoorSide) -> tuple[float, float]:
+    x, y = side.before(np.array([(1.0, 0.0)]))[0].tolist()
+    return x, y

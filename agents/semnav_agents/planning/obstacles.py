@@ -1,0 +1,174 @@
+"""The obstacles near the robot, remembered from lidar scans in the odometry frame."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from semnav_agents.planning.obstacle_kernels import (
+    CENTRE,
+    MemoryClock,
+    add_hits,
+    forget,
+    select,
+)
+from semnav_env.maps.cell_budget import check_cells
+from semnav_features.checked_fields import Bounds, Count, Length, Share, check_fields
+from semnav_features.frames import FloatArray, Pose, wrap_angle
+
+
+@dataclass(frozen=True)
+class MemorySettings:
+    """How long and how finely obstacles are remembered.
+
+    Attributes:
+        radius: distance from the lidar beyond which hits are neither taken nor kept, metres.
+        merge: distance to a remembered centre below which a hit refines it, metres.
+        window: hits over which a centre's position is averaged.
+        travel: distance driven since its last hit after which a centre is forgotten, metres.
+        turned: angle turned since its last hit, in all, after which it is forgotten, radians.
+        scans: scans since its last hit after which it is forgotten.
+        through: distance behind a centre that a beam must reach to count against it, metres.
+        sure: hits from which a centre counts as an obstacle.
+        share: share of a neighbour's hits below which a centre is noise.
+        blunt: length by which the averaging shortens the ends of walls, metres.
+        capacity: largest number of centres; further ones are dropped.
+    """
+
+    radius: Length = 6.0
+    merge: Length = 0.05
+    window: Count = 40
+    travel: Length = 8.0
+    turned: Annotated[float, Bounds(0.0, 1e6, "rad")] = 10.0
+    scans: Count = 600
+    through: Length = 0.15
+    sure: Count = 2
+    share: Share = 0.12
+    blunt: Length = 0.018
+    capacity: Annotated[int, Bounds(1, 1_000_000)] = 8192
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
+class ObstacleMemory:
+    """Centres of the hits of recent scans, at most one in each voxel of 5 cm.
+
+    A centre that beams pass through is cleared. A centre out of view is kept until the robot has
+    driven or turned so far that odometry no longer tells where the centre is.
+    """
+
+    def __init__(self, settings: MemorySettings | None = None) -> None:
+        self.settings = settings or MemorySettings()
+        self._centres = np.zeros(self.settings.capacity, dtype=CENTRE)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget everything."""
+        self._count = 0
+        self._scan = 0
+        self._travel = self._turned = 0.0
+        self._pose: Pose | None = None
+
+    def update(
+        self, lidar_pose_in_odom: Pose, ranges: ArrayLike, directions: FloatArray, range_max: float
+    ) -> None:
+        """Take in one scan.
+
+        Args:
+            lidar_pose_in_odom: metres and radians.
+            ranges: metres, shape (n,); what is not within (0.05, range_max) is no return.
+            directions: unit vectors of the beams in the lidar frame, evenly spaced
+                counter-clockwise, shape (n, 2).
+            range_max: metres.
+
+        Raises:
+            ValueError: ranges and directions of different lengths, or a pose that is not finite.
+        """
+        distances = np.ascontiguousarray(ranges, dtype=np.float64)
+        if distances.ndim != 1 or directions.shape != (len(distances), 2):
+            raise ValueError(
+                f"ranges have shape {distances.shape} and directions {directions.shape}; "
+                "they must be (n,) and (n, 2)"
+            )
+        if not all(math.isfinite(value) for value in lidar_pose_in_odom):
+            raise ValueError(f"lidar_pose_in_odom is {lidar_pose_in_odom}; it must be finite")
+        if len(distances) < 3:
+            return
+        self._advance(lidar_pose_in_odom)
+        s = self.settings
+        now = MemoryClock(float(self._scan), self._travel, self._turned)
+        max_age = MemoryClock(float(s.scans), s.travel, s.turned)
+        pose = lidar_pose_in_odom
+        self._count, table = forget(
+            self._centres,
+            self._count,
+            pose,
+            distances,
+            directions,
+            range_max,
+            now,
+            max_age,
+            s.radius,
+            s.through,
+        )
+        self._count = add_hits(
+            self._centres,
+            self._count,
+            table,
+            pose,
+            distances,
+            directions,
+            range_max,
+            now,
+            s.radius,
+            s.merge,
+            s.window,
+        )
+
+    def points(self) -> FloatArray:
+        """The obstacles, metres in the odometry frame, shape (N, 2)."""
+        s = self.settings
+        chosen: FloatArray = select(self._centres[: self._count], s.sure, s.share, s.blunt)
+        return chosen
+
+    def _advance(self, pose: Pose) -> None:
+        if self._pose is not None:
+            self._travel += math.dist(pose[:2], self._pose[:2])
+            self._turned += abs(wrap_angle(pose[2] - self._pose[2]))
+        self._pose = pose
+        self._scan += 1
+
+
+def points_of_segments(segments: FloatArray, spacing: float = 0.02) -> FloatArray:
+    """Points on line segments, both ends included, at most `spacing` metres apart.
+
+    Args:
+        segments: x1, y1, x2, y2 in metres, shape (n, 4).
+        spacing: metres.
+
+    Returns:
+        shape (N, 2).
+
+    Raises:
+        FloorPlanError: that is more than the budget allows.
+    """
+    starts, ends = segments[:, :2], segments[:, 2:]
+    counts = point_counts(segments, spacing)
+    check_cells(counts.sum(), f"points {spacing} m apart on {len(segments):,} segments")
+    index = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    owner = np.repeat(np.arange(len(segments)), counts)
+    steps = (ends - starts) / (counts - 1)[:, None]
+    points: FloatArray = starts[owner] + index[:, None] * steps[owner]
+    points[np.cumsum(counts) - 1] = ends  # exactly, whatever the rounding
+    return points
+
+
+def point_counts(segments: FloatArray, spacing: float = 0.02) -> NDArray[np.intp]:
+    """How many of `points_of_segments` lie on each segment, shape (n,)."""
+    lengths = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
+    return np.maximum(2, np.ceil(lengths / spacing).astype(np.intp) + 1)

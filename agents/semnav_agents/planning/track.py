@@ -1,0 +1,129 @@
+"""A path made ready to be followed: its legs between stops, and its speed profile."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_agents.planning.motion import TURN
+from semnav_agents.planning.path import PlannedPath
+from semnav_env.robots import RobotSpec
+from semnav_features.checked_fields import Bounds, check_fields
+from semnav_features.frames import FloatArray, distances_along
+
+Gain: TypeAlias = Annotated[float, Bounds(0.0, 1000.0)]
+
+
+@dataclass(frozen=True)
+class FollowerSettings:
+    """Speeds and gains of the path follower.
+
+    Attributes:
+        cruise: speed where there is room, m/s.
+        creep: smallest speed, where the path is crowded or the robot is off it, m/s.
+        sideways: largest sideways speed, m/s.
+        crowded: speed that is added for each metre of clearance, m/s.
+        turn_rate: largest yaw rate on the spot and along arcs, rad/s.
+        crowded_turn: largest yaw rate along arcs without clearance, rad/s.
+        braking: share of the acceleration limit with which stops are planned.
+        stiffness: inverse of the distance over which errors die out, 1/m.
+        preview: time by which the curvature is looked up ahead, seconds.
+        small_turn: angle below which a turn on the spot is driven without a stop, radians.
+        done_distance: distance before the end of a leg at which it counts as driven, metres.
+        done_angle: angle before the end of a turn at which it counts as driven, radians.
+        lost: distance from the path at which to plan again, metres.
+        lost_at_turn: the same where the robot stands to turn, metres.
+    """
+
+    cruise: Gain = 1.1
+    creep: Gain = 0.12
+    sideways: Gain = 0.3
+    crowded: Gain = 3.0
+    turn_rate: Gain = 1.0
+    crowded_turn: Gain = 0.4
+    braking: Gain = 0.6
+    stiffness: Gain = 2.5
+    preview: Gain = 0.2
+    small_turn: Gain = 0.06
+    done_distance: Gain = 0.015
+    done_angle: Gain = 0.02
+    lost: Gain = 0.12
+    lost_at_turn: Gain = 0.06
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
+class PathLeg(NamedTuple):
+    """A part of a path with one kind of motion: its samples from `first` to `last`."""
+
+    kind: int
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, eq=False)
+class PathTrack:
+    """A path for one robot, with legs and speeds that are computed once."""
+
+    path: PlannedPath
+    robot: RobotSpec
+    settings: FollowerSettings = FollowerSettings()
+
+    @cached_property
+    def legs(self) -> tuple[PathLeg, ...]:
+        """Parts of one kind of motion; a small turn belongs to the leg before or after it."""
+        kinds = self._kinds
+        cuts = [0, *(np.flatnonzero(np.diff(kinds)) + 1).tolist(), len(kinds)]
+        pairs = itertools.pairwise(cuts)
+        return tuple(PathLeg(int(kinds[a]), a, b) for a, b in pairs if b > a)
+
+    @cached_property
+    def distance(self) -> FloatArray:
+        """Distance travelled by the axle up to each sample, metres, shape (M,)."""
+        return distances_along(self.path.axle_poses[:, :2])
+
+    @cached_property
+    def curvature(self) -> FloatArray:
+        """Curvature of the step after each sample, 1/m, shape (M - 1,)."""
+        moves = self.path.moves
+        straight = np.abs(moves[:, 0]) < 1e-9
+        per_metre = np.where(straight, 0.0, moves[:, 2] / np.where(straight, 1.0, moves[:, 0]))
+        return per_metre[self.path.move_of]
+
+    @cached_property
+    def speed(self) -> FloatArray:
+        """Speed at each sample, m/s, zero at the ends of legs, shape (M,)."""
+        s = self.settings
+        limit = np.clip(s.creep + s.crowded * self.path.clearance, 0.25, s.cruise)
+        bend = np.abs(self.curvature)
+        rate = np.clip(
+            s.crowded_turn + s.crowded * self.path.clearance, s.crowded_turn, s.turn_rate
+        )
+        limit[:-1] = np.minimum(limit[:-1], rate[:-1] / np.maximum(bend, 1e-6))
+        limit[1:] = np.minimum(limit[1:], rate[1:] / np.maximum(bend, 1e-6))
+        for leg in self.legs:
+            limit[leg.last] = 0.0
+        braking = s.braking * self.robot.max_acceleration
+        for k in range(len(limit) - 2, -1, -1):  # backwards: brake in time for what follows
+            step = self.distance[k + 1] - self.distance[k]
+            limit[k] = min(limit[k], math.sqrt(limit[k + 1] ** 2 + 2.0 * braking * step))
+        return limit
+
+    @property
+    def _kinds(self) -> NDArray[np.int64]:
+        """Kind of motion of each step, small turns counted as what they lie beside."""
+        kinds, moves = self.path.kinds.copy(), self.path.move_of
+        for k in range(len(self.path.moves)):
+            at = np.flatnonzero(moves == k)
+            if kinds[at[0]] == TURN and abs(self.path.moves[k, 2]) < self.settings.small_turn:
+                neighbour = at[0] - 1 if at[0] > 0 else at[-1] + 1
+                if neighbour < len(kinds):
+                    kinds[at] = kinds[neighbour]
+        return kinds

@@ -1,0 +1,54 @@
+"""The scripted agent: it uses the observation alone, which a real robot would have as well."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_agents.base import Observation
+from semnav_agents.pilot import Pilot
+from semnav_agents.planning.obstacles import ObstacleMemory, points_of_segments
+from semnav_env.observations import SeenGoal, read_odometry, table
+from semnav_env.robots import RobotSpec
+from semnav_features.frames import compose, points_to_parent
+from semnav_features.lidar_spec import LidarSpec
+
+
+class ScriptedAgent:
+    """Drives to the observed goal, around obstacles that the lidar has hit or the body has touched.
+
+    Goal, odometry and scan come from the observation; body and lidar from `reset`.
+    """
+
+    observation = "all"
+
+    def __init__(self) -> None:
+        self._obstacles = ObstacleMemory()
+
+    def reset(self, info: dict[str, Any]) -> None:
+        """Begin an episode with the body and the lidar of `info`."""
+        self._pilot = Pilot(RobotSpec(**info["robot"]))
+        self._lidar = LidarSpec(**info["lidar"])
+        self._beams = self._lidar.directions
+        self._obstacles.reset()
+
+    def act(self, observation: Observation) -> NDArray[np.float32]:
+        """The next action.
+
+        Raises:
+            ValueError: the observation lacks the scan or the goal.
+        """
+        if not {"scan", "goal"} <= observation.keys():
+            raise ValueError('the scripted agent needs scan and goal: give observation="all"')
+        pose, velocity = read_odometry(observation)
+        mount = self._pilot.robot.lidar_mount
+        ranges, limit = observation["scan"], self._lidar.range_max
+        self._obstacles.update(compose(pose, mount), ranges, self._beams, limit)
+        goal = SeenGoal.read(observation["goal"])
+        doors = table(observation, "remembered_doors").astype(np.float64)
+        bumps = table(observation, "bumps").reshape(-1, 2).astype(np.float64)
+        walls = points_to_parent(pose, bumps).reshape(-1, 4)
+        points = np.vstack((self._obstacles.points(), points_of_segments(walls)))
+        return self._pilot.act(points, doors, goal, pose, velocity)

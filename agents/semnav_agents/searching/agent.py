@@ -1,0 +1,169 @@
+"""Agents that search a house: one knows its plan, one does not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
+
+from semnav_agents.base import Observation
+from semnav_agents.pilot import Pilot
+from semnav_agents.planning.obstacles import (
+    MemorySettings,
+    ObstacleMemory,
+    points_of_segments,
+)
+from semnav_agents.planning.planner import PlannerSettings
+from semnav_agents.searching.house_plan import KNOWN_MARGIN, HousePlan
+from semnav_agents.searching.search_map import FREE, SearchMap, without_lost
+from semnav_agents.searching.searcher import Searcher
+from semnav_agents.searching.settings import SearchSettings
+from semnav_agents.searching.views import Looker
+from semnav_env.grounding.goal import GoalKind
+from semnav_env.maps import FloorPlan
+from semnav_env.observations import (
+    EntryObservation,
+    ObservationType,
+    SeenGoal,
+    read_odometry,
+    table,
+)
+from semnav_env.rescue.people_entry import PeopleEntry, read_people
+from semnav_env.rescue.settings import PersonDetectorSettings
+from semnav_env.robots import RobotSpec
+from semnav_features.frames import (
+    ORIGIN,
+    FloatArray,
+    Pose,
+    compose,
+    points_to_parent,
+    relative,
+    to_parent,
+)
+from semnav_features.lidar_spec import LidarSpec
+
+UPDATE_EVERY = 3
+"""Control periods between two scans that the map takes in: the detector looks as often."""
+
+LASTING = MemorySettings(travel=60.0, turned=120.0, scans=6000, capacity=16384)
+"""A memory for obstacles of a whole house: walls seen again correct the drift meanwhile."""
+
+CAREFUL = PlannerSettings(margins=(0.10, 0.06, 0.04))
+"""A search need not squeeze in everywhere: what cannot be reached with a margin is left out."""
+
+SQUEEZING = PlannerSettings()
+"""For a robot that is stuck: it got in, so it may get out without the margin."""
+
+NO_DOORS: FloatArray = np.empty((0, 4))
+
+
+class Explorer:
+    """Searches a house without its plan: free floor, frontiers and people from its own map.
+
+    Scan, odometry and people come from the observation; body, lidar and detector from `reset`.
+
+    Args:
+        settings: of the search.
+    """
+
+    def __init__(self, settings: SearchSettings = SearchSettings()) -> None:
+        self.settings = settings
+        self._obstacles = ObstacleMemory(LASTING)
+        self._house: HousePlan | None = None
+
+    @property
+    def observation(self) -> str | ObservationType:
+        """All entries, and the people."""
+        return EntryObservation("all", [PeopleEntry()])
+
+    def reset(self, info: dict[str, Any]) -> None:
+        """Begin an episode with the body, the lidar and the detector of `info`.
+
+        Raises:
+            ValueError: the environment has no person detector.
+        """
+        if "person_detector" not in info:
+            raise ValueError("a search needs a person detector: make semnav_env:SearchAndRescue-v0")
+        self._pilot, self._lidar = (
+            Pilot(RobotSpec(**info["robot"])),
+            LidarSpec(**info["lidar"]),
+        )
+        self._detector = PersonDetectorSettings(**info["person_detector"])
+        self._beams = self._lidar.directions
+        self._obstacles.reset()
+        self._chart = self._new_chart(info)
+        detector = self._detector
+        looker = Looker(self._pilot.robot, detector.field_of_view, detector.range_max)
+        self._searcher = Searcher(self._chart, looker)
+        self._steps = 0
+        self._unseen: FloatArray = np.empty((0, 2))
+
+    def act(self, observation: Observation) -> NDArray[np.float32]:
+        """The next action; it stands still when nothing is left to look at."""
+        pose, velocity = read_odometry(observation)
+        self._see(pose, observation["scan"])
+        people = [
+            (to_parent(pose, each.place), each.probability, each.reported)
+            for each in read_people(observation)
+        ]
+        target = self._searcher.update(pose, people)
+        if target is None:
+            return self._pilot.act(self._remembered, NO_DOORS, _stop(), pose, velocity)
+        self._pilot.driver.planner = SQUEEZING if self._searcher.stuck else CAREFUL
+        goal = SeenGoal(GoalKind.REACH, relative(pose, target), None)
+        return self._pilot.act(self._points(observation, pose), NO_DOORS, goal, pose, velocity)
+
+    def _new_chart(self, info: dict[str, Any]) -> SearchMap:
+        half = self.settings.half_side
+        return SearchMap(self.settings, (-half, -half), (half, half))
+
+    def _see(self, pose: Pose, scan: NDArray[Any]) -> None:
+        eye = compose(pose, self._pilot.robot.lidar_mount)
+        if self._steps % 2 == 0:
+            self._obstacles.update(eye, scan, self._beams, self._lidar.range_max)
+        if self._steps % UPDATE_EVERY == 0:
+            self._remembered = self._obstacles.points()
+            detector = self._detector
+            ranges = without_lost(scan.astype(np.float64), self._lidar.range_max)
+            self._chart.update(eye, self._beams, ranges, detector.field_of_view, detector.range_max)
+            if self._house is not None and self._steps % (10 * UPDATE_EVERY) == 0:
+                seen = self._chart.has(FREE) | (self._chart.hits > 0)
+                known = binary_dilation(seen, iterations=KNOWN_MARGIN)
+                self._unseen = self._house.unseen_walls(self._chart, known)
+        self._steps += 1
+
+    def _points(self, observation: Observation, pose: Pose) -> FloatArray:
+        """Everything to drive around, odometry frame, shape (n, 2)."""
+        bumps = table(observation, "bumps").reshape(-1, 2).astype(np.float64)
+        points = [self._remembered, self._unseen]
+        if len(bumps):
+            points.append(points_of_segments(points_to_parent(pose, bumps).reshape(-1, 4)))
+        return np.vstack(points)
+
+
+class PlanSearcher(Explorer):
+    """Searches a house whose plan it knows: walls, doors and rooms, but no furniture.
+
+    It is told where in the plan it starts; from then on it has its believed pose, whose drift the
+    walls that are seen again correct.
+    """
+
+    def __init__(self, settings: SearchSettings = SearchSettings()) -> None:
+        super().__init__(settings)
+        self._plan: FloorPlan | None = None
+
+    def read_plan(self, floor_plan: FloorPlan) -> None:
+        """Learn the plan of the next episode's house."""
+        self._plan = floor_plan
+
+    def _new_chart(self, info: dict[str, Any]) -> SearchMap:
+        if self._plan is None:
+            raise ValueError("the searcher knows the plan: call read_plan before reset")
+        self._house = HousePlan(self._plan, info["pose"])
+        return self._house.chart(self.settings)
+
+
+def _stop() -> SeenGoal:
+    return SeenGoal(GoalKind.STOP, ORIGIN, None)

@@ -1,0 +1,93 @@
+"""Where the robot can go from where it is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt
+
+from semnav_agents.searching.search_map import SAFE, Mask, SearchMap
+from semnav_env.maps.reach import Reach, reach_in_grid
+from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Point, Pose
+from semnav_features.kernels.grid_search import least_costs
+
+COMFORT = 0.8
+"""Distance from everything solid beyond which a way costs no more than its length, metres."""
+
+CROWDING = 2.0
+"""Extra cost of a metre right beside something solid."""
+
+HEADINGS = 24
+"""Headings over a whole turn in which it is asked where the whole body can get to."""
+
+SHRUNK = 0.0, 0.1, 0.2
+"""By how much shorter and narrower it is taken for if it does not fit where it is, metres."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ways:
+    """Where the robot can go from where it is.
+
+    Attributes:
+        costs: of the way to each cell, metres, shape (rows, columns); infinite where none leads.
+        room: distance of each cell from everything solid, metres, same shape.
+        poses: that the whole body reaches; None if that was not asked.
+    """
+
+    costs: FloatArray
+    room: FloatArray
+    poses: Reach | None = None
+
+    def lead_to(self, x: FloatArray, y: FloatArray, heading: FloatArray) -> Mask:
+        """Whether the whole body gets to poses, as far as that was asked; arrays of one shape."""
+        if self.poses is None:
+            return np.ones(np.broadcast_shapes(x.shape, heading.shape), np.bool_)
+        return self.poses.has(x, y, heading)
+
+
+def ways_from(
+    chart: SearchMap, place: Point, half_width: float, body: tuple[RobotSpec, Pose] | None = None
+) -> Ways:
+    """The ways on floor that is safe, or that the plan says is floor.
+
+    Args:
+        chart: the map.
+        place: where the robot is.
+        half_width: of the robot, metres.
+        body: and its pose, to ask where the whole of it can get to and turn; takes time.
+    """
+    spacing, solid = chart.settings.spacing, chart.solid
+    room = spacing * distance_transform_edt(~solid)
+    passable = chart.has(SAFE) | (chart.rooms >= 0)
+    row, column = chart.cell(place)
+    open_ = passable & (room > half_width)
+    open_[max(row - 6, 0) : row + 7, max(column - 6, 0) : column + 7] |= ~solid[
+        max(row - 6, 0) : row + 7, max(column - 6, 0) : column + 7
+    ]
+    near = np.clip(1.0 - room / COMFORT, 0.0, 1.0)
+    weight = np.where(open_, 1.0 + CROWDING * near, np.inf)
+    source = np.array([[row, column]])
+    costs = least_costs(source, np.zeros(1), weight, spacing, spacing * math.sqrt(2), True)
+    poses = None if body is None else reachable_poses(chart, solid | ~passable, *body)
+    return Ways(costs, room, poses)
+
+
+def reachable_poses(chart: SearchMap, blocked: Mask, robot: RobotSpec, pose: Pose) -> Reach | None:
+    """The poses that a body gets to; None if it does not even fit where it is.
+
+    The map's walls are thicker than the true ones: if it does not fit it is taken for smaller.
+    """
+    blocked = blocked.copy()
+    blocked[:2] = blocked[-2:] = blocked[:, :2] = blocked[:, -2:] = True
+    where = chart.lower, chart.settings.spacing
+    for thinner in SHRUNK:
+        size = robot.length - thinner, robot.width - thinner
+        area = reach_in_grid(
+            blocked, *where, size, HEADINGS, chart.cell(pose[:2]), math.tau, pose[2]
+        )
+        if area.cells.any():
+            return area
+    return None

@@ -1,0 +1,67 @@
+"""Finds possible jambs: the places where an opening may start or end."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from semnav_features.kernels.compiling import kernel
+
+
+@kernel
+def find_jambs(groups: int, pieces: int, scratch: Any) -> tuple[int, int]:
+    """Write where openings may start and end: the ends of pieces, and of groups beyond them.
+
+    Groups and pieces are walked together in beam order: `k` is the first piece that does not end
+    before the group. A group's first and last point are jambs of their own where no piece covers
+    them, and a group without pieces is both. The pieces that come once more at the end of an
+    unrolled circle are in no group, and only end openings that start before them.
+
+    Returns:
+        How many starts and how many ends were written, in beam order.
+    """
+    first_of, found = scratch.group_first, scratch.pieces
+    most = len(scratch.start_jambs)
+    starts = ends = k = 0
+    for group in range(groups):
+        first, last = first_of[group], first_of[group + 1] - 1
+        while k < pieces and found[k].last < first:
+            k += 1
+        if (k == pieces or found[k].first > first) and ends < most:
+            write_point(scratch.end_jambs[ends], first, k, scratch)
+            ends += 1
+        while k < pieces and found[k].first <= last:
+            piece = found[k]
+            if piece.first >= first and ends < most:
+                jamb = scratch.end_jambs[ends]
+                write_jamb(jamb, piece.start_x, piece.start_y, scratch.beams[piece.first], k)
+                ends += 1
+            if piece.last > last:
+                break
+            if starts < most:
+                jamb = scratch.start_jambs[starts]
+                write_jamb(jamb, piece.end_x, piece.end_y, scratch.beams[piece.last], k)
+                starts += 1
+            k += 1
+        loose = (k == pieces or found[k].first > last) and (k == 0 or found[k - 1].last < last)
+        if loose and starts < most:
+            write_point(scratch.start_jambs[starts], last, k - 1, scratch)
+            starts += 1
+    while k < pieces and ends < most:
+        piece = found[k]
+        jamb = scratch.end_jambs[ends]
+        write_jamb(jamb, piece.start_x, piece.start_y, scratch.beams[piece.first], k)
+        ends += 1
+        k += 1
+    return starts, ends
+
+
+@kernel
+def write_point(jamb: Any, point: int, piece: int, scratch: Any) -> None:
+    """A jamb at a single point; `piece` is the next one on the side away from the opening."""
+    write_jamb(jamb, scratch.xs[point], scratch.ys[point], scratch.beams[point], piece)
+
+
+@kernel
+def write_jamb(jamb: Any, x: float, y: float, beam: int, piece: int) -> None:
+    """Set every field of a jamb."""
+    jamb.x, jamb.y, jamb.beam, jamb.piece = x, y, beam, piece

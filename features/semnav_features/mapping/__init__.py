@@ -1,0 +1,28 @@
+"""From many scans to poses and maps: scan matching, odometry without wheels, line maps."""
+
+from semnav_features.mapping.line_map import LineMap
+from semnav_features.mapping.map_settings import MapSettings
+from semnav_features.mapping.matching import (
+    Match,
+    MatchError,
+    ReferenceLines,
+    match_scans,
+    match_surfaces,
+    surface_of,
+)
+from semnav_features.mapping.odometry import KeyframeRule, ScanOdometry
+from semnav_features.mapping.settings import MatchSettings
+
+__all__ = [
+    "KeyframeRule",
+    "LineMap",
+    "MapSettings",
+    "Match",
+    "MatchError",
+    "MatchSettings",
+    "ReferenceLines",
+    "ScanOdometry",
+    "match_scans",
+    "match_surfaces",
+    "surface_of",
+]

@@ -1,0 +1,81 @@
+"""A door of a map: the median of its sightings, and whether its doorway stayed open."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from semnav_features.elements import Door
+from semnav_features.frames import FloatArray
+from semnav_features.mapping.doorway import DoorwayEvidence
+
+
+@dataclass(slots=True, eq=False)
+class MapDoor:
+    """A door that was seen in several scans.
+
+    Attributes:
+        seen: both jambs of every sighting, rows (x1, y1, x2, y2) in metres, in one direction.
+        belief: sum of the confidences of the sightings.
+        ends: the median of the sightings.
+        passage: what beams say of its opening.
+    """
+
+    seen: list[FloatArray]
+    belief: float
+    ends: FloatArray = field(init=False)
+    passage: DoorwayEvidence = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.ends = np.median(self.seen, axis=0)
+        self.passage = DoorwayEvidence(self.ends)
+
+    def see(self, door: FloatArray, confidence: float) -> None:
+        """Add a sighting, in whichever direction."""
+        self.seen.append(self._alike(door))
+        self.belief += confidence
+        self._agree()
+
+    def absorb(self, other: MapDoor) -> None:
+        """Take over the sightings of another door, and its beam counts if they are more."""
+        self.seen += map(self._alike, other.seen)
+        self.belief += other.belief
+        if other.passage.looks > self.passage.looks:
+            self.passage = other.passage
+        self._agree()
+
+    def distance(self, door: FloatArray) -> float:
+        """How far the jambs of a sighting are off, at most, metres."""
+        off = self._alike(door) - self.ends
+        return max(math.hypot(off[0], off[1]), math.hypot(off[2], off[3]))
+
+    def apart(self, other: MapDoor) -> float:
+        """Between the middles of two doors, metres."""
+        off = (self.ends[:2] + self.ends[2:] - other.ends[:2] - other.ends[2:]) / 2
+        return math.hypot(off[0], off[1])
+
+    @property
+    def share(self) -> float:
+        """Mean confidence over the scans that looked through it, 0 where one missed it."""
+        return self.belief / max(self.passage.looks, len(self.seen))
+
+    def as_door(self) -> Door:
+        """The door of a scene."""
+        x1, y1, x2, y2 = self.passage.bounds(self.ends).tolist()
+        confidence = self.share * self.passage.openness
+        return Door((x1, y1), (x2, y2), sightings=len(self.seen), confidence=confidence)
+
+    def _alike(self, door: FloatArray) -> FloatArray:
+        """A door in the direction of this one."""
+        along = (self.ends[2:] - self.ends[:2]) @ (door[2:] - door[:2])
+        return door if along >= 0.0 else door[[2, 3, 0, 1]]
+
+    def _agree(self) -> None:
+        """Take the median of the sightings; count beams anew if that has moved the door."""
+        self.ends = np.median(self.seen, axis=0)
+        if not self.passage.lies_along(self.ends):
+            looks = self.passage.looks
+            self.passage = DoorwayEvidence(self.ends)
+            self.passage.looks = looks

@@ -1,0 +1,42 @@
+"""A log whose scans are placed by matching them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from semnav_features.frames import Pose, compose, relative
+from semnav_features.mapping.odometry import ScanOdometry
+from semnav_features.readers import LogRecord
+
+MAX_LOST, MAX_LOST_SHARE = 2, 0.05
+"""Number and share of scans without a match beyond which the poses are not to be trusted: a scan
+without one counts as moved as guessed, and all that follow err by as much. Of the logs in
+docs/mapping.md one loses more, and drifts five times as far as the others."""
+
+
+def matched(
+    records: Iterable[LogRecord], odometry: ScanOdometry, mount: Pose
+) -> Iterator[tuple[LogRecord, Pose]]:
+    """The records with poses of the lidar from their scans, in the frame of the first scan.
+
+    Args:
+        records: of a log, in order.
+        odometry: by which scans are matched, before its first.
+        mount: pose of the lidar on the robot, to which wheel odometry belongs.
+    """
+    wheels: Pose | None = None
+    for record in records:
+        lidar = compose(record.odometry, mount) if record.odometry else None
+        moved = relative(wheels, lidar) if wheels and lidar else None
+        wheels = lidar
+        yield record, odometry.update(record.scan, moved)
+
+
+def loss_of(odometry: ScanOdometry, scans: int) -> str:
+    """Why poses of so many scans are not to be trusted, and what helps; empty if they are."""
+    if odometry.lost <= max(MAX_LOST, MAX_LOST_SHARE * scans):
+        return ""
+    return (
+        f"{odometry.lost} of {scans} scans found no match, so that their poses are not to be "
+        "trusted; give every scan, the odometry of the wheels, or poses (--poses log)"
+    )

@@ -1,0 +1,156 @@
+"""What every reader of scan logs gives: records, and clear errors."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import ClassVar, Protocol, Self
+
+from semnav_features.frames import Pose
+from semnav_features.scan import Scan
+
+
+class LogError(ValueError):
+    """A file that cannot be read as a log of scans; says why and what would do."""
+
+
+class TruncatedLogError(LogError):
+    """A log that ends too early or is damaged; what could be read of it was yielded."""
+
+
+class BadRecordError(ValueError):
+    """One record that cannot be read; the message is the same for all records of its fault."""
+
+
+class DamageError(Exception):
+    """The data of a log cannot be read any farther."""
+
+
+@dataclass(frozen=True, slots=True)
+class LogRecord:
+    """One scan of a log, and where it was taken.
+
+    Attributes:
+        scan: the scan, in the frame of the lidar.
+        pose: of the lidar in the log's frame, metres and radians; the corrected pose where the
+            log is a corrected one, None where it has none.
+        odometry: of the robot as the wheels count it; None before the log's first.
+        line: where in the log, from 1: the line of a text, the row of an array, the number of
+            the message on its topic.
+    """
+
+    scan: Scan
+    pose: Pose | None
+    odometry: Pose | None
+    line: int
+
+    @property
+    def stamp(self) -> float | None:
+        """Time of the scan in seconds, on the log's clock; None where it has none."""
+        return self.scan.stamp
+
+
+class ScanLog(Protocol):
+    """An open log, read once from beginning to end, one record in memory at a time.
+
+    Attributes:
+        unit: what the log consists of and `LogRecord.line` counts: line, row or message.
+        scans: how many records were yielded so far.
+        bad: how many units were passed over so far, by reason.
+        first_bad: the number of the first unit of each reason.
+    """
+
+    unit: ClassVar[str]
+    scans: int
+    bad: Counter[str]
+    first_bad: dict[str, int]
+
+    @property
+    def fraction(self) -> float | None:
+        """How much of the log has been read, 0 to 1; None where its size is unknown."""
+
+    def __iter__(self) -> Iterator[LogRecord]:
+        """The records that are left, in the order of the log."""
+        ...
+
+    def __enter__(self) -> Self:
+        """The log itself."""
+        ...
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close the file."""
+
+
+class LogReader(ABC):
+    """What the readers of all formats share; a reader says how to get at the records.
+
+    Iterating raises `LogError` if there is no scan, and `TruncatedLogError` after the last
+    readable record if the data are damaged or end too early.
+    """
+
+    unit: ClassVar[str] = "line"
+    expected: ClassVar[str]
+    """What a log of this format holds, for the error where there is none of it."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.scans = 0
+        self.bad: Counter[str] = Counter()
+        self.first_bad: dict[str, int] = {}
+
+    @property
+    @abstractmethod
+    def fraction(self) -> float | None:
+        """How much of the log has been read; see `ScanLog`."""
+
+    @abstractmethod
+    def records(self) -> Iterator[LogRecord]:
+        """The records that are left; raises `DamageError` where the data can be read no more."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Close the file."""
+
+    def count_bad(self, reason: str, number: int) -> None:
+        """Note that a unit of the log was passed over."""
+        self.bad[reason] += 1
+        self.first_bad.setdefault(reason, number)
+
+    def __iter__(self) -> Iterator[LogRecord]:
+        """The records that are left, in the order of the log."""
+        try:
+            for record in self.records():
+                self.scans += 1
+                yield record
+        except DamageError:
+            raise TruncatedLogError(
+                f"{self.path} is truncated or damaged: its data could be read up to scan "
+                f"{self.scans}; copy or download it again"
+            ) from None
+        if not self.scans:
+            raise LogError(
+                f"{self.path} holds no laser scan; expected {self.expected}"
+                + "".join(f"; {n} x {reason}" for reason, n in self.bad.most_common(3))
+            )
+
+    def __enter__(self) -> Self:
+        """The log itself."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close the file."""
+        self.close()

@@ -1,0 +1,33 @@
+"""The named strategies of the feature extractor; a kernel sees the number of a strategy."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class BreakpointRule(IntEnum):
+    """How far apart two neighbouring points may be and still belong together.
+
+    The equations are in `semnav_features.kernels.breakpoints`.
+    """
+
+    CONSTANT = 0
+    BORGES_ALDON = 1
+    CERTAD = 2
+    DIETMAYER = 3
+    SANTOS = 4
+    LEE = 5
+    WEERAKOON = 6
+
+
+class Segmentation(IntEnum):
+    """How a connected group of points is cut into straight pieces."""
+
+    END_POINT_FIT = 0
+    DYNAMIC = 1
+    CURVATURE = 2
+
+
+def strategy_names(strategies: type[IntEnum]) -> tuple[str, ...]:
+    """What the strategies are called in the settings."""
+    return tuple(strategy.name.lower() for strategy in strategies)

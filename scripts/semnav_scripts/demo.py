@@ -1,0 +1,255 @@
+"""`semnav demo`: let one robot carry out one command, with a film or a picture of it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Annotated, Any
+
+from tyro.conf import Positional, arg
+
+from semnav_agents.base import Agent, steps
+from semnav_agents.evaluation.drive import recognised_impossible
+from semnav_agents.registry import make_agent
+from semnav_agents.translating.interpreter import understand
+from semnav_env.commands import SearchHouse
+from semnav_env.commands.language import Language
+from semnav_env.commands.speech.recognition import language_of_text
+from semnav_env.dynamics import NO_DYNAMICS, Dynamics
+from semnav_env.dynamics.social import for_json
+from semnav_env.env import SemNavEnv
+from semnav_env.maps import FloorPlan, load_floor_plan
+from semnav_env.rendering.film import STEPS_PER_FRAME, Film
+from semnav_scripts.arguments import parse_pose
+from semnav_scripts.outputs import check_file
+from semnav_scripts.progress import tracked
+
+DEFAULT_MAP = "heidelberg_hallway"
+"""The floor plan where none is named."""
+
+STEPS_PER_SEARCH_FRAME = 60
+"""The same for a search, which takes minutes: the film is twenty times as fast."""
+
+KNOWS_THE_PLAN = "agent searcher, which knows the floor plan; --agent explorer does without"
+"""What is said of the agent of a search where none is named."""
+
+
+@dataclass(frozen=True)
+class _Told:
+    """What a robot is told, where.
+
+    Attributes:
+        plan: the floor plan.
+        spoken: language of the command.
+        options: for `env.reset`.
+        seed: for `env.reset`.
+        searches: whether it is a search for people.
+        limits: of the episode, as arguments of the environment; its own if empty.
+        infeasible: whether the right answer is to say that the command is impossible.
+    """
+
+    plan: FloorPlan
+    spoken: Language
+    options: dict[str, Any]
+    seed: int
+    searches: bool = False
+    limits: dict[str, Any] = field(default_factory=dict)
+    infeasible: bool = False
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Let a robot carry out a command.
+
+    The exit code is 0 if the robot got there, 1 if it did not, and 2 if the command cannot be
+    carried out from its start.
+
+    Attributes:
+        command: what to say to the robot.
+        episode: instead of a command the id of a frozen episode, such as val_unseen-00246, or
+            FILE:ID for one of a file; the same agent drives it as in `semnav evaluate`.
+        map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path;
+            heidelberg_hallway if not given, for a search a generated house.
+        language: of the command: en or de (english, german); recognised if not given.
+        robot: wheelchair or spot.
+        agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
+            folder of a trained agent, or package.module:Class; searcher (knows the plan) or
+            explorer for a search. If not given: scripted, for a search searcher.
+        pose: where the robot starts, x,y,heading in metres and radians; random if not given.
+        seed: of everything that is random; 0 if not given.
+        dynamics: what else moves.
+        save: film to write (.gif or .mp4).
+        picture: picture of the end to write (.png).
+        show: show the drive in a window, without --save and --picture.
+        json: print the outcome as JSON.
+    """
+
+    command: Positional[str | None] = None
+    episode: str | None = None
+    map: str | None = None
+    language: str | None = None
+    robot: str = "wheelchair"
+    agent: str | None = None
+    pose: str | None = None
+    seed: int | None = None
+    dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
+    save: Path | None = None
+    picture: Path | None = None
+    show: bool = False
+    json: bool = False
+
+    def run(self) -> int:
+        """Drive, film and report."""
+        if self.seed is not None and self.seed < 0:
+            raise ValueError(f"seed is {self.seed}; it must be 0 or more")
+        self._check_files()
+        told = self._told() if self.episode is None else self._frozen(self.episode)
+        agent = make_agent(self.agent or ("searcher" if told.searches else "scripted"))
+        env = self._environment(told, agent)
+        film = Film(env, STEPS_PER_SEARCH_FRAME if told.searches else STEPS_PER_FRAME)
+        observation, start = env.reset(seed=told.seed, options=told.options)
+        info: dict[str, Any] = {}
+        driven = tracked(
+            steps(env, agent, observation, start), lambda _: f"{env.seconds:.0f} s", lambda: None
+        )
+        for step in driven:
+            info = step.info
+            if self._filmed:
+                film.note("is_success" in info)
+        verifier = env.judge.verifier
+        if told.infeasible:
+            info["is_success"] = recognised_impossible(verifier, info["impossible"])
+        echo = verifier.mission.command.say(told.spoken)
+        env.close()
+        self._save(film)
+        self._report(start, echo, info, env.seconds, for_json(env.world.social()))
+        return 0 if info["is_success"] else 1
+
+    @property
+    def _filmed(self) -> bool:
+        return self.save is not None or self.picture is not None
+
+    def _told(self) -> _Told:
+        """What is to be done, from a command."""
+        if self.command is None:
+            raise ValueError("say what the robot is to do, or give --episode ID")
+        plan = load_floor_plan(self.map or DEFAULT_MAP)
+        command = understand(self.command, self.language, plan.room_names)
+        spoken = language_of_text(self.command, self.language)
+        options: dict[str, Any] = {"command": command, "language": spoken.code}
+        if self.pose is not None:
+            options["pose"] = parse_pose(self.pose)
+        searches = SearchHouse() in command.clauses
+        return _Told(plan, spoken, options, self.seed or 0, searches)
+
+    def _frozen(self, name: str) -> _Told:
+        """What is to be done in a frozen episode, with the noise and the limit of `evaluate`."""
+        from semnav_agents.evaluation.runner import EPISODE_SECONDS
+        from semnav_env.episodes import Expected, find_episode
+
+        others = ("command", "map", "language", "pose", "seed")
+        for other in (other for other in others if getattr(self, other) is not None):
+            option = other if other == "command" else f"--{other}"
+            raise ValueError(f"--episode says it all; leave out {option} {getattr(self, other)!r}")
+        episode = find_episode(name)
+        spoken = language_of_text(episode.command, episode.language)
+        infeasible = episode.expected is Expected.INFEASIBLE
+        told = _Told(episode.plan(), spoken, {"episode": episode}, episode.number)
+        return replace(told, limits={"max_seconds": EPISODE_SECONDS}, infeasible=infeasible)
+
+    def _environment(self, told: _Told, agent: Agent) -> SemNavEnv:
+        """The environment for a command: that of a search has a person detector and victims."""
+        mode = "human" if self.show else "rgb_array" if self._filmed else None
+        if not told.searches:
+            return SemNavEnv(
+                self.robot,
+                told.plan,
+                observation=agent.observation,
+                dynamics=self.dynamics,
+                render_mode=mode,
+                **told.limits,
+            )
+        from semnav_env.rescue.environment import VICTIMS, search_and_rescue
+
+        return search_and_rescue(
+            observation=agent.observation,
+            robot=self.robot,
+            floor_plan=told.plan if self.map else f"office:house:{told.seed}",
+            dynamics=replace(self.dynamics, victims=self.dynamics.victims or VICTIMS),
+            render_mode=mode,
+        )
+
+    def _check_files(self) -> None:
+        """Refuse bad paths before the drive, which takes a while."""
+        from semnav_env.rendering.video import check_suffix
+
+        if self.show and (self.save or self.picture):
+            raise ValueError("--show opens a window; give it without --save and --picture")
+        check_file(self.save, "--save")
+        check_file(self.picture, "--picture")
+        if self.save is not None:
+            check_suffix(self.save)
+        if self.picture is not None:
+            check_suffix(self.picture, (".png",))
+
+    def _save(self, film: Film) -> None:
+        from semnav_env.rendering.video import save_png
+
+        if self.save is not None:
+            film.save(self.save)
+        if self.picture is not None:
+            save_png(self.picture, film.frames[-1])
+
+    def _report(
+        self,
+        start: dict[str, Any],
+        echo: str,
+        info: dict[str, Any],
+        seconds: float,
+        social: dict[str, Any],
+    ) -> None:
+        outcome = {
+            **({"episode": self.episode} if self.episode else {}),
+            "command": start["command"],
+            "floor_plan": start["floor_plan"],
+            "pose": start["pose"],
+            "success": info["is_success"],
+            "verdicts": [str(verdict) for verdict in info["verdicts"]],
+            "crossed_doors": list(info["crossed_doors"]),
+            "collisions": info["collisions"],
+            "impossible": info["impossible"],
+            "seconds": round(seconds, 2),
+            "path_length": round(info["path_length"], 3),
+            "route_length": round(info["route_length"], 3),
+            **social,
+            **({"search": info["search"]} if "search" in info else {}),
+            "files": [str(path) for path in (self.save, self.picture) if path is not None],
+        }
+        if self.json:
+            print(json.dumps(outcome))
+            return
+        verdict = "done" if info["is_success"] else " / ".join(outcome["verdicts"])
+        pose = ",".join(f"{value:.2f}" for value in start["pose"])
+        print(f"from {pose} in {start['floor_plan']}")
+        if "search" in outcome and self.agent is None:
+            print(KNOWS_THE_PLAN)
+        print(
+            f'"{echo}": {verdict} after {seconds:.1f} s and '
+            f"{info['path_length']:.1f} m, {info['collisions']} collisions"
+        )
+        if "search" in outcome:
+            print(_found(outcome["search"]))
+        if outcome["impossible"]:
+            print(f"the robot took it for impossible: {outcome['impossible']}")
+        for path in outcome["files"]:
+            print(f"wrote {path}")
+
+
+def _found(search: dict[str, Any]) -> str:
+    """What became of a search, in one line."""
+    return (
+        f"{search['found']} of {search['victims']} people found, "
+        f"{search['false_reports']} false reports, "
+        f"least covered room {100 * search['least_coverage']:.0f} %"
+    )

@@ -1,0 +1,205 @@
+"""`semnav evaluate`: drive many episodes, and print one table."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from statistics import fmean, median
+from typing import Annotated, Any
+
+from rich.console import Console
+from tyro.conf import Positional, arg
+
+from semnav_agents.evaluation import (
+    Extras,
+    Result,
+    Summary,
+    Trial,
+    common_causes,
+    failure_line,
+    misreading,
+    run_suite,
+    suite,
+    summarise,
+)
+from semnav_agents.evaluation.provenance import provenance
+from semnav_agents.learned import agent_label
+from semnav_env.dynamics import NO_DYNAMICS, Dynamics
+from semnav_env.episodes import Episode, Expected, evenly, is_episodes, load_episodes
+from semnav_env.rendering.backend import load_pygame
+from semnav_scripts.evaluation_tables import commands_table, headings, measures_table
+from semnav_scripts.jsonl import JsonLines
+from semnav_scripts.outputs import check_file, check_folder, counted
+from semnav_scripts.progress import tracked
+
+USUAL_SEEDS = 20
+"""Seeds of a suite where their number is not given."""
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Run a suite of commands many times, or the episodes of a split once, and count.
+
+    Printed are agent, body, split, version and rules, shares with intervals of 95 %, all measures,
+    and the failures.
+
+    Attributes:
+        suite: heidelberg, office_cross, or "all" of these; a split (`semnav episodes list`); or a
+            file of episodes.
+        agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
+            folder of a trained agent, or package.module:Class.
+        robot: wheelchair or spot.
+        seeds: number of start poses, each with its own noise, for every command of a suite; 20 if
+            not given.
+        first_seed: number of the first seed; 0 if not given.
+        episodes: number of episodes of a split, evenly spaced; all if not given.
+        workers: number of processes.
+        recheck: judge every path a second time with Shapely, and count disagreements.
+        pictures: folder for a picture of each failure.
+        films: folder for a film (.gif) of each failure, which is driven a second time for it.
+        dynamics: what else moves.
+        out: file for the episodes, one JSON object a line, written as they are driven, into
+            `.NAME-....part.jsonl` beside it until the end or an interruption.
+        json: print the table as JSON.
+    """
+
+    suite: Positional[str] = "heidelberg"
+    agent: str = "scripted"
+    robot: str = "wheelchair"
+    seeds: int | None = None
+    first_seed: int | None = None
+    episodes: int | None = None
+    workers: int = 1
+    recheck: bool = False
+    pictures: Path | None = None
+    films: Path | None = None
+    dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
+    out: Path | None = None
+    json: bool = False
+
+    def run(self) -> int:
+        """Run, and print success and contacts per command."""
+        count = USUAL_SEEDS if self.seeds is None else self.seeds
+        first = self.first_seed or 0
+        if count < 1 or self.workers < 1:
+            raise ValueError("seeds and workers must be at least 1")
+        if first < 0:
+            raise ValueError(f"first_seed is {first}; it must be 0 or more")
+        if self.episodes is not None and self.episodes < 1:
+            raise ValueError(f"--episodes is {self.episodes}; it must be at least 1")
+        check_file(self.out, "--out")
+        check_folder(self.pictures, "--pictures")
+        check_folder(self.films, "--films")
+        if self.films is not None:
+            load_pygame()  # says at once where it is missing
+        trials = self._trials()
+        if any(isinstance(t, Episode) and t.expected is Expected.AMBIGUOUS for t in trials):
+            return self._ask([trial for trial in trials if isinstance(trial, Episode)])
+        seeds = range(first, first + count)
+        total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
+        extras = Extras(self.recheck, self.pictures, self.films)
+        how = self.workers, extras, self.dynamics
+        who = self._who()
+        results = self._drive(run_suite(trials, self.agent, self.robot, seeds, *how), total, who)
+        groups = list(dict.fromkeys(trial.group for trial in trials))
+        if isinstance(trials[0], Episode):
+            groups.sort()
+        self._show([_summary(group, results) for group in groups], results, who)
+        if self.out is not None and not self.json:
+            print(f"wrote {self.out}")
+        return 0
+
+    def _who(self) -> dict[str, Any]:
+        """What every row says: who drove, where, with which body, and by which rules."""
+        who = agent_label(self.agent) | {"split": Path(self.suite).name, "robot": self.robot}
+        usual, chosen = asdict(NO_DYNAMICS), asdict(self.dynamics)
+        if moved := {name: value for name, value in chosen.items() if value != usual[name]}:
+            who |= {"dynamics": moved}
+        return who | provenance().row()
+
+    def _drive(self, episodes: Iterator[Result], total: int, who: dict[str, Any]) -> list[Result]:
+        """All results; each is written at once, so that an interruption loses none."""
+        results: list[Result] = []
+        with JsonLines(self.out) if self.out else nullcontext() as out:
+            for result in tracked(
+                episodes, lambda n: f"{n} episodes", lambda: len(results) / total
+            ):
+                results.append(result)
+                if out:
+                    out.write(who | result.row())
+        return results
+
+    def _trials(self) -> Sequence[Trial | Episode]:
+        if not is_episodes(self.suite):
+            if self.episodes is not None:
+                raise ValueError("--episodes is for splits and files; give a suite --seeds")
+            return suite(self.suite)
+        for option, value in (("--seeds", self.seeds), ("--first-seed", self.first_seed)):
+            if value is not None:
+                raise ValueError(f"{option} is for suites; give a split --episodes")
+        found = load_episodes(self.suite)
+        if self.episodes is not None and self.episodes > len(found):
+            raise ValueError(f"--episodes is {self.episodes}; {self.suite} has {len(found)}")
+        return found if self.episodes is None else evenly(found, self.episodes)
+
+    def _ask(self, episodes: Sequence[Episode]) -> int:
+        """Count the ambiguous commands whose readings the grammar finds."""
+        wrong = {episode: cause for episode in episodes if (cause := misreading(episode))}
+        right = len(episodes) - len(wrong)
+        failures = [
+            f'{episode.id} "{episode.command}": {cause}' for episode, cause in wrong.items()
+        ]
+        if self.json:
+            print(json.dumps({"episodes": len(episodes), "right": right, "failures": failures}))
+            return 0
+        said = f"ambiguous commands: {right} of {len(episodes)} understood as all that they mean"
+        print("\n".join([said, *failures]))
+        return 0
+
+    def _show(self, summaries: list[Summary], results: list[Result], who: dict[str, Any]) -> None:
+        everything = summarise("all", results)
+        if self.json:
+            print(json.dumps([who | summary.row() for summary in (*summaries, everything)]))
+            return
+        console = Console()
+        for line in headings(who, everything):
+            console.print(line, highlight=False, soft_wrap=True)
+        console.print()
+        console.print(commands_table([*summaries, everything]))
+        console.print()
+        console.print(measures_table(everything))
+        for cause, count in common_causes(results):
+            console.print(f"{count} x {cause}", highlight=False)
+        for row in summaries:
+            for failure in row.failures:
+                line = f"{row.name}: {failure_line(failure)}"
+                console.print(line, highlight=False, soft_wrap=True)
+        self._show_extras(results)
+
+    def _show_extras(self, results: list[Result]) -> None:
+        if self.dynamics.pedestrians:
+            intrusions = [result.social["personal_space_intrusions"] for result in results]
+            soonest = [result.social["least_time_to_collision"] for result in results]
+            print(
+                f"people: {fmean(intrusions):.2f} intrusions an episode; "
+                f"least time to collision {median(soonest):.1f} s (median over episodes)"
+            )
+        if self.recheck:
+            odd = [result for result in results if result.rechecked]
+            print(f"second opinion: {len(odd)} of {len(results)} episodes judged otherwise")
+            for result in odd:
+                said = f"{' / '.join(result.verdicts)}, second opinion: {result.rechecked}"
+                print(f"{result.command}: seed {result.seed}: {said}")
+        failed = sum(not result.success for result in results)
+        outputs = ("drew", self.pictures, "pictures"), ("filmed", self.films, "films")
+        for done, folder, things in outputs:
+            if folder is not None:
+                into = f"{done} {counted(failed, 'failure')} into {folder}"
+                print(into if failed else f"nothing failed, so there are no {things}")
+
+
+def _summary(group: str, results: list[Result]) -> Summary:
+    return summarise(group, [result for result in results if result.group == group])

@@ -1,0 +1,94 @@
+"""`semnav evaluate language`: how much of people's commands is understood."""
+
+from __future__ import annotations
+
+import json
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from tyro.conf import Positional
+
+from semnav_agents.translating.interpreter import understand
+from semnav_env.commands import parse
+from semnav_env.commands.corpora import (
+    Count,
+    ParseOutcome,
+    SentenceVerdict,
+    development_corpora,
+    held_out_corpora,
+    load_sentences,
+    verdicts,
+)
+from semnav_env.commands.corpora.measure import Understand
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Count how many sentences are understood, asked back, refused and misread.
+
+    Attributes:
+        corpora: files of sentences with their meanings (.jsonl, see docs/meanings.md), or of plain
+            sentences, one a line; by default the development and the held-out sets of the
+            package.
+        language: force a language; by default each text is recognised.
+        grammar: judge the grammar alone, without the learned second opinion.
+        show: print the sentences with this outcome.
+        json: print JSON.
+    """
+
+    corpora: Positional[tuple[Path, ...]] = ()
+    language: str | None = None
+    grammar: bool = False
+    show: Literal["understood", "asked", "refused", "misread"] | None = None
+    json: bool = False
+
+    def run(self) -> int:
+        """Judge every sentence, and print the counts."""
+        found = [
+            verdict
+            for path in self.corpora or (*development_corpora(), *held_out_corpora())
+            for verdict in verdicts(load_sentences(path), self.language, self._understand())
+        ]
+        counts: defaultdict[tuple[str, str], Count] = defaultdict(Count)
+        for verdict in found:
+            sentence = verdict.sentence
+            counts[sentence.corpus, sentence.kind].outcomes[verdict.outcome] += 1
+        shown = [verdict for verdict in found if self.show and _is_shown(verdict, self.show)]
+        if self.json:
+            rows = [_row(*key, count) for key, count in counts.items()]
+            print(json.dumps({"counts": rows, "shown": [_plain(each) for each in shown]}))
+        else:
+            _print(counts, shown)
+        return 0
+
+    def _understand(self) -> Understand:
+        return parse if self.grammar else understand
+
+
+def _is_shown(verdict: SentenceVerdict, show: str) -> bool:
+    wrong = show == "misread" and verdict.outcome is ParseOutcome.ASKED_WRONGLY
+    return verdict.outcome == show or wrong
+
+
+def _row(corpus: str, kind: str, count: Count) -> dict[str, object]:
+    outcomes = {each.value: count.outcomes[each] for each in ParseOutcome}
+    return {"corpus": corpus, "kind": kind, "sentences": count.total, **outcomes}
+
+
+def _plain(verdict: SentenceVerdict) -> dict[str, object]:
+    sentence = verdict.sentence
+    return {"id": sentence.id, "text": sentence.text, "answer": verdict.answer}
+
+
+def _print(counts: dict[tuple[str, str], Count], shown: Sequence[SentenceVerdict]) -> None:
+    width = max((len(f"{corpus} {kind}") for corpus, kind in counts), default=0) + 2
+    print(f"{'':<{width}}{'n':>6}" + "".join(f"{each.value:>15}" for each in ParseOutcome))
+    for (corpus, kind), count in counts.items():
+        cells = (f"{count.outcomes[each]:>7} {count.share(each):7.1%}" for each in ParseOutcome)
+        print(f"{f'{corpus} {kind}':<{width}}{count.total:>6}" + "".join(cells))
+    for verdict in shown:
+        said = " / ".join(verdict.answer)
+        print(f'{verdict.sentence.id} "{verdict.sentence.text}": {verdict.outcome}: {said}')

@@ -1,0 +1,84 @@
+"""The tables and lines that `semnav evaluate` prints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import isnan
+from typing import Any
+
+from rich.table import Table
+
+from semnav_agents.evaluation.results import INTERVAL_MEASURES, Summary
+from semnav_env.metrics import WORST_SHARES
+
+SHOWN_MEASURES = {
+    "success": "success",
+    "contact_free": "no contact",
+    "spl": "SPL",
+    "ndtw": "nDTW",
+    "clauses": "clauses",
+    "seconds": "seconds",
+}
+"""The measures that are shown for each command, and their headings in both tables."""
+
+SHOWN_DIGITS = 12
+"""Digits of a commit that are shown."""
+
+
+def headings(who: Mapping[str, Any], everything: Summary) -> Iterator[str]:
+    """Lines that say who drove where, by which version, and how sure the shares are.
+
+    Args:
+        who: what every row of the results has: agent, split, robot, version and so on.
+        everything: summary of all episodes.
+    """
+    seed = "" if who["training_seed"] < 0 else f" (training seed {who['training_seed']})"
+    count = f"{everything.episodes} episode{'' if everything.episodes == 1 else 's'}"
+    yield f"agent {who['agent']}{seed}, robot {who['robot']}, {who['split']}, {count}"
+    commit = f", commit {_short(who['commit'])}" if who["commit"] else ""
+    yield f"semnav-env {who['version']}{commit}, rules {who['rules']}"
+    for name in INTERVAL_MEASURES:
+        mean, (low, high) = everything.means[name], everything.intervals[name]
+        interval = f"{low:.3f} to {high:.3f}"
+        yield f"{SHOWN_MEASURES[name]} {mean:.3f} (95 % interval {interval}, Wilson)"
+
+
+def commands_table(summaries: Sequence[Summary]) -> Table:
+    """A row for each command; numbers come first, so that only the words wrap in narrow windows."""
+    table = Table("n", box=None, padding=(0, 1, 0, 0))
+    for name, heading in SHOWN_MEASURES.items():
+        table.add_column(heading, width=7, justify="right")
+        if name == "success":
+            table.add_column("95 %", width=9)
+    table.add_column("command")
+    for row in summaries:
+        first, *others = (_written(row.means[name]) for name in SHOWN_MEASURES)
+        low, high = row.intervals["success"]
+        table.add_row(str(row.episodes), first, f"{low:.2f}-{high:.2f}", *others, row.name)
+    return table
+
+
+def measures_table(everything: Summary) -> Table:
+    """Every measure over all episodes: its mean, and its mean over its worst episodes."""
+    table = Table(
+        "all episodes",
+        "mean",
+        *(f"worst {share:.0%}" for share in WORST_SHARES),
+        box=None,
+        padding=(0, 2, 0, 0),
+    )
+    for name, mean in everything.means.items():
+        worst = (_written(row[name]) for row in everything.worst)
+        heading = SHOWN_MEASURES.get(name, name.replace("_", " "))
+        table.add_row(heading, _written(mean), *worst)
+    return table
+
+
+def _short(commit: str) -> str:
+    """A commit with fewer digits, and "-dirty" at its end if it has that."""
+    digits, dash, changed = commit.partition("-")
+    return digits[:SHOWN_DIGITS] + dash + changed
+
+
+def _written(value: float) -> str:
+    return "" if isnan(value) else f"{value:.1f}" if abs(value) >= 10.0 else f"{value:.3f}"

@@ -1,0 +1,161 @@
+"""`semnav follow`: what a robot would have believed of a command on a recorded log."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import dataclass, field
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from tyro.conf import OmitArgPrefixes, Positional
+
+from semnav_env.belief import Belief
+from semnav_env.belief.log_following import PoseChoice, follow_log
+from semnav_env.commands import Command
+from semnav_features import ExtractorSettings
+from semnav_features.frames import Pose
+from semnav_features.mapping import ScanOdometry
+from semnav_features.mapping.matched_log import loss_of
+from semnav_features.plot import check_suffix
+from semnav_features.readers import Geometry, LogCheck, LogRecord, TruncatedLogError, open_log
+from semnav_features.readers.log_check import PoseSource
+from semnav_scripts.arguments import parse_pose
+from semnav_scripts.ground import understood
+from semnav_scripts.outputs import check_file
+from semnav_scripts.printable import printable
+from semnav_scripts.progress import tracked
+from semnav_scripts.scene_report import bad_text, print_notes
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Follow a command on a recorded log, with the robot's side of the simulator.
+
+    The robot is told the command at the first scan. Each line is a moment in which its clause or
+    its goal changed. The frame is that of odometry and begins at the first scan. The exit code is
+    0 if the robot believes in the end that it has carried out the whole command, and 1 if not, or
+    if so many scans found no match that its poses are not to be trusted. A log that is cut short
+    is followed up to its last whole scan; the exit code is then 2. Notes on stderr say what looks
+    wrong in the log.
+
+    Attributes:
+        log: the log: a file, or the folder of a ROS 2 bag; see `semnav extract --help`.
+        command: what the robot is told; rooms cannot be named, because nobody points them out.
+        language: of the command: en or de (english, german); recognised if not given.
+        mount: pose of the lidar on the robot, x,y,heading in metres and radians.
+        poses: where the robot was: "log" takes the poses of the log, "odometry" its wheel
+            odometry, and "match" matches each scan with the earlier ones, with wheel odometry as a
+            guess if the log has it; odometry, or else the log's poses, if not given.
+        topic: of the scans in a bag, such as /scan; not needed if there is only one.
+        first: number of the first scan, from 1.
+        limit: stop after so many scans.
+        geometry: what the log leaves unsaid of its scans.
+        plot: picture of what is remembered at the end (.png, .pdf or .svg).
+        settings: limits of the extractor, metres and radians.
+        json: print one JSON object a line.
+    """
+
+    log: Positional[Path]
+    command: Positional[str]
+    language: str | None = None
+    mount: str = "0,0,0"
+    poses: PoseChoice | None = None
+    topic: str | None = None
+    first: int = 1
+    limit: int | None = None
+    geometry: OmitArgPrefixes[Geometry] = field(default_factory=Geometry)
+    plot: Path | None = None
+    settings: ExtractorSettings = field(default_factory=ExtractorSettings)
+    json: bool = False
+
+    def run(self) -> int:
+        """Follow it, and say what the robot believed."""
+        command, mount = understood(self.command, self.language, ()), parse_pose(self.mount)
+        for name in ("first", "limit"):
+            value = getattr(self, name)
+            if value is not None and value < 1:
+                raise ValueError(f"--{name} is {value}; it must be at least 1")
+        check_file(self.plot, "--plot")
+        if self.plot is not None:
+            check_suffix(self.plot)
+        matcher = ScanOdometry()
+        beliefs, damage = self._follow(command, mount, matcher)
+        done = beliefs[-1].clause
+        if not self.json:
+            print(f"believed to be done: {done} of {len(command.clauses)} clauses")
+        if self.plot is not None:
+            from semnav_env.rendering.belief_picture import save_beliefs
+
+            save_beliefs(self.plot, beliefs, len(command.clauses), str(command))
+            if not self.json:
+                print(f"wrote {self.plot}")
+        if damage:
+            raise damage
+        if loss := loss_of(matcher, len(beliefs)):
+            print(loss, file=sys.stderr)
+        return 0 if done == len(command.clauses) and not loss else 1
+
+    def _follow(
+        self, command: Command, mount: Pose, matcher: ScanOdometry
+    ) -> tuple[list[Belief], TruncatedLogError | None]:
+        """Print each change of mind; returns all beliefs, and what ended the log too early."""
+        beliefs: list[Belief] = []
+        damage: TruncatedLogError | None = None
+        with open_log(self.log, self.geometry, self.topic) as log:
+            stop = None if self.limit is None else self.first - 1 + self.limit
+            check = LogCheck(log.unit, _WATCHED[self.poses])
+            records = check.watched(islice(log, self.first - 1, stop))
+            options: Any = {"mount": mount, "extractor": self.settings, "poses": self.poses}
+            followed = follow_log(records, command, matcher=matcher, **options)
+            try:
+                for record, belief in tracked(
+                    followed, lambda n: f"{n} scans", lambda: log.fraction
+                ):
+                    if not beliefs or _mind(belief) != _mind(beliefs[-1]):
+                        print(self._line(record, belief, command))
+                    beliefs.append(belief)
+            except TruncatedLogError as error:
+                damage = error
+            if log.bad:
+                print(printable(bad_text(log)), file=sys.stderr)
+            print_notes(check.notes())
+        if not beliefs:
+            raise damage or ValueError(f"{self.log} has no scan {self.first}")
+        return beliefs, damage
+
+    def _line(self, record: LogRecord, belief: Belief, command: Command) -> str:
+        clauses = command.clauses
+        over = belief.clause >= len(clauses)
+        said: dict[str, Any] = {
+            "scan": record.line,
+            "stamp": record.stamp,
+            "pose": [round(value, 3) for value in belief.pose],
+            "clause": belief.clause + 1,
+            "text": "" if over else str(clauses[belief.clause]),
+            "goal": belief.goal.kind.name.lower(),
+            "goal_pose": [round(value, 3) for value in belief.goal.pose],
+            "reasons": list(belief.reasons),
+        }
+        if self.json:
+            return json.dumps(said)
+        x, y, _ = belief.pose
+        at = f"scan {record.line:>6}  at {x:7.2f} {y:7.2f}"
+        if over:
+            return f"{at}  all clauses done"
+        return f"{at}  clause {said['clause']}  {said['goal']:<5} {'; '.join(belief.reasons)}"
+
+
+_WATCHED: dict[PoseChoice | None, tuple[PoseSource, ...]] = {
+    "log": ("pose",),
+    "odometry": ("odometry",),
+    "match": ("odometry",),
+    None: ("pose", "odometry"),
+}
+"""Fields of a record in which something may look wrong, by where the poses come from."""
+
+
+def _mind(belief: Belief) -> tuple[int, str, tuple[str, ...]]:
+    """What a line is printed for when it changes."""
+    return belief.clause, belief.goal.kind.name, belief.reasons

@@ -1,0 +1,117 @@
+"""`semnav leaderboard`: the table of agents, from kept results."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from tyro.conf import Positional
+
+from semnav_agents.evaluation.attempts import Attempt, read_attempts, write_attempts
+from semnav_agents.evaluation.leaderboard import (
+    Estimate,
+    Standing,
+    check_one_rules,
+    standings,
+)
+from semnav_agents.evaluation.provenance import UNKNOWN
+from semnav_scripts.leaderboard_text import plain_table
+
+HEADINGS = (
+    *("split", "robot", "agent", "n", "trainings"),
+    *("success", "no contact", "SPL", "worst 5 %", "IQM", "version, rules"),
+)
+"""Headings of the table."""
+
+SHOWN_DIGITS = 8
+"""Digits of a fingerprint in the table; files and JSON have all of them."""
+
+KEPT_SUFFIX = ".jsonl.gz"
+"""Ending of the names of kept results."""
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Make a table of agents from files that `semnav evaluate --out` wrote.
+
+    Each file is of one evaluation: one agent, one split, one body. Trainings of one preset with
+    different seeds are one row. In brackets are intervals of 95 %: of a bootstrap, or Wilson's
+    where all episodes agree. The last column says the version, and the first digits of the
+    fingerprint of the rules; results under different rules are refused.
+
+    Attributes:
+        files: results, JSON Lines, or such compressed by gzip.
+        mixed: take results under different rules into one table.
+        markdown: print the table as Markdown.
+        json: print it as JSON.
+        keep: folder into which what the table needs is written, a small file for each evaluation.
+    """
+
+    files: Positional[tuple[Path, ...]]
+    mixed: bool = False
+    markdown: bool = False
+    json: bool = False
+    keep: Path | None = None
+
+    def run(self) -> int:
+        """Read, count and print."""
+        if not self.files:
+            raise ValueError(
+                "give one file of results or more; `semnav evaluate --out` writes them"
+            )
+        attempts = [attempt for file in self.files for attempt in read_attempts(file)]
+        rows = standings(attempts)
+        if not self.mixed:
+            check_one_rules(rows)
+        if self.keep is not None:
+            _keep(attempts, self.keep)
+        if self.json:
+            print(json.dumps([asdict(row) for row in rows]))
+        elif self.markdown:
+            print(markdown(rows), end="")
+        else:
+            print(plain(rows), end="")
+        return 0
+
+
+def markdown(rows: list[Standing]) -> str:
+    """The table as Markdown."""
+    lines = [HEADINGS, ["---"] * len(HEADINGS), *(_cells(row, "`") for row in rows)]
+    return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
+
+
+def plain(rows: list[Standing]) -> str:
+    """The table as text, at most 80 columns wide."""
+    return plain_table(HEADINGS, list(map(_cells, rows)))
+
+
+def _cells(row: Standing, quote: str = "") -> tuple[str, ...]:
+    return (
+        f"{quote}{row.split}{quote}",
+        row.robot,
+        f"{quote}{row.agent}{quote}",
+        str(row.episodes),
+        str(row.seeds),
+        *(map(_written, (row.success, row.contact_free, row.spl))),
+        f"{row.worst:.2f}",
+        "" if row.interquartile is None else f"{row.interquartile:.3f}",
+        row.rules if row.rules == UNKNOWN else f"{row.version}, {row.rules[:SHOWN_DIGITS]}",
+    )
+
+
+def _written(estimate: Estimate | None) -> str:
+    if estimate is None:
+        return ""
+    return f"{estimate.mean:.3f} ({estimate.low:.2f} to {estimate.high:.2f})"
+
+
+def _keep(attempts: list[Attempt], folder: Path) -> None:
+    """Write the attempts of each evaluation to a file of its own, which says by its name whose."""
+    files: dict[str, list[Attempt]] = {}
+    for each in sorted(attempts):
+        seed = "" if each.training_seed < 0 else f"-{each.training_seed}"
+        name = f"{each.agent}{seed}.{each.split}.{each.robot}".replace("/", "_").replace(":", "_")
+        files.setdefault(name, []).append(each)
+    for name, group in files.items():
+        write_attempts(group, folder / f"{name}{KEPT_SUFFIX}")

@@ -1,0 +1,143 @@
+"""Compiles the kernels of all commands before they are needed.
+
+A kernel holds the code of all that it calls. What is compiled in one process shares these parts, so
+what is much alike, such as one robot and many, is compiled in one process; other groups, which
+share little, side by side. Kernels that two of them need are compiled by the first.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+from typing import NamedTuple
+
+STEPS = 20
+"""Control periods of a drive that calls every kernel of an environment."""
+
+SCANS = 12
+"""Scans of the log that is read."""
+
+
+class WarmedGroup(NamedTuple):
+    """A group of kernels that are ready.
+
+    Attributes:
+        name: of the group.
+        seconds: how long that took.
+        fault: the last line of what its process said if it failed; otherwise empty.
+    """
+
+    name: str
+    seconds: float
+    fault: str
+
+
+def warm() -> Iterator[WarmedGroup]:
+    """Compile all groups, as many at once as there are cores; each is told when it is ready."""
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        for group in as_completed([pool.submit(_warmed, name) for name in GROUPS]):
+            yield group.result()
+
+
+def _warmed(name: str) -> WarmedGroup:
+    command = [sys.executable, "-m", "semnav_scripts.warming", name]
+    begun = time.perf_counter()
+    done = subprocess.run(command, capture_output=True, text=True, errors="replace")
+    said = (done.stderr.splitlines() or [f"it ended with {done.returncode}"])[-1]
+    return WarmedGroup(name, time.perf_counter() - begun, said if done.returncode else "")
+
+
+def environments() -> None:
+    """One robot and many, with every kind of observation."""
+    import numpy as np
+
+    from semnav_env.env import SemNavEnv
+    from semnav_env.vector import SemNavVectorEnv
+
+    for observation in ("semantic", "command"):
+        env = SemNavEnv(observation=observation)
+        envs = SemNavVectorEnv(2, observation=observation)
+        env.reset(seed=0)
+        envs.reset(seed=0)
+        for _ in range(STEPS):
+            env.step(np.full(2, 0.3))
+            envs.step(np.full((2, 2), 0.3))
+
+
+def agents() -> None:
+    """What plans paths, poses and words."""
+    told = "go through the second door on the right"
+    for robot in ("wheelchair", "spot"):
+        for agent in ("scripted", "oracle"):
+            _run("demo", told, "--robot", robot, "--agent", agent, "--seed", "3")
+    _run("approach", "--map", "office_cross", "--door", "west_north_2")
+    _run("describe", "--map", "office_cross", "--from", "3,11.5,0", "--to", "west_north_2")
+
+
+def logs() -> None:
+    """What reads logs, and maps and checks buildings."""
+    with tempfile.TemporaryDirectory() as folder:
+        log = Path(folder) / "drive.log"
+        log.write_text("".join(_lines()))
+        for poses in ("log", "match"):
+            out = str(Path(folder) / f"{poses}.geojson")
+            _run("map", "build", str(log), "--out", out, "--poses", poses)
+        _run("extract", str(log))
+        _run("follow", str(log), "go through the second door on the right")
+        _run("map", "check", "office_cross")
+
+
+def searches() -> None:
+    """Robots that search houses, and what else moves."""
+    from semnav_env.dynamics import Dynamics
+    from semnav_env.dynamics.settings import MODELS
+    from semnav_env.env import SemNavEnv
+
+    for agent in ("searcher", "explorer"):
+        _run("demo", "search the house", "--agent", agent, "--seed", "1")
+    for model in MODELS:
+        env = SemNavEnv(dynamics=Dynamics(pedestrians=4, model=model, changing_doors=0.5))
+        env.reset(seed=0)
+        for _ in range(STEPS):
+            env.step([0.3, 0.0])
+
+
+GROUPS: dict[str, Callable[[], None]] = {
+    "environments": environments,
+    "agents": agents,
+    "logs": logs,
+    "searches": searches,
+}
+"""What is compiled side by side."""
+
+
+def _run(*words: str) -> None:
+    """Run a command without a word; whether it achieves what was asked does not matter."""
+    from semnav_scripts.main import main
+
+    with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere), redirect_stderr(nowhere):
+        main(words)
+
+
+def _lines() -> Iterator[str]:
+    """The lines of a CARMEN log of a short drive."""
+    from semnav_env.lidar import Lidar
+    from semnav_env.maps import load_floor_plan
+
+    lidar = Lidar(load_floor_plan("heidelberg_hallway"))
+    for k in range(SCANS):
+        ranges = lidar.scan((-2.5 + 0.1 * k, -0.3, 0.24), key=(1, 2, k)).ranges[::3][:181]
+        said = " ".join(f"{r:.2f}" for r in ranges)
+        place = f"{-2.5 + 0.1 * k:.3f} -0.300 0.240"
+        yield f"FLASER {len(ranges)} {said} {place} {place} {k} robot {k}\n"
+
+
+if __name__ == "__main__":
+    GROUPS[sys.argv[1]]()
