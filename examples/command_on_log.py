@@ -22,8 +22,8 @@ COMMAND = "go through the second door on the right, then stop"
 
 def recorded() -> Iterator[LogRecord]:
     """The scans and the odometry of a drive in the simulator."""
+    from semnav_agents import make_agent
     from semnav_agents.base import steps
-    from semnav_agents.registry import make_agent
     from semnav_env.env import SemNavEnv
     from semnav_env.observations import read_odometry
 

@@ -10,7 +10,7 @@ import sys
 
 import gymnasium as gym
 
-from semnav_agents.registry import make_agent
+from semnav_agents import make_agent
 from semnav_env.rendering.video import save_video
 
 

@@ -8,8 +8,8 @@ import re
 from dataclasses import dataclass
 from typing import ClassVar
 
+from semnav_agents import make_agent
 from semnav_agents.base import steps
-from semnav_agents.registry import make_agent
 from semnav_env.commands import Clause, Command, Follow, GrammarInterpreter, Interpretation
 from semnav_env.commands.languages import english
 from semnav_env.env import SemNavEnv

@@ -11,8 +11,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from semnav_agents import make_agent
 from semnav_agents.base import steps
-from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.maps import load_floor_plan
 

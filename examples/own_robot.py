@@ -5,8 +5,8 @@ One sees the size of its actions and that it drives through a door; so does a sl
 
 from dataclasses import replace
 
+from semnav_agents import make_agent
 from semnav_agents.base import steps
-from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.robots import RobotSpec
 

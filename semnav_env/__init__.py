@@ -4,13 +4,60 @@ Importing it registers `SemNav-Train-v0`, which draws the episodes of the split 
 `SemNav-v0`, which draws commands in one floor plan, and `SearchAndRescue-v0`; say
 `gymnasium.make("semnav_env:SemNav-Train-v0")` to do both. No spec has a time limit before it is
 made: `max_seconds` and the lidar say how many steps an episode has at most.
+
+Names are loaded when they are asked for, so a robot that needs `BeliefTracker` and `parse` loads no
+simulator.
 """
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gymnasium
 
-__version__: str
+from semnav_features.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from semnav_env.belief import BeliefTracker
+    from semnav_env.commands import parse
+    from semnav_env.env import SemNavEnv
+    from semnav_env.grounding.ground import ground
+    from semnav_env.maps import generate_office, load_floor_plan
+    from semnav_env.robots import RobotSpec, robot_spec
+    from semnav_env.rules import Rules
+    from semnav_env.tasks import RewardWeights
+    from semnav_env.version import __version__
+    from semnav_features.lidar_spec import LidarSpec, lidar_spec
+
+__all__ = [
+    "BeliefTracker",
+    "LidarSpec",
+    "RewardWeights",
+    "RobotSpec",
+    "Rules",
+    "SemNavEnv",
+    "__version__",
+    "generate_office",
+    "ground",
+    "lidar_spec",
+    "load_floor_plan",
+    "parse",
+    "robot_spec",
+]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        ".belief": ("BeliefTracker",),
+        ".commands": ("parse",),
+        ".env": ("SemNavEnv",),
+        ".grounding.ground": ("ground",),
+        ".maps": ("generate_office", "load_floor_plan"),
+        ".robots": ("RobotSpec", "robot_spec"),
+        ".rules": ("Rules",),
+        ".tasks": ("RewardWeights",),
+        ".version": ("__version__",),
+        "semnav_features.lidar_spec": ("LidarSpec", "lidar_spec"),
+    },
+)
 
 _SEMNAV: dict[str, Any] = {
     "entry_point": "semnav_env.env:SemNavEnv",
@@ -21,6 +68,59 @@ _SEMNAV: dict[str, Any] = {
 # (1.4.0: "cannot unpack non-iterable NoneType"), and looks at one step alone. What is not the
 # environment's own is looked at in every step instead: see `observations.check_observation`.
 gymnasium.register("SemNav-v0", disable_env_checker=True, **_SEMNAV)
+=======
+Importing it registers `SemNav-v0` and `SearchAndRescue-v0`; say
+`gymnasium.make("semnav_env:SemNav-v0")` to do both. Its names are loaded when they are asked for,
+so a robot that needs `BeliefTracker` and `parse` loads no simulator.
+"""
+
+from typing import TYPE_CHECKING
+
+import gymnasium
+
+from semnav_features.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from semnav_env.belief import BeliefTracker
+    from semnav_env.commands import parse
+    from semnav_env.env import SemNavEnv
+    from semnav_env.grounding.ground import ground
+    from semnav_env.maps import generate_office, load_floor_plan
+    from semnav_env.robots import RobotSpec, robot_spec
+    from semnav_env.rules import Rules
+    from semnav_env.tasks import RewardWeights
+    from semnav_features.lidar_spec import LidarSpec, lidar_spec
+
+__all__ = [
+    "BeliefTracker",
+    "LidarSpec",
+    "RewardWeights",
+    "RobotSpec",
+    "Rules",
+    "SemNavEnv",
+    "generate_office",
+    "ground",
+    "lidar_spec",
+    "load_floor_plan",
+    "parse",
+    "robot_spec",
+]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        ".belief": ("BeliefTracker",),
+        ".commands": ("parse",),
+        ".env": ("SemNavEnv",),
+        ".grounding.ground": ("ground",),
+        ".maps": ("generate_office", "load_floor_plan"),
+        ".robots": ("RobotSpec", "robot_spec"),
+        ".rules": ("Rules",),
+        ".tasks": ("RewardWeights",),
+        "semnav_features.lidar_spec": ("LidarSpec", "lidar_spec"),
+    },
+)
+>>>>>>> c142a7f (Find packages from their roots, key kernels by their modules, and export what users need)
 
 gymnasium.register(
     "SemNav-Train-v0", disable_env_checker=True, kwargs={"episodes": "train"}, **_SEMNAV
@@ -32,12 +132,3 @@ gymnasium.register(
     vector_entry_point="semnav_env.rescue.environment:search_and_rescue_vector",
     disable_env_checker=True,
 )
-
-
-def __getattr__(name: str) -> str:
-    """The version, read from the installed package when it is asked for."""
-    if name != "__version__":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib.metadata import version
-
-    return version("semnav-env")

@@ -1,1 +1,13 @@
 """Agents that drive: scripted, oracle, learned, and floors of benchmarks, behind one interface."""
+
+from typing import TYPE_CHECKING
+
+from semnav_features.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from semnav_agents.base import Agent
+    from semnav_agents.registry import make_agent
+
+__all__ = ["Agent", "make_agent"]
+
+__getattr__ = lazy_names(__name__, {".base": ("Agent",), ".registry": ("make_agent",)})

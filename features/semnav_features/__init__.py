@@ -43,5 +43,5 @@ __all__ = [
 ]
 
 __getattr__ = lazy_names(
-    __name__, {"extraction": ("extract",), "polyline": ("polylines",), "scan": ("Scan",)}
+    __name__, {".extraction": ("extract",), ".polyline": ("polylines",), ".scan": ("Scan",)}
 )

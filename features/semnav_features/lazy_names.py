@@ -12,13 +12,13 @@ def lazy_names(package: str, modules: Mapping[str, tuple[str, ...]]) -> Callable
 
     Args:
         package: its `__name__`.
-        modules: names by the module of the package that has them.
+        modules: names by the module that has them; one that begins with a dot is the package's own.
     """
     homes = {name: module for module, names in modules.items() for name in names}
 
     def find(name: str) -> Any:
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        return getattr(import_module(f"{package}.{homes[name]}"), name)
+        return getattr(import_module(homes[name], package), name)
 
     return find

@@ -104,19 +104,19 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
-        "decoding": ("decode",),
-        "encoding": ("encode",),
-        "errors": ("AmbiguousCommandError", "CommandError"),
-        "interpreters": (
+        ".decoding": ("decode",),
+        ".encoding": ("encode",),
+        ".errors": ("AmbiguousCommandError", "CommandError"),
+        ".interpreters": (
             "GrammarInterpreter",
             "Interpretation",
             "Interpreter",
             "ModelInterpreter",
             "TemplateInterpreter",
         ),
-        "parser": ("correct", "parse", "readings"),
-        "program": ("from_program", "to_program"),
-        "rewording": ("paraphrases",),
-        "sampling": ("sample_clause", "sample_command"),
+        ".parser": ("correct", "parse", "readings"),
+        ".program": ("from_program", "to_program"),
+        ".rewording": ("paraphrases",),
+        ".sampling": ("sample_clause", "sample_command"),
     },
 )

@@ -34,7 +34,7 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
-        "files": ("EpisodeFileError", "read_episodes", "write_episodes"),
-        "splits": ("SPLITS", "Split", "evenly", "find_episode", "is_episodes", "load_episodes"),
+        ".files": ("EpisodeFileError", "read_episodes", "write_episodes"),
+        ".splits": ("SPLITS", "Split", "evenly", "find_episode", "is_episodes", "load_episodes"),
     },
 )

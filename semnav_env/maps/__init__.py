@@ -29,7 +29,7 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
-        "generator": ("DISTRIBUTIONS", "OfficeSettings", "generate_office"),
-        "writer": ("save_floor_plan",),
+        ".generator": ("DISTRIBUTIONS", "OfficeSettings", "generate_office"),
+        ".writer": ("save_floor_plan",),
     },
 )

@@ -52,8 +52,8 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
-        "cloud_entry": ("CloudEntry",),
-        "instruction": ("InstructionEntry",),
-        "readers": ("SeenGoal", "read_odometry", "table"),
+        ".cloud_entry": ("CloudEntry",),
+        ".instruction": ("InstructionEntry",),
+        ".readers": ("SeenGoal", "read_odometry", "table"),
     },
 )

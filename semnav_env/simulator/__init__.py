@@ -31,13 +31,13 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,  # a judge needs motions only
     {
-        "odometry": ("EXACT", "OdometrySettings"),
-        "odometry_presets": (
+        ".odometry": ("EXACT", "OdometrySettings"),
+        ".odometry_presets": (
             "ODOMETRIES",
             "SPOT_ODOMETRY",
             "WHEELCHAIR_ODOMETRY",
             "odometry_settings",
         ),
-        "simulator": ("RobotSetup", "Simulator"),
+        ".simulator": ("RobotSetup", "Simulator"),
     },
 )

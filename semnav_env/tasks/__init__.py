@@ -42,8 +42,8 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
-        "added_terms": ("AddedTerms", "terms_of"),
-        "frozen": ("Episodes", "FrozenEpisodes"),
-        "wrapping": ("Curriculum", "RandomisedRobot"),
+        ".added_terms": ("AddedTerms", "terms_of"),
+        ".frozen": ("Episodes", "FrozenEpisodes"),
+        ".wrapping": ("Curriculum", "RandomisedRobot"),
     },
 )

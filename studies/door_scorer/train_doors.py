@@ -1,6 +1,6 @@
 """Trains the scorer that tells doors from other gaps, on simulated scans of random offices.
 
-    python -m studies train_doors semnav_features/door_scorer.json
+    python -m studies train_doors features/semnav_features/door_scorer.json
 
 makes the file that comes with the package, byte for byte on one machine. No floor plan that
 comes with the package and no real scan is used.

@@ -11,10 +11,16 @@ from studies.figures import IMAGES
 
 PAGE = IMAGES.parent / "architecture.md"
 ROOT = IMAGES.parents[1]
-LAYERS = ("features", "semnav_env", "agents", "scripts")
+ROOTS = {
+    "semnav_features": ROOT / "features",
+    "semnav_env": ROOT,
+    "semnav_agents": ROOT / "agents",
+    "semnav_scripts": ROOT / "scripts",
+}
+LAYERS = tuple(ROOTS)
 
 ABOUT = {
-    "features": "from a scan to a scene, memory, drift; NumPy and Numba only",
+    "semnav_features": "from a scan to a scene, memory, drift; NumPy and Numba only",
     "semnav_features/clouds": "door jambs in point clouds",
     "semnav_features/explain": "why the extractor turned something down",
     "semnav_features/kernels": "the compiled parts, over plain arrays",
@@ -47,7 +53,7 @@ ABOUT = {
     "semnav_env/vector": "many robots in one environment",
     "semnav_env/verifier": "the judge",
     "semnav_env/world": "the physics; the only folder that imports Pymunk",
-    "agents": "scripted, oracle and learned agents, and floors, behind one protocol",
+    "semnav_agents": "scripted, oracle and learned agents, and floors, behind one protocol",
     "semnav_agents/evaluation": "suites of episodes, driven and judged",
     "semnav_agents/hearing": "agents that hear the command: a learned grounding for the planner",
     "semnav_agents/learning": "training and its files",
@@ -55,16 +61,15 @@ ABOUT = {
     "semnav_agents/planning": "the planner of the scripted agent and the oracle",
     "semnav_agents/searching": "searching a house: where to look from, and whom to go to",
     "semnav_agents/translating": "a learned translator that asks where the grammar refuses",
-    "scripts": "the `semnav` command",
+    "semnav_scripts": "the `semnav` command",
 }
 
 TEMPLATE = """# Architecture
 
 The simulator and the robot meet only at the sensor: what goes from one to the other is what a
-real robot has, too. Files lie under `features/`, `semnav_env/`, `agents/` and `scripts/`; the
-first and the last two are installed, and imported, as `semnav_features` and so on. In a git
-checkout `semnav_features`, `semnav_agents` and `semnav_scripts` are symbolic links to
-them, which zip files and Windows without `core.symlinks` break.
+real robot has, too. Each of the folders `features/`, `agents/` and `scripts/` is the root of one
+package, `semnav_features`, `semnav_agents` and `semnav_scripts`; `semnav_env/` is a package
+itself. Paths below begin with the package.
 
                  SIMULATOR                     |                ROBOT'S SIDE
                                                |
@@ -74,8 +79,8 @@ them, which zip files and Windows without `core.symlinks` break.
         |                                      |                    (pose, scene, clause, goal)
         +--> true scene --> JUDGE --> reward, end, info
 
-`tests/test_layers.py` checks the imports. `scripts` may import `agents`, `agents` may import
-`semnav_env`, and `semnav_env` may import `features`, never the other way round. No module
+`tests/test_layers.py` checks the imports. `semnav_scripts` may import `semnav_agents`, which may
+import `semnav_env`, which may import `semnav_features`, never the other way round. No module
 imports itself by way of others. `semnav_env/belief` imports nothing of the simulator or the
 judge.
 
@@ -142,20 +147,20 @@ def page() -> str:
 
 
 def _files() -> list[Path]:
-    links = {path for layer in LAYERS for path in (ROOT / layer).iterdir() if path.is_symlink()}
-    files = (path for layer in LAYERS for path in sorted((ROOT / layer).rglob("*.py")))
-    return [path for path in files if not links & set(path.parents)]
+    return [path for layer in LAYERS for path in sorted((ROOTS[layer] / layer).rglob("*.py"))]
 
 
 def _folder(path: Path) -> str:
-    return path.parent.relative_to(ROOT).as_posix()
+    """The folder of a file, from its package on."""
+    root = next(root for layer, root in ROOTS.items() if path.is_relative_to(root / layer))
+    return path.parent.relative_to(root).as_posix()
 
 
 def _needs(source: str) -> set[str]:
     """The folders that a module imports from."""
     names = set()
     for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("semnav_env"):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(LAYERS):
             names |= {_home(f"{node.module}.{alias.name}") for alias in node.names}
     return names
 
@@ -163,9 +168,7 @@ def _needs(source: str) -> set[str]:
 def _home(dotted: str) -> str:
     """The folder of a module or of a name in it."""
     parts = dotted.split(".")
-    if len(parts) > 1 and parts[1] in LAYERS:
-        parts = parts[1:]
-    while not ROOT.joinpath(*parts).is_dir():
+    while not ROOTS[parts[0]].joinpath(*parts).is_dir():
         parts = parts[:-1]
     return "/".join(parts)
 

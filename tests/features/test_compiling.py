@@ -184,9 +184,9 @@ KERNEL_MODULE = (
 def test_an_edit_counts_where_a_kernel_imports_it_and_nowhere_else(monkeypatch):
     def key(limit, unrelated):
         sources = {
-            "a/kernels": KERNEL_MODULE,
-            "lidar/limits": limit,
-            "semnav_scripts/main": unrelated,
+            "semnav_env.a.kernels": KERNEL_MODULE,
+            "semnav_env.lidar.limits": limit,
+            "semnav_env.env": unrelated,
         }
         monkeypatch.setattr(cache_key, "installed_sources", lambda: iter(sources.items()))
         return cache_key.version_key()
@@ -198,12 +198,12 @@ def test_the_modules_behind_kernels_are_found():
     sources = dict(cache_key.installed_sources())
     behind = cache_key.behind_kernels(sources)
     assert {
-        "semnav_agents/planning/search",
-        "belief/understand",
-        "semnav_features/frames",
-        "rules",
+        "semnav_agents.planning.search",
+        "semnav_env.belief.understand",
+        "semnav_env.rules",
+        "semnav_features.frames",
     } <= behind
-    assert behind.isdisjoint({"env", "semnav_scripts/main", "rendering/viewer"})
+    assert behind.isdisjoint({"semnav_env.env", "semnav_env.rendering.viewer"})
 
 
 def test_long_compiling_is_announced_once_and_short_is_not(capsys, monkeypatch):

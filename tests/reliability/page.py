@@ -47,8 +47,8 @@ what was accepted works.
 - **Settings** (`RobotSpec`, `LidarSpec`, `RewardWeights`, `Dynamics` and all others) say in their
   annotations what each field takes, and check it when they are made
   (`semnav_features/checked_fields.py`). A body that Chipmunk could not carry is never made.
-- **Files** are written by one writer (`semnav_features/writing.py`): to a part beside the file, which
-  takes its place when it is complete and on the disk. A full disk, an error, Ctrl-C or a kill
+- **Files** are written by one writer (`semnav_features/writing.py`): to a part beside the file,
+  which takes its place when it is complete and on the disk. A full disk, an error, Ctrl-C or a kill
   leaves the old file as it was. Files of lines keep the lines so far, and a dataset the episodes
   so far, if the end is an error or Ctrl-C. After a kill a part may stay (`*.part*`). Of a command
   that writes several files, some may be new and some old, each of them whole.

@@ -7,3 +7,11 @@ ROOT = TESTS.parent
 SHARED = ROOT.parent / "shared"
 DATA = SHARED / "data"
 GOLDEN = TESTS / "golden"
+
+ROOTS = {
+    "semnav_features": ROOT / "features",
+    "semnav_env": ROOT,
+    "semnav_agents": ROOT / "agents",
+    "semnav_scripts": ROOT / "scripts",
+}
+"""The installed packages, each with the folder that holds it."""

@@ -7,14 +7,18 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Mapping
+from importlib.util import find_spec
 
 import llvmlite
 import numba
 import numpy as np
 from numba.core import config
 
+_PACKAGES = ("semnav_features", "semnav_env", "semnav_agents")
+"""The packages whose modules hold kernels, or what kernels are made of."""
+
 _KERNEL_IMPORT = "kernels.compiling import kernel"
-_IMPORT = re.compile(r"^from semnav_env\.([\w.]+) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
+_IMPORT = re.compile(r"^from (semnav_[\w.]+) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 
 CODE_SETTINGS = (
     "BOUNDSCHECK",
@@ -52,16 +56,22 @@ def version_key() -> str:
 
 
 def installed_sources() -> Iterator[tuple[str, str]]:
-    """Every module of the installed package: its place in it, without the suffix, and its text."""
-    top = sys.modules[__name__.partition(".")[0]].__path__[0]
-    for folder, folders, files in os.walk(top, followlinks=True):
+    """Every module of the installed packages: its dotted name and its text."""
+    for package in _PACKAGES:
+        found = find_spec(package)
+        for top in (found and found.submodule_search_locations) or ():
+            yield from _modules_below(top, package)
+
+
+def _modules_below(top: str, package: str) -> Iterator[tuple[str, str]]:
+    for folder, folders, files in os.walk(top):
         folders[:] = [f for f in folders if f != "__pycache__"]
         for file in files:
             if file.endswith(".py"):
                 path = os.path.join(folder, file)
-                place = path[len(top) + 1 : -len(".py")].replace(os.sep, "/")
+                place = package + path[len(top) : -len(".py")].replace(os.sep, ".")
                 with open(path, "rb") as source:
-                    yield place, source.read().decode()
+                    yield place.removesuffix(".__init__"), source.read().decode()
 
 
 def behind_kernels(sources: Mapping[str, str]) -> set[str]:
@@ -76,8 +86,7 @@ def behind_kernels(sources: Mapping[str, str]) -> set[str]:
 
 
 def _imports(text: str) -> Iterator[str]:
-    """The places of the modules that a module's first lines may import."""
+    """Dotted names of the modules that a module's first lines may import."""
     for module, names in _IMPORT.findall(text):
-        place = module.replace(".", "/")
-        yield from (place, f"{place}/__init__")
-        yield from (f"{place}/{name}" for name in re.findall(r"\w+", names))
+        yield module
+        yield from (f"{module}.{name}" for name in re.findall(r"\w+", names))

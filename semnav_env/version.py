@@ -1,0 +1,5 @@
+"""The version, as it was installed."""
+
+from importlib.metadata import version
+
+__version__ = version("semnav-env")
