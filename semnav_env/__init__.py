@@ -68,59 +68,6 @@ _SEMNAV: dict[str, Any] = {
 # (1.4.0: "cannot unpack non-iterable NoneType"), and looks at one step alone. What is not the
 # environment's own is looked at in every step instead: see `observations.check_observation`.
 gymnasium.register("SemNav-v0", disable_env_checker=True, **_SEMNAV)
-=======
-Importing it registers `SemNav-v0` and `SearchAndRescue-v0`; say
-`gymnasium.make("semnav_env:SemNav-v0")` to do both. Its names are loaded when they are asked for,
-so a robot that needs `BeliefTracker` and `parse` loads no simulator.
-"""
-
-from typing import TYPE_CHECKING
-
-import gymnasium
-
-from semnav_features.lazy_names import lazy_names
-
-if TYPE_CHECKING:
-    from semnav_env.belief import BeliefTracker
-    from semnav_env.commands import parse
-    from semnav_env.env import SemNavEnv
-    from semnav_env.grounding.ground import ground
-    from semnav_env.maps import generate_office, load_floor_plan
-    from semnav_env.robots import RobotSpec, robot_spec
-    from semnav_env.rules import Rules
-    from semnav_env.tasks import RewardWeights
-    from semnav_features.lidar_spec import LidarSpec, lidar_spec
-
-__all__ = [
-    "BeliefTracker",
-    "LidarSpec",
-    "RewardWeights",
-    "RobotSpec",
-    "Rules",
-    "SemNavEnv",
-    "generate_office",
-    "ground",
-    "lidar_spec",
-    "load_floor_plan",
-    "parse",
-    "robot_spec",
-]
-
-__getattr__ = lazy_names(
-    __name__,
-    {
-        ".belief": ("BeliefTracker",),
-        ".commands": ("parse",),
-        ".env": ("SemNavEnv",),
-        ".grounding.ground": ("ground",),
-        ".maps": ("generate_office", "load_floor_plan"),
-        ".robots": ("RobotSpec", "robot_spec"),
-        ".rules": ("Rules",),
-        ".tasks": ("RewardWeights",),
-        "semnav_features.lidar_spec": ("LidarSpec", "lidar_spec"),
-    },
-)
->>>>>>> c142a7f (Find packages from their roots, key kernels by their modules, and export what users need)
 
 gymnasium.register(
     "SemNav-Train-v0", disable_env_checker=True, kwargs={"episodes": "train"}, **_SEMNAV

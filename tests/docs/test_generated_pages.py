@@ -7,6 +7,7 @@ import re
 from semnav_env.env import SemNavEnv
 from semnav_env.observations import MODES
 from studies.figures import approach, architecture, leaderboard, observation_table
+from tests.support.paths import source
 
 
 def test_the_page_of_entries_is_what_the_layout_declares() -> None:
@@ -37,7 +38,7 @@ def test_the_files_of_the_three_walks_exist() -> None:
     named = set(re.findall(r"\((\w+(?:/\w+)+\.py)\)", architecture.TEMPLATE.replace("`", "")))
     assert len(named) > 10
     for name in named:
-        assert (architecture.ROOTS[name.split("/")[0]] / name).exists(), name
+        assert source(name).exists(), name
 
 
 def test_the_contract_names_every_entry() -> None:

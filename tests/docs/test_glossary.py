@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from tests.support.paths import ROOT
+from tests.support.paths import ROOT, source
 
 GROUPS = (ROOT / "docs" / "glossary.md").read_text("utf-8").split("\n## ")[1:]
 ROWS = [
@@ -19,7 +19,7 @@ ROWS = [
 
 def sources(folder: str) -> str:
     """The text of the Python files of a folder, or of one file."""
-    path = ROOT / folder.replace("semnav_agents", "agents")
+    path = source(folder)
     files = [path] if path.is_file() else sorted(path.rglob("*.py"))
     return "\n".join(file.read_text("utf-8") for file in files)
 
@@ -30,7 +30,7 @@ def test_every_name_is_where_the_glossary_says(row: list[str]) -> None:
         *names, folder = re.findall(r"`([^`]+)`", part) or [""]
         if not folder:
             continue
-        assert (ROOT / folder.replace("semnav_agents", "agents")).exists(), folder
+        assert source(folder).exists(), folder
         text = sources(folder)
         for name in names:
             last = name.rpartition(".")[2]

@@ -55,8 +55,8 @@ what was accepted works.
 - **Two writers** of one file never mix: parts have names that nobody can know before, and are new
   files, so no link is followed that somebody has put there. The file is a whole one, of the writer
   that was done last. What takes long, files of lines and datasets, has one writer at a time
-  (`semnav_features/sole_writer.py`): a second one is refused before it begins, and says so. A link in the
-  place of the file itself is followed if it is yours or root's, and refused otherwise.
+  (`semnav_features/sole_writer.py`): a second one is refused before it begins, and says so. A link
+  in the place of the file itself is followed if it is yours or root's, and refused otherwise.
 - **Readers** have a budget of bytes, below. What does not end (a pipe, an alias of aliases, a
   view that counts for ever) is refused before it is read.
 - **Compiled kernels** that cannot be kept, or cannot be read again, are kept in a temporary

@@ -15,3 +15,8 @@ ROOTS = {
     "semnav_scripts": ROOT / "scripts",
 }
 """The installed packages, each with the folder that holds it."""
+
+
+def source(name: str) -> Path:
+    """A file or folder that the documentation names, from its package or from the checkout on."""
+    return ROOTS.get(name.split("/")[0], ROOT) / name
