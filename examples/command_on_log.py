@@ -10,8 +10,8 @@ the path of a log and a command; without them, a drive of the scripted agent is 
 import sys
 from collections.abc import Iterable, Iterator
 
-from semnav_env.belief.log_following import follow_log
-from semnav_env.commands import parse
+from semnav_env.language import parse
+from semnav_env.mind.belief.log_following import follow_log
 from semnav_env.robots import SPOT
 from semnav_features import Scan
 from semnav_features.frames import Pose
@@ -25,7 +25,7 @@ def recorded() -> Iterator[LogRecord]:
     from semnav_agents import make_agent
     from semnav_agents.base import steps
     from semnav_env.env import SemNavEnv
-    from semnav_env.observations import read_odometry
+    from semnav_env.mind.observations import read_odometry
 
     agent = make_agent("scripted")
     env = SemNavEnv(SPOT, observation=agent.observation)

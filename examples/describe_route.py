@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from semnav_env.commands import paraphrases
-from semnav_env.maps import load_floor_plan
-from semnav_env.routes.describe import describe
-from semnav_env.routes.route_to import route_to
+from semnav_env.judge.routes.describe import describe
+from semnav_env.judge.routes.route_to import route_to
+from semnav_env.language import paraphrases
+from semnav_env.world.maps import load_floor_plan
 
 
 def main(picture: str | None = None) -> None:
@@ -29,7 +29,7 @@ def main(picture: str | None = None) -> None:
     for clause in command.clauses:
         print(" ", repr(clause))
     if picture:
-        from semnav_env.routes.draw import save_routes
+        from semnav_env.judge.routes.draw import save_routes
 
         save_routes(plan, [(route, str(command))], Path(picture))
         print("wrote", picture)

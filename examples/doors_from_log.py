@@ -22,8 +22,8 @@ EVERY = 20
 
 def made_log(folder: str) -> Path:
     """A log as an npz archive: a robot that rolls down a hallway for six seconds."""
-    from semnav_env.maps import load_floor_plan
-    from semnav_env.simulator import Simulator
+    from semnav_env.world.maps import load_floor_plan
+    from semnav_env.world.simulator import Simulator
 
     simulator, ranges, poses = Simulator(load_floor_plan("heidelberg_hallway")), [], []
     sensed = simulator.reset((-2.5, -0.6, 0.25), np.random.default_rng(0))

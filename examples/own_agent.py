@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from semnav_agents.evaluation import run_suite, suite
-from semnav_env.observations import SeenGoal
+from semnav_env.mind.observations import SeenGoal
 from semnav_env.robots import RobotSpec
 from semnav_features.lidar_spec import LidarSpec
 

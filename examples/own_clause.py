@@ -10,10 +10,10 @@ from typing import ClassVar
 
 from semnav_agents import make_agent
 from semnav_agents.base import steps
-from semnav_env.commands import Clause, Command, Follow, GrammarInterpreter, Interpretation
-from semnav_env.commands.languages import english
 from semnav_env.env import SemNavEnv
-from semnav_env.grounding import Goal, GroundedClause, ReachGoal, Situation
+from semnav_env.language import Clause, Command, Follow, GrammarInterpreter, Interpretation
+from semnav_env.language.languages import english
+from semnav_env.mind.grounding import Goal, GroundedClause, ReachGoal, Situation
 from semnav_features.frames import compose
 
 

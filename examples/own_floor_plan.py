@@ -14,7 +14,7 @@ from pathlib import Path
 from semnav_agents import make_agent
 from semnav_agents.base import steps
 from semnav_env.env import SemNavEnv
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 
 
 def feature(kind: str, shape: str, coordinates: list, **properties: str) -> dict:

@@ -9,8 +9,8 @@ import math
 import numpy as np
 
 from semnav_env.env import SemNavEnv
-from semnav_env.lidar import LidarSpec
-from semnav_env.observations import table
+from semnav_env.mind.observations import table
+from semnav_env.world.lidar import LidarSpec
 
 AROUND = LidarSpec(
     name="around",

@@ -6,7 +6,7 @@ One sees the terms of a step as `info["reward_terms"]` has them; the reward is t
 import numpy as np
 
 from semnav_env.env import SemNavEnv
-from semnav_env.tasks import AddedTerms, RewardWeights, Tick
+from semnav_env.judge.tasks import AddedTerms, RewardWeights, Tick
 
 START = {"command": "go through the second door on the right", "pose": (-2.5, -0.3, 0.24)}
 

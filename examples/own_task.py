@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from semnav_env.env import SemNavEnv
-from semnav_env.lidar import TIM561
-from semnav_env.simulator import EXACT, OdometrySettings
-from semnav_env.tasks import CommandTask, Curriculum, EpisodeRequest, RandomisedRobot
+from semnav_env.judge.tasks import CommandTask, Curriculum, EpisodeRequest, RandomisedRobot
+from semnav_env.world.lidar import TIM561
+from semnav_env.world.simulator import EXACT, OdometrySettings
 
 
 class SomeDoor:

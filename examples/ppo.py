@@ -15,10 +15,10 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 
-from semnav_env.lidar import TIM561
-from semnav_env.observations import Moment
-from semnav_env.tasks import EpisodeRequest
+from semnav_env.judge.tasks import EpisodeRequest
+from semnav_env.mind.observations import Moment
 from semnav_env.vector import SemNavVectorEnv
+from semnav_env.world.lidar import TIM561
 
 try:
     import torch

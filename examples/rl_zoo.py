@@ -11,7 +11,7 @@ One sees what the Zoo prints: the hyperparameters, then return and success. Any 
 import sys
 from dataclasses import asdict, replace
 
-from semnav_env.lidar import TIM561
+from semnav_env.world.lidar import TIM561
 
 hyperparams = {
     "SemNav-v0": {

@@ -11,8 +11,8 @@ import argparse
 import sys
 from dataclasses import replace
 
-from semnav_env.lidar import TIM561
 from semnav_env.vector import SemNavVectorEnv
+from semnav_env.world.lidar import TIM561
 
 try:
     import torch

@@ -16,15 +16,15 @@ import gymnasium
 from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from semnav_env.belief import BeliefTracker
-    from semnav_env.commands import parse
     from semnav_env.env import SemNavEnv
-    from semnav_env.grounding.ground import ground
-    from semnav_env.maps import generate_office, load_floor_plan
+    from semnav_env.judge.tasks import RewardWeights
+    from semnav_env.language import parse
+    from semnav_env.mind.belief import BeliefTracker
+    from semnav_env.mind.grounding.ground import ground
     from semnav_env.robots import RobotSpec, robot_spec
     from semnav_env.rules import Rules
-    from semnav_env.tasks import RewardWeights
     from semnav_env.version import __version__
+    from semnav_env.world.maps import generate_office, load_floor_plan
     from semnav_features.lidar_spec import LidarSpec, lidar_spec
 
 __all__ = [

@@ -7,12 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from semnav_env import commands, tasks
-from semnav_env.belief import Belief, BeliefTracker
-from semnav_env.dynamics import NO_DYNAMICS, Dynamics, PlanSource
 from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
-from semnav_env.maps import FloorPlan
-from semnav_env.observations import (
+from semnav_env.judge import tasks
+from semnav_env.judge.verifier import Mission
+from semnav_env.mind.belief import Belief, BeliefTracker
+from semnav_env.mind.observations import (
     EntryObservation,
     Moment,
     ObservationType,
@@ -24,8 +23,9 @@ from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.robots.actions import Actions
 from semnav_env.rules import Rules, with_doors_of
-from semnav_env.simulator import OdometrySettings, RobotSetup, Simulator, odometry_settings
-from semnav_env.verifier import Mission
+from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics, PlanSource
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.simulator import OdometrySettings, RobotSetup, Simulator, odometry_settings
 from semnav_features import ExtractorSettings
 from semnav_features.frames import ORIGIN
 from semnav_features.lidar_spec import LidarSpec, lidar_spec
@@ -48,7 +48,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
     and other shapes raise `ValueError`. Accelerations are bounded by the robot.
 
     ## Observation Space
-    A `Dict` of flat arrays, which `semnav_env.observations.layout` declares; lengths in metres,
+    A `Dict` of flat arrays, which `semnav_env.mind.observations.layout` declares; lengths in metres,
     features and goal in the robot frame (x forward, y left, origin at the centre of the footprint).
     NAME_mask tells which rows count; `observations.table(observation, "walls")` gives those.
 

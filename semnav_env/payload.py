@@ -6,11 +6,11 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
-from semnav_env.belief import BeliefTracker
-from semnav_env.commands.clauses import Clause
-from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.simulator.sensed import Motion
-from semnav_env.simulator.simulator import RobotSetup
+from semnav_env.language.clauses import Clause
+from semnav_env.mind.belief import BeliefTracker
+from semnav_env.world.maps.floor_plan import FloorPlan
+from semnav_env.world.simulator.sensed import Motion
+from semnav_env.world.simulator.simulator import RobotSetup
 from semnav_features.frames import FloatArray, Pose
 
 

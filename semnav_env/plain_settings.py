@@ -11,11 +11,11 @@ from dataclasses import fields, is_dataclass
 from difflib import get_close_matches
 from typing import Any, cast, get_type_hints
 
-from semnav_env.dynamics import Dynamics
+from semnav_env.judge.tasks import RewardWeights
 from semnav_env.robots import RobotSpec
 from semnav_env.rules import Rules
-from semnav_env.simulator import OdometrySettings
-from semnav_env.tasks import RewardWeights
+from semnav_env.world.dynamics import Dynamics
+from semnav_env.world.simulator import OdometrySettings
 from semnav_features import ExtractorSettings
 from semnav_features.lidar_spec import LidarSpec
 

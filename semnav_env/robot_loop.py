@@ -7,12 +7,12 @@ from typing import Any
 from numba import types
 from numba.experimental import structref
 
-from semnav_env.belief import BeliefTracker
-from semnav_env.belief.understand import Senses, understand
-from semnav_env.simulator import Simulator
-from semnav_env.simulator.sensing import TOUCHED, SimulatorArrays, sense
-from semnav_env.verifier import Verifier
-from semnav_env.verifier.judge_record import JudgeRecord, judge_motion
+from semnav_env.judge.verifier import Verifier
+from semnav_env.judge.verifier.judge_record import JudgeRecord, judge_motion
+from semnav_env.mind.belief import BeliefTracker
+from semnav_env.mind.belief.understand import Senses, understand
+from semnav_env.world.simulator import Simulator
+from semnav_env.world.simulator.sensing import TOUCHED, SimulatorArrays, sense
 from semnav_features.frames import Twist
 from semnav_features.kernels.compiling import kernel
 

@@ -13,10 +13,10 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from semnav_env.maps import DISTRIBUTIONS, generate_office
-from semnav_env.maps.check import check
-from semnav_env.maps.generator.naming import distribution, office_name
 from semnav_env.robots import ROBOTS, RobotSpec, robot_spec
+from semnav_env.world.maps import DISTRIBUTIONS, generate_office
+from semnav_env.world.maps.check import check
+from semnav_env.world.maps.generator.naming import distribution, office_name
 from semnav_scripts.progress import tracked
 
 

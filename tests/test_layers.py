@@ -152,7 +152,9 @@ def test_reading_bags_costs_nothing_until_one_is_opened():
 
 
 def test_the_simulator_and_the_pictures_each_have_one_door():
-    assert {place.rpartition("/")[0] for place in importers("pymunk")} == {"semnav_env/world"}
+    assert {place.rpartition("/")[0] for place in importers("pymunk")} == {
+        "semnav_env/world/physics"
+    }
     assert importers("pygame") == {"semnav_env/rendering/backend.py"}
 
 
@@ -175,13 +177,13 @@ ROBOTS_SIDE = {"belief", "commands", "grounding", "localization", "rules"}
 
 
 def test_the_robots_side_needs_nothing_of_the_simulator():
-    sides = "semnav_env.belief", "semnav_env.localization"
+    sides = "semnav_env.mind.belief", "semnav_env.mind.localization"
     for name in [name for name in MODULES if name.startswith(sides)]:
         assert env_folders(name) <= ROBOTS_SIDE, name
 
 
 def test_the_simulator_knows_nothing_of_commands():
-    for name in [name for name in MODULES if name.startswith("semnav_env.simulator")]:
+    for name in [name for name in MODULES if name.startswith("semnav_env.world.simulator")]:
         unknown = {"commands", "grounding", "belief", "verifier", "tasks"}
         assert not env_folders(name) & unknown, name
 
@@ -200,7 +202,7 @@ def test_only_the_lidar_makes_a_scan_from_a_floor_plan():
         and getattr(node.func, "attr", getattr(node.func, "id", "")) == "Scan"
     }
     assert {place for place in makers if not place.startswith("semnav_features/")} == {
-        "semnav_env/lidar/lidar.py",
+        "semnav_env/world/lidar/lidar.py",
     }
 
 

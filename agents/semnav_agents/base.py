@@ -9,8 +9,8 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.maps import FloorPlan
-from semnav_env.observations import ObservationType
+from semnav_env.mind.observations import ObservationType
+from semnav_env.world.maps import FloorPlan
 from semnav_features.frames import Pose
 
 Observation = dict[str, NDArray[Any]]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from semnav_agents.base import Agent, Step, steps
 from semnav_agents.expert import Expert, true_goal
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Episode
+from semnav_env.judge.episodes import Episode
 
 Column = NDArray[Any]
 """A value for each observation, shape (n + 1, ...)."""

@@ -9,11 +9,11 @@ from semnav_agents.planning.obstacles import points_of_segments
 from semnav_env.approach import DoorSide
 from semnav_env.approach.in_plan import side_towards
 from semnav_env.approach.poses import is_behind
-from semnav_env.grounding import GoalKind
-from semnav_env.maps import FloorPlan
-from semnav_env.observations import SeenGoal
+from semnav_env.mind.grounding import GoalKind
+from semnav_env.mind.observations import SeenGoal
 from semnav_env.robots import RobotSpec
 from semnav_env.robots.actions import Actions
+from semnav_env.world.maps import FloorPlan
 from semnav_features.frames import Pose, Twist, points_to_local, relative, to_local
 from semnav_features.scene import ends_of
 

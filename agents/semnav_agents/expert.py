@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from semnav_agents.pilot import Pilot
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_env.env import SemNavEnv
-from semnav_env.grounding.goal import door_of
-from semnav_env.maps import FloorPlan
-from semnav_env.observations import SeenGoal
+from semnav_env.mind.grounding.goal import door_of
+from semnav_env.mind.observations import SeenGoal
+from semnav_env.world.maps import FloorPlan
 from semnav_features.frames import FloatArray, points_to_local, relative, to_local
 from semnav_features.scene import ends_of
 

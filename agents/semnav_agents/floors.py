@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
 from semnav_agents.scripted import ScriptedAgent
-from semnav_env.grounding.goal import GoalKind
-from semnav_env.observations import SeenGoal, read_odometry, table
+from semnav_env.mind.grounding.goal import GoalKind
+from semnav_env.mind.observations import SeenGoal, read_odometry, table
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import FloatArray, Pose, points_to_local, points_to_parent
 

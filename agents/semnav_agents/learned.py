@@ -23,8 +23,8 @@ from semnav_agents.learning.files import AGENT_FILE, POLICY_FILE, AgentDescripti
 from semnav_agents.learning.inertia import Inertia
 from semnav_agents.learning.policy import Policy
 from semnav_agents.learning.shield import Shield
-from semnav_env.observations import read_odometry
-from semnav_env.observations.layout import GOAL
+from semnav_env.mind.observations import read_odometry
+from semnav_env.mind.observations.layout import GOAL
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_features.frames import points_to_parent
 from semnav_features.lidar_spec import LidarSpec

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from semnav_agents.base import Observation
 from semnav_agents.pilot import Pilot
 from semnav_agents.planning.obstacles import points_of_segments
-from semnav_env.maps import FloorPlan, load_floor_plan
-from semnav_env.observations import SeenGoal, read_odometry
+from semnav_env.mind.observations import SeenGoal, read_odometry
 from semnav_env.robots import RobotSpec
+from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_features.frames import points_to_local
 from semnav_features.scene import ends_of
 

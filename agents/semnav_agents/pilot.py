@@ -13,8 +13,8 @@ from semnav_agents.planning.exit_via_door import ExitViaDoor
 from semnav_agents.planning.follower import Steering
 from semnav_agents.planning.planner import DriveTarget
 from semnav_env.approach import DoorSide
-from semnav_env.grounding import GoalKind
-from semnav_env.observations import SeenGoal
+from semnav_env.mind.grounding import GoalKind
+from semnav_env.mind.observations import SeenGoal
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import (
     FloatArray,

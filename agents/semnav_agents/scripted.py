@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from semnav_agents.base import Observation
 from semnav_agents.pilot import Pilot
 from semnav_agents.planning.obstacles import ObstacleMemory, points_of_segments
-from semnav_env.observations import SeenGoal, read_odometry, table
+from semnav_env.mind.observations import SeenGoal, read_odometry, table
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import compose, points_to_parent
 from semnav_features.lidar_spec import LidarSpec

@@ -15,9 +15,9 @@ from tyro.conf import arg
 from semnav_env.approach import THESIS_SETTINGS, ApproachPlan, Surroundings, plan_approach
 from semnav_env.approach.in_plan import side_towards
 from semnav_env.approach.poses import CandidatePose
-from semnav_env.maps import FloorPlan, PlanDoor, load_floor_plan
-from semnav_env.maps.placement import placement_error
 from semnav_env.robots import SPOT, RobotSpec, robot_spec
+from semnav_env.world.maps import FloorPlan, PlanDoor, load_floor_plan
+from semnav_env.world.maps.placement import placement_error
 from semnav_features.frames import Pose, wrap_angle
 from semnav_features.plot import check_suffix
 from semnav_scripts.arguments import parse_pose

@@ -12,7 +12,7 @@ from rich.table import Table
 
 from semnav_env.bench.suite import benchmark, growth, starting, training
 from semnav_env.bench.timing import Timing
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 from semnav_features.validation import check_count
 
 

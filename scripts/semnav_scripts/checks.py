@@ -101,8 +101,8 @@ def headless_drawing() -> InstallationCheck:
 
 def kernels() -> list[InstallationCheck]:
     """Mend the cache of compiled kernels, and check that they work and are kept between runs."""
-    from semnav_env.lidar import Lidar
-    from semnav_env.maps import load_floor_plan
+    from semnav_env.world.lidar import Lidar
+    from semnav_env.world.maps import load_floor_plan
     from semnav_features import extract
     from semnav_features.kernels.cache_folder import cache_folder
     from semnav_features.kernels.cache_repair import repair

@@ -13,14 +13,14 @@ from semnav_agents.base import Agent, steps
 from semnav_agents.evaluation.drive import recognised_impossible
 from semnav_agents.registry import make_agent
 from semnav_agents.translating.interpreter import understand
-from semnav_env.commands import SearchHouse
-from semnav_env.commands.language import Language
-from semnav_env.commands.speech.recognition import language_of_text
-from semnav_env.dynamics import NO_DYNAMICS, Dynamics
-from semnav_env.dynamics.social import for_json
 from semnav_env.env import SemNavEnv
-from semnav_env.maps import FloorPlan, load_floor_plan
+from semnav_env.language import SearchHouse
+from semnav_env.language.language import Language
+from semnav_env.language.speech.recognition import language_of_text
 from semnav_env.rendering.film import STEPS_PER_FRAME, Film
+from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
+from semnav_env.world.dynamics.social import for_json
+from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_scripts.arguments import parse_pose
 from semnav_scripts.outputs import check_file
 from semnav_scripts.progress import tracked
@@ -146,7 +146,7 @@ class Arguments:
     def _frozen(self, name: str) -> _Told:
         """What is to be done in a frozen episode, with the noise and the limit of `evaluate`."""
         from semnav_agents.evaluation.runner import EPISODE_SECONDS
-        from semnav_env.episodes import Expected, find_episode
+        from semnav_env.judge.episodes import Expected, find_episode
 
         others = ("command", "map", "language", "pose", "seed")
         for other in (other for other in others if getattr(self, other) is not None):

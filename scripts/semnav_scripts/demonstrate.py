@@ -15,7 +15,7 @@ from semnav_agents.demonstrations import Demonstration, demonstrate
 from semnav_agents.expert import Expert
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Expected, evenly, load_episodes
+from semnav_env.judge.episodes import Expected, evenly, load_episodes
 from semnav_scripts.progress import tracked
 
 

@@ -11,15 +11,15 @@ from typing import Annotated, Literal
 import numpy as np
 from tyro.conf import arg
 
-from semnav_env.commands import Approach, paraphrases, to_program
-from semnav_env.commands.languages import language_of
-from semnav_env.grounding.goal import door_of
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.placement import placement_error
+from semnav_env.judge.routes.describe import describe
+from semnav_env.judge.routes.route_to import route_to
+from semnav_env.judge.verifier import plan_goals
+from semnav_env.language import Approach, paraphrases, to_program
+from semnav_env.language.languages import language_of
+from semnav_env.mind.grounding.goal import door_of
 from semnav_env.robots import robot_spec
-from semnav_env.routes.describe import describe
-from semnav_env.routes.route_to import route_to
-from semnav_env.verifier import plan_goals
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.placement import placement_error
 from semnav_features.frames import Point
 from semnav_features.plot import check_suffix
 from semnav_scripts.arguments import parse_pose
@@ -73,7 +73,7 @@ class Arguments:
         others = paraphrases(command, rng, self.paraphrases, language)
         said = command.say(language)
         if self.plot is not None:
-            from semnav_env.routes.draw import save_routes
+            from semnav_env.judge.routes.draw import save_routes
 
             save_routes(floor_plan, [(route, said)], self.plot)
         door = door_of(plan_goals(floor_plan, command, start)[-1])

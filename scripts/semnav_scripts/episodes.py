@@ -11,11 +11,11 @@ from typing import Annotated
 
 from tyro.conf import Positional, subcommand
 
-from semnav_env.commands.suggest import did_you_mean
-from semnav_env.episodes import SPLITS, Episode, Split, load_episodes, write_episodes
-from semnav_env.episodes.check import faults
-from semnav_env.episodes.generate import generate_split
-from semnav_env.episodes.splits import FROZEN_SUFFIX, SEED
+from semnav_env.judge.episodes import SPLITS, Episode, Split, load_episodes, write_episodes
+from semnav_env.judge.episodes.check import faults
+from semnav_env.judge.episodes.generate import generate_split
+from semnav_env.judge.episodes.splits import FROZEN_SUFFIX, SEED
+from semnav_env.language.suggest import did_you_mean
 from semnav_features.interruption import for_this_process_alone
 from semnav_scripts.episodes_import import EpisodesImport
 from semnav_scripts.progress import tracked

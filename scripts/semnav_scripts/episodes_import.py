@@ -8,14 +8,14 @@ from pathlib import Path
 
 from tyro.conf import Positional
 
-from semnav_env.episodes import SPLITS, Episode, write_episodes
-from semnav_env.episodes.files import PLAN_SUFFIX
-from semnav_env.episodes.generate import TooBareError, generate_episode
-from semnav_env.episodes.site import Site
-from semnav_env.episodes.splits import FROZEN_SUFFIX, SEED
-from semnav_env.maps import FloorPlan, load_floor_plan, save_floor_plan
-from semnav_env.maps.importers.opening import import_map
-from semnav_env.maps.rules import FloorPlanError
+from semnav_env.judge.episodes import SPLITS, Episode, write_episodes
+from semnav_env.judge.episodes.files import PLAN_SUFFIX
+from semnav_env.judge.episodes.generate import TooBareError, generate_episode
+from semnav_env.judge.episodes.site import Site
+from semnav_env.judge.episodes.splits import FROZEN_SUFFIX, SEED
+from semnav_env.world.maps import FloorPlan, load_floor_plan, save_floor_plan
+from semnav_env.world.maps.importers.opening import import_map
+from semnav_env.world.maps.rules import FloorPlanError
 from semnav_scripts.outputs import counted
 from semnav_scripts.progress import tracked
 

@@ -27,9 +27,9 @@ from semnav_agents.evaluation import (
 )
 from semnav_agents.evaluation.provenance import provenance
 from semnav_agents.learned import agent_label
-from semnav_env.dynamics import NO_DYNAMICS, Dynamics
-from semnav_env.episodes import Episode, Expected, evenly, is_episodes, load_episodes
+from semnav_env.judge.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.rendering.backend import load_pygame
+from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_scripts.evaluation_tables import commands_table, headings, measures_table
 from semnav_scripts.jsonl import JsonLines
 from semnav_scripts.outputs import check_file, check_folder, counted

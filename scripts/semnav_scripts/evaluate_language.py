@@ -12,8 +12,8 @@ from typing import Literal
 from tyro.conf import Positional
 
 from semnav_agents.translating.interpreter import understand
-from semnav_env.commands import parse
-from semnav_env.commands.corpora import (
+from semnav_env.language import parse
+from semnav_env.language.corpora import (
     Count,
     ParseOutcome,
     SentenceVerdict,
@@ -22,7 +22,7 @@ from semnav_env.commands.corpora import (
     load_sentences,
     verdicts,
 )
-from semnav_env.commands.corpora.measure import Understand
+from semnav_env.language.corpora.measure import Understand
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 from rich.table import Table
 
 from semnav_agents.evaluation.results import INTERVAL_MEASURES, Summary
-from semnav_env.metrics import WORST_SHARES
+from semnav_env.judge.metrics import WORST_SHARES
 
 SHOWN_MEASURES = {
     "success": "success",

@@ -11,9 +11,9 @@ from typing import Any
 
 from tyro.conf import OmitArgPrefixes, Positional
 
-from semnav_env.belief import Belief
-from semnav_env.belief.log_following import PoseChoice, follow_log
-from semnav_env.commands import Command
+from semnav_env.language import Command
+from semnav_env.mind.belief import Belief
+from semnav_env.mind.belief.log_following import PoseChoice, follow_log
 from semnav_features import ExtractorSettings
 from semnav_features.frames import Pose
 from semnav_features.mapping import ScanOdometry

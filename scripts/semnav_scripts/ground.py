@@ -8,7 +8,8 @@ from typing import Any
 
 from tyro.conf import Positional
 
-from semnav_env.commands import (
+from semnav_env.judge.verifier.goals import goals_in_turn
+from semnav_env.language import (
     AmbiguousCommandError,
     Clause,
     Command,
@@ -16,14 +17,13 @@ from semnav_env.commands import (
     GoToDoor,
     parse,
 )
-from semnav_env.commands.language import Language
-from semnav_env.commands.speech.recognition import language_of_text
-from semnav_env.grounding import GroundingError
-from semnav_env.grounding.goal import door_of
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.placement import placement_error
+from semnav_env.language.language import Language
+from semnav_env.language.speech.recognition import language_of_text
+from semnav_env.mind.grounding import GroundingError
+from semnav_env.mind.grounding.goal import door_of
 from semnav_env.robots import robot_spec
-from semnav_env.verifier.goals import goals_in_turn
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.placement import placement_error
 from semnav_scripts.arguments import OptionalText, parse_pose
 
 TABLE_HEADINGS = f"{'goal':<6}{'x, m':>9}{'y, m':>9}{'heading, rad':>14}  clause"

@@ -11,8 +11,8 @@ from typing import Literal
 
 from tyro.conf import OmitArgPrefixes, Positional
 
-from semnav_env.maps import FloorPlan, save_floor_plan
-from semnav_env.maps.line_map_plan import plan_of_scene
+from semnav_env.world.maps import FloorPlan, save_floor_plan
+from semnav_env.world.maps.line_map_plan import plan_of_scene
 from semnav_features import ExtractorSettings, extract
 from semnav_features.frames import Pose
 from semnav_features.mapping import LineMap, MapSettings, ScanOdometry
@@ -113,7 +113,7 @@ class Arguments:
     ) -> None:
         save_floor_plan(plan, self.out)
         if self.picture:
-            from semnav_env.maps.draw import save_picture
+            from semnav_env.world.maps.draw import save_picture
 
             save_picture(plan, self.picture)
         counts = {

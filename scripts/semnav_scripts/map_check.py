@@ -8,9 +8,9 @@ from pathlib import Path
 
 from tyro.conf import Positional
 
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.check import check
 from semnav_env.robots import robot_spec
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.check import check
 from semnav_features.plot import check_suffix
 
 
@@ -37,7 +37,7 @@ class Arguments:
         plan, robot = load_floor_plan(self.plan), robot_spec(self.robot)
         faults = check(plan, robot)
         if self.plot:
-            from semnav_env.maps.draw import save_picture
+            from semnav_env.world.maps.draw import save_picture
 
             save_picture(plan, self.plot, faults=faults)
         if self.json:

@@ -9,8 +9,8 @@ from typing import Literal
 
 from tyro.conf import Positional
 
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.occupancy_export import export_map
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.occupancy_export import export_map
 
 
 @dataclass(frozen=True)

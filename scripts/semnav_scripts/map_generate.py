@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from semnav_env.maps import generate_office, save_floor_plan
+from semnav_env.world.maps import generate_office, save_floor_plan
 from semnav_features.plot import check_suffix
 from semnav_scripts.outputs import counted
 
@@ -38,7 +38,7 @@ class Arguments:
         if self.out:
             save_floor_plan(plan, self.out)
         if self.plot:
-            from semnav_env.maps.draw import save_picture
+            from semnav_env.world.maps.draw import save_picture
 
             save_picture(plan, self.plot)
         if self.json:

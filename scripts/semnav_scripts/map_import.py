@@ -9,8 +9,8 @@ from shlex import quote
 
 from tyro.conf import Positional
 
-from semnav_env.maps import save_floor_plan
-from semnav_env.maps.importers import Drawing, Tracing, import_map
+from semnav_env.world.maps import save_floor_plan
+from semnav_env.world.maps.importers import Drawing, Tracing, import_map
 from semnav_features.plot import check_suffix
 from semnav_scripts.outputs import check_distinct
 
@@ -54,7 +54,7 @@ class Arguments:
             check_distinct({"the map": Path(read), **outputs})
         save_floor_plan(plan, self.out)
         if self.picture:
-            from semnav_env.maps.draw import save_picture
+            from semnav_env.world.maps.draw import save_picture
 
             save_picture(plan, self.picture)
         if self.json:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 
-from semnav_env.maps import bundled_names, load_floor_plan
+from semnav_env.world.maps import bundled_names, load_floor_plan
 from semnav_scripts.plan_summary import in_a_line, summary
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from tyro.conf import Positional
 
-from semnav_env.maps import FloorPlan, load_floor_plan
+from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_features.plot import check_suffix
 from semnav_scripts.plan_summary import in_a_line, summary
 
@@ -42,7 +42,7 @@ class Arguments:
 
 
 def _draw(plan: FloorPlan, path: Path) -> None:
-    from semnav_env.maps.draw import save_picture
+    from semnav_env.world.maps.draw import save_picture
 
     save_picture(plan, path)
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from semnav_env.maps import FloorPlan
-from semnav_env.maps.doorways import door_state
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.maps.doorways import door_state
 from semnav_scripts.outputs import counted
 
 

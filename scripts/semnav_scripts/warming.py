@@ -96,9 +96,9 @@ def logs() -> None:
 
 def searches() -> None:
     """Robots that search houses, and what else moves."""
-    from semnav_env.dynamics import Dynamics
-    from semnav_env.dynamics.settings import MODELS
     from semnav_env.env import SemNavEnv
+    from semnav_env.world.dynamics import Dynamics
+    from semnav_env.world.dynamics.settings import MODELS
 
     for agent in ("searcher", "explorer"):
         _run("demo", "search the house", "--agent", agent, "--seed", "1")
@@ -128,8 +128,8 @@ def _run(*words: str) -> None:
 
 def _lines() -> Iterator[str]:
     """The lines of a CARMEN log of a short drive."""
-    from semnav_env.lidar import Lidar
-    from semnav_env.maps import load_floor_plan
+    from semnav_env.world.lidar import Lidar
+    from semnav_env.world.maps import load_floor_plan
 
     lidar = Lidar(load_floor_plan("heidelberg_hallway"))
     for k in range(SCANS):

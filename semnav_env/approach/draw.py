@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 from semnav_env.approach.plan import ApproachPlan
 from semnav_env.approach.poses import CandidatePose, body_at, ellipse_at
 from semnav_env.approach.settings import ApproachSettings
-from semnav_env.maps import FloorPlan
-from semnav_env.maps.draw import draw_floor_plan
 from semnav_env.robots import RobotSpec
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.maps.draw import draw_floor_plan
 from semnav_features.frames import Pose
 from semnav_features.plot import check_suffix
 from semnav_features.writing import replacing

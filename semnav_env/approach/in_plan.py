@@ -7,7 +7,7 @@ import shapely
 
 from semnav_env.approach.door_side import DoorSide
 from semnav_env.approach.surroundings import SEED_DISTANCE
-from semnav_env.maps import FloorPlan, PlanDoor, Region
+from semnav_env.world.maps import FloorPlan, PlanDoor, Region
 from semnav_features.frames import Point
 
 

@@ -15,7 +15,7 @@ from semnav_features.frames import FloatArray
 from semnav_features.scene import Scene, ends_of
 
 if TYPE_CHECKING:
-    from semnav_env.maps import FloorPlan
+    from semnav_env.world.maps import FloorPlan
 
 WINDOW = 4.0
 """Distance from the middle of a door within which walls matter, metres: more than any pose and body

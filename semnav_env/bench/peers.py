@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from semnav_env.bench.timing import Part, seconds_per_call
-from semnav_env.maps import FloorPlan
 from semnav_env.robots import RobotSpec
+from semnav_env.world.maps import FloorPlan
 from semnav_features.frames import Pose
 from semnav_features.lidar_spec import LidarSpec
 

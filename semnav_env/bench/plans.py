@@ -7,7 +7,7 @@ from dataclasses import replace
 from shapely import box
 from shapely.affinity import translate
 
-from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Region, Surface
+from semnav_env.world.maps.floor_plan import FloorPlan, PlanDoor, Region, Surface
 from semnav_features.frames import Point
 
 GAP = 1.0

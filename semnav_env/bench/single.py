@@ -8,13 +8,13 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 
-from semnav_env.belief import BeliefTracker
-from semnav_env.belief.understand import extract_features, understand
 from semnav_env.bench.timing import Part, seconds_per_call
-from semnav_env.depth import DepthRig
 from semnav_env.env import SemNavEnv
-from semnav_env.lidar.raster import cast
-from semnav_env.simulator.sensing import sense
+from semnav_env.mind.belief import BeliefTracker
+from semnav_env.mind.belief.understand import extract_features, understand
+from semnav_env.world.depth import DepthRig
+from semnav_env.world.lidar.raster import cast
+from semnav_env.world.simulator.sensing import sense
 from semnav_features import Door
 from semnav_features.clouds import find_door
 from semnav_features.frames import compose

@@ -14,7 +14,7 @@ from semnav_env.bench.start_up import compile_seconds, start_parts
 from semnav_env.bench.timing import Timing, timings
 from semnav_env.bench.vector import training_part, vector_part
 from semnav_env.env import SemNavEnv
-from semnav_env.maps import FloorPlan
+from semnav_env.world.maps import FloorPlan
 from semnav_features.lidar_spec import TIM561, LidarSpec
 
 COPIES, BEAMS, ROBOTS = (1, 2, 10, 29), (201, 405, 811, 1621), (1, 8, 64, 256)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from semnav_env.belief import Belief
+from semnav_env.mind.belief import Belief
 from semnav_features.writing import replacing
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from semnav_env.belief import BeliefTracker
+from semnav_env.mind.belief import BeliefTracker
 from semnav_env.rendering import marks
 from semnav_env.rendering.camera import Camera
 from semnav_env.rendering.canvas import Canvas

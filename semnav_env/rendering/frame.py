@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from semnav_env.grounding.goal import Goal
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.mind.grounding.goal import Goal
 from semnav_env.robots import RobotSpec
+from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import FloatArray, Point, Pose
 from semnav_features.scene import Scene
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeAlias
 
-from semnav_env.maps.floor_plan import Material
 from semnav_env.rendering import marks, palette
 from semnav_env.rendering.camera import Viewport
 from semnav_env.rendering.canvas import Canvas
 from semnav_env.rendering.frame import Frame
+from semnav_env.world.maps.floor_plan import Material
 from semnav_features.frames import Point
 from semnav_features.scene import CornerKind
 

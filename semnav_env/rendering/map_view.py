@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from semnav_env.grounding.goal import Goal, PassGoal, SeekGoal, StopGoal, door_of
+from semnav_env.mind.grounding.goal import Goal, PassGoal, SeekGoal, StopGoal, door_of
 from semnav_env.rendering import marks, palette
 from semnav_env.rendering.body import draw_body
 from semnav_env.rendering.camera import Camera, Viewport

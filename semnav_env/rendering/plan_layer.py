@@ -8,10 +8,10 @@ import math
 import numpy as np
 from shapely import Polygon
 
-from semnav_env.maps.floor_plan import FloorPlan, Material, Region, Surface
 from semnav_env.rendering import marks, palette
 from semnav_env.rendering.camera import Camera, Viewport
 from semnav_env.rendering.canvas import Canvas, ShapeCanvas
+from semnav_env.world.maps.floor_plan import FloorPlan, Material, Region, Surface
 
 TILE_SIZE = 512
 """Side of the squares that a plan is drawn in, fine pixels."""

@@ -8,7 +8,7 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import Point, Pose
 
 if TYPE_CHECKING:

@@ -8,22 +8,22 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from semnav_env.belief import Belief, BeliefTracker
-from semnav_env.commands.command import reference_of
-from semnav_env.commands.references import DoorReference
-from semnav_env.grounding.counted_doors import doors_along
-from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal import Goal, PassGoal, ReachGoal
-from semnav_env.observations import ObservationType
-from semnav_env.observations.cloud_entry import rig_of
+from semnav_env.judge.tasks.judge import EpisodeJudge
+from semnav_env.judge.verifier import Verdict
+from semnav_env.language.command import reference_of
+from semnav_env.language.references import DoorReference
+from semnav_env.mind.belief import Belief, BeliefTracker
+from semnav_env.mind.grounding.counted_doors import doors_along
+from semnav_env.mind.grounding.follower import Follower
+from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal
+from semnav_env.mind.observations import ObservationType
+from semnav_env.mind.observations.cloud_entry import rig_of
 from semnav_env.payload import Payload, PayloadMarks
 from semnav_env.rendering.depth_layer import cloud_on_the_map, jambs_on_the_map
 from semnav_env.rendering.frame import Frame
 from semnav_env.robots import RobotSpec
-from semnav_env.simulator import Simulator
-from semnav_env.tasks.judge import EpisodeJudge
-from semnav_env.verifier import Verdict
-from semnav_env.world import World
+from semnav_env.world.physics import World
+from semnav_env.world.simulator import Simulator
 from semnav_features.clouds import PointCloud
 from semnav_features.extraction import to_scene
 from semnav_features.frames import ORIGIN, Point, Pose, compose, points_to_parent, relative

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.rendering.camera import Viewport, looking_at
 from semnav_env.rendering.canvas import Canvas, image_array
 from semnav_env.rendering.frame import Frame
@@ -15,6 +14,7 @@ from semnav_env.rendering.map_view import draw_map, draw_scale_bar
 from semnav_env.rendering.panel import PANEL_WIDTH, draw_panel
 from semnav_env.rendering.plan_layer import PlanLayer
 from semnav_env.rendering.window import Window
+from semnav_env.world.maps.floor_plan import FloorPlan
 
 LEAST_WINDOW_SIZE = (320, 240)
 """Smallest width and height of a picture, pixels."""

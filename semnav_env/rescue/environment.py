@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.commands import Command, SearchHouse
-from semnav_env.dynamics import Dynamics
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import EntryObservation
+from semnav_env.judge.tasks import AddedTerms, EpisodeRequest, RewardWeights, Tick
+from semnav_env.language import Command, SearchHouse
+from semnav_env.mind.observations import EntryObservation
 from semnav_env.rescue.people_entry import PeopleEntry
 from semnav_env.rescue.person_search import PersonSearch
-from semnav_env.tasks import AddedTerms, EpisodeRequest, RewardWeights, Tick
 from semnav_env.vector import SemNavVectorEnv
+from semnav_env.world.dynamics import Dynamics
 
 SEARCH = Command((SearchHouse(),))
 """The command of a search."""

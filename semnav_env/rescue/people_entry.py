@@ -8,7 +8,7 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.observations import Moment
+from semnav_env.mind.observations import Moment
 from semnav_env.rescue.settings import PersonMapSettings
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import Point, to_local

@@ -8,10 +8,10 @@ import numpy as np
 import shapely
 from shapely import Polygon
 
-from semnav_env.dynamics.victims import victims_of
-from semnav_env.lidar.lidar import Lidar
-from semnav_env.maps.floor_plan import FloorPlan
 from semnav_env.rescue.settings import PersonDetectorSettings
+from semnav_env.world.dynamics.victims import victims_of
+from semnav_env.world.lidar.lidar import Lidar
+from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import FloatArray, Pose, compose, points_to_local, to_local
 from semnav_features.lidar_spec import LidarSpec
 

@@ -6,16 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.belief import BeliefTracker
-from semnav_env.commands.clauses import Clause, SearchHouse
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.language.clauses import Clause, SearchHouse
+from semnav_env.mind.belief import BeliefTracker
 from semnav_env.payload import PayloadMarks
 from semnav_env.rescue.outcome import Report, SearchOutcome, judge_reports
 from semnav_env.rescue.person_detector import PersonDetector
 from semnav_env.rescue.person_map import PersonMap
 from semnav_env.rescue.room_coverage import RoomCoverage
 from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings, SearchRules
-from semnav_env.simulator import Motion, RobotSetup
+from semnav_env.world.maps.floor_plan import FloorPlan
+from semnav_env.world.simulator import Motion, RobotSetup
 from semnav_features.frames import ORIGIN, Pose, compose, to_parent
 
 

@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from semnav_env.lidar.lidar import Lidar
-from semnav_env.maps.cell_budget import spacing_within_budget
-from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.pose_flood import REACHED
-from semnav_env.maps.reach import Reach, reach
 from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.robots import RobotSpec
+from semnav_env.world.lidar.lidar import Lidar
+from semnav_env.world.maps.cell_budget import spacing_within_budget
+from semnav_env.world.maps.floor_plan import FloorPlan
+from semnav_env.world.maps.pose_flood import REACHED
+from semnav_env.world.maps.reach import Reach, reach
 from semnav_features.lidar_spec import LidarSpec
 
 CELL = 0.1

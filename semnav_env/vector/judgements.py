@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
-from semnav_env.tasks.judge import Judgement
+from semnav_env.judge.tasks.judge import Judgement
 from semnav_env.vector.tick import count_periods
 from semnav_features.frames import FloatArray
 

@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.vector.utils import concatenate, create_empty_array
 
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import EntryObservation
+from semnav_env.mind.observations import EntryObservation
 from semnav_env.vector.arguments import naming_robot
 from semnav_env.vector.team import Team
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
-from semnav_env.tasks import RewardWeights, Tick, terms_of
+from semnav_env.judge.tasks import RewardWeights, Tick, terms_of
 from semnav_env.vector.judgements import Judgements
 from semnav_features.frames import FloatArray
 

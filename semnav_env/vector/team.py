@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.belief.tracker import BeliefTracker
-from semnav_env.belief.understand import Workbench, workbench_with
 from semnav_env.env import SemNavEnv
+from semnav_env.judge.tasks.judge import Judgement
+from semnav_env.mind.belief.tracker import BeliefTracker
+from semnav_env.mind.belief.understand import Workbench, workbench_with
 from semnav_env.robot_loop import RobotArrays, join_robot
-from semnav_env.tasks.judge import Judgement
 from semnav_env.vector.robot_list import list_of, put
 from semnav_env.vector.tick import (
     PERIOD,

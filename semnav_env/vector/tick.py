@@ -13,9 +13,9 @@ import numpy as np
 from numba.experimental import structref
 from numpy.typing import NDArray
 
-from semnav_env.belief.understand import Workbench
-from semnav_env.observations.memory_row import write_command_row
-from semnav_env.observations.row import write_row
+from semnav_env.mind.belief.understand import Workbench
+from semnav_env.mind.observations.memory_row import write_command_row
+from semnav_env.mind.observations.row import write_row
 from semnav_env.robot_loop import RobotArrays, run_period
 from semnav_env.vector.marks import Marks, is_set, set_mark
 from semnav_features.frames import FloatArray

@@ -13,16 +13,16 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.lidar import Lidar, LidarSpec
-from semnav_env.maps import FloorPlan
-from semnav_env.maps.importers import (
+from semnav_env.world.lidar import Lidar, LidarSpec
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.maps.importers import (
     OccupancyMap,
     load_building,
     load_vector_map,
     read_occupancy,
 )
-from semnav_env.maps.importers.gaps import places_beside
-from semnav_env.maps.importers.labels import DOORS_FILE, read_door_labels
+from semnav_env.world.maps.importers.gaps import places_beside
+from semnav_env.world.maps.importers.labels import DOORS_FILE, read_door_labels
 from semnav_features import ExtractorSettings, Scan, extract
 from semnav_features.frames import Point, Pose
 from semnav_features.lidar_spec import TIM561

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import points_to_local
 from semnav_features.scene import Door
 from studies.buildings.buildings import FloorLook

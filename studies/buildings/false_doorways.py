@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt, label
 
-from semnav_env.maps.doorways import NARROWEST_ROBOT
-from semnav_env.maps.floor_plan import PlanDoor
-from semnav_env.maps.importers import OccupancyMap
-from semnav_env.maps.importers.gaps import CROSSING_DEPTH
+from semnav_env.world.maps.doorways import NARROWEST_ROBOT
+from semnav_env.world.maps.floor_plan import PlanDoor
+from semnav_env.world.maps.importers import OccupancyMap
+from semnav_env.world.maps.importers.gaps import CROSSING_DEPTH
 from semnav_features.frames import FloatArray, Point, to_local
 
 SEAL_OVERLAP = 0.1

@@ -6,10 +6,10 @@ import math
 import time
 from collections.abc import Sequence
 
-from semnav_env.maps.floor_plan import PlanDoor
-from semnav_env.maps.importers import OccupancyMap, Tracing, trace
-from semnav_env.maps.importers.building_doors import moved_along, without_leaves
-from semnav_env.maps.importers.gaps import LEAST_DOORWAY_DISTANCE, find_doorways
+from semnav_env.world.maps.floor_plan import PlanDoor
+from semnav_env.world.maps.importers import OccupancyMap, Tracing, trace
+from semnav_env.world.maps.importers.building_doors import moved_along, without_leaves
+from semnav_env.world.maps.importers.gaps import LEAST_DOORWAY_DISTANCE, find_doorways
 from studies.buildings.buildings import Building
 from studies.buildings.false_doorways import false_doorways
 from studies.doors.door_sightings import matches

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 import shapely
 
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import FloatArray, Point
 from semnav_features.scene import Door
 from studies.doors.door_sightings import matches

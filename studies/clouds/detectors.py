@@ -10,8 +10,8 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from semnav_env.depth import DepthRig
 from semnav_env.robots import SPOT
+from semnav_env.world.depth import DepthRig
 from semnav_features import extract
 from semnav_features.clouds import (
     DetectedDoor,

@@ -10,11 +10,11 @@ from functools import cached_property
 import numpy as np
 import shapely
 
-from semnav_env.depth import Closet, DepthRig, PlanWindow, RaisedPlan, RigHits, raise_plan
-from semnav_env.lidar import Lidar
-from semnav_env.maps import FloorPlan, Material, PlanDoor, load_floor_plan
-from semnav_env.maps.floor_plan import Surface
 from semnav_env.robots import SPOT
+from semnav_env.world.depth import Closet, DepthRig, PlanWindow, RaisedPlan, RigHits, raise_plan
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import FloorPlan, Material, PlanDoor, load_floor_plan
+from semnav_env.world.maps.floor_plan import Surface
 from semnav_features.clouds import PointCloud
 from semnav_features.elements import Door
 from semnav_features.frames import Point, Pose, compose, to_local, to_parent

@@ -4,7 +4,7 @@ Walls are thick or thin; doors have frames, stand open at any angle or are close
 there are pilasters, niches, mouths of side corridors, and furniture (`random_furniture`).
 
 Only the training of the scorer of doors uses these offices: the weights that come with the package
-were learned in them, and in offices of `semnav_env.maps.generator` they would be others.
+were learned in them, and in offices of `semnav_env.world.maps.generator` they would be others.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 from numpy.random import Generator
 
-from semnav_env.maps.floor_plan import FloorPlan, Surface
+from semnav_env.world.maps.floor_plan import FloorPlan, Surface
 from semnav_features.frames import FloatArray, Pose, to_local
 from semnav_features.scene import Door
 from studies.door_scorer.random_furniture import TrainingFurniture

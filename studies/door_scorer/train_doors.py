@@ -20,7 +20,7 @@ from numpy.random import Generator, default_rng
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from semnav_env.lidar.lidar import Lidar
+from semnav_env.world.lidar.lidar import Lidar
 from semnav_features import ExtractorSettings
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.evidence_layout import EVIDENCE_NAMES

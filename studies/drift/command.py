@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
-from semnav_env.episodes import evenly, load_episodes
+from semnav_env.judge.episodes import evenly, load_episodes
 from semnav_scripts.jsonl import JsonLines
 from semnav_scripts.progress import tracked
 from studies.drift.measure import Condition, Ending, endings, row

@@ -12,10 +12,10 @@ from shapely import Point
 from semnav_agents.evaluation.drive import drive
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Episode
-from semnav_env.maps import FloorPlan
-from semnav_env.simulator import odometry_settings
-from semnav_env.verifier import Verdict
+from semnav_env.judge.episodes import Episode
+from semnav_env.judge.verifier import Verdict
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.simulator import odometry_settings
 from semnav_features.frames import Pose, compose
 
 MAX_SECONDS = 300.0

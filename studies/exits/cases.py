@@ -12,10 +12,10 @@ from shapely import LineString, Polygon
 from shapely.affinity import rotate
 
 from semnav_env.approach import DoorSide
-from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface, load_floor_plan
-from semnav_env.maps.placement import is_clear, placement_error, sample_pose
-from semnav_env.maps.reach import reach
 from semnav_env.robots import ROBOTS, WHEELCHAIR
+from semnav_env.world.maps import FloorPlan, Material, PlanDoor, Region, Surface, load_floor_plan
+from semnav_env.world.maps.placement import is_clear, placement_error, sample_pose
+from semnav_env.world.maps.reach import reach
 from semnav_features.frames import Point, Pose
 from semnav_features.rules import DoorRules
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from semnav_agents.evaluation.intervals import wilson_interval
 from semnav_env.approach import Surroundings, plan_approach
-from semnav_env.maps.placement import placement_error
 from semnav_env.robots import ROBOTS, RobotSpec, robot_spec
+from semnav_env.world.maps.placement import placement_error
 from studies.exits.cases import SEED, ExitCase, exit_cases
 from studies.exits.drives import driven
 from studies.exits.exit_rules import exit_via_door, lining_up, one_metre

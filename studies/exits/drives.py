@@ -12,9 +12,9 @@ from shapely import LineString, Point
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_env.approach import DoorSide
 from semnav_env.approach.poses import is_behind
-from semnav_env.maps import FloorPlan
 from semnav_env.robots import RobotSpec
-from semnav_env.simulator import RobotSetup, Simulator
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.simulator import RobotSetup, Simulator
 from semnav_features.frames import FloatArray, Pose, Twist, to_local
 from studies.exits.cases import ExitCase
 

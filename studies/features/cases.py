@@ -10,8 +10,8 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.lidar.lidar import Lidar
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.world.lidar.lidar import Lidar
+from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import Pose
 from semnav_features.lidar_spec import TIM561, LidarSpec
 from semnav_features.scan import Scan

@@ -13,7 +13,7 @@ from shapely import LineString, Point, Polygon
 from shapely.affinity import rotate, translate
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
+from semnav_env.world.maps.floor_plan import FloorPlan, Material, Surface
 
 MAX_PLACE_TRIES = 50
 """Places that are drawn for one thing before it is left out."""

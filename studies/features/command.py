@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from semnav_env.maps import bundled_names, load_floor_plan
+from semnav_env.world.maps import bundled_names, load_floor_plan
 from semnav_features import ExtractorSettings
 from semnav_scripts.progress import tracked
 from studies.doors.map_doors import map_sheets, mapped

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.maps import FloorPlan
+from semnav_env.world.maps import FloorPlan
 from semnav_features import ExtractorSettings, extract
 from semnav_features.strategies import BreakpointRule, Segmentation, strategy_names
 from studies.features.cases import Case, CaseSituation, draw_cases

@@ -14,8 +14,8 @@ from semnav_env.approach import THESIS_SETTINGS, ApproachPlan, Surroundings, pla
 from semnav_env.approach.draw import draw_ellipse, draw_poses, draw_square
 from semnav_env.approach.in_plan import side_towards
 from semnav_env.approach.poses import CandidatePose
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.draw import draw_floor_plan
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.draw import draw_floor_plan
 from studies.figures import IMAGES
 
 PAGE = IMAGES.parent / "approach.md"

@@ -28,31 +28,31 @@ ABOUT = {
     "semnav_features/readers": "logs of real robots",
     "semnav_env": "the environment, the rules, and what does not fit below",
     "semnav_env/approach": "poses from which a door can be passed",
-    "semnav_env/belief": "the robot's side: ranges, odometry and bumps to pose, scene and goal",
+    "semnav_env/mind/belief": "the robot's side: ranges, odometry and bumps to pose, scene and goal",
     "semnav_env/bench": "how fast all this is: `semnav bench`",
-    "semnav_env/commands": "text to clauses and back",
-    "semnav_env/commands/corpora": "how much of people's words is understood",
-    "semnav_env/commands/speech": "from words to the clauses that they mean",
-    "semnav_env/depth": "simulated depth cameras, and floor plans raised to their ceiling",
-    "semnav_env/dynamics": "people, swinging doors, moved furniture",
-    "semnav_env/episodes": "frozen episodes and the splits",
-    "semnav_env/grounding": "what a clause refers to in a scene, and where it leads",
-    "semnav_env/lidar": "the simulated lidar",
-    "semnav_env/localization": "where a robot is in a plan that it knows, by its doors",
-    "semnav_env/maps": "floor plans: read, check, find ways",
-    "semnav_env/maps/generator": "offices drawn from a seed",
-    "semnav_env/maps/importers": "floor plans from other formats",
-    "semnav_env/metrics": "measures of a recorded episode",
-    "semnav_env/observations": "the declared layout of an observation, and its writer and reader",
+    "semnav_env/language": "text to clauses and back",
+    "semnav_env/language/corpora": "how much of people's words is understood",
+    "semnav_env/language/speech": "from words to the clauses that they mean",
+    "semnav_env/world/depth": "simulated depth cameras, and floor plans raised to their ceiling",
+    "semnav_env/world/dynamics": "people, swinging doors, moved furniture",
+    "semnav_env/judge/episodes": "frozen episodes and the splits",
+    "semnav_env/mind/grounding": "what a clause refers to in a scene, and where it leads",
+    "semnav_env/world/lidar": "the simulated lidar",
+    "semnav_env/mind/localization": "where a robot is in a plan that it knows, by its doors",
+    "semnav_env/world/maps": "floor plans: read, check, find ways",
+    "semnav_env/world/maps/generator": "offices drawn from a seed",
+    "semnav_env/world/maps/importers": "floor plans from other formats",
+    "semnav_env/judge/metrics": "measures of a recorded episode",
+    "semnav_env/mind/observations": "the declared layout of an observation, and its writer and reader",
     "semnav_env/rendering": "pictures, films, the window",
     "semnav_env/rescue": "searching houses: a person detector, its map of people, coverage",
     "semnav_env/robots": "bodies, and what an action asks of them",
-    "semnav_env/routes": "routes in words, and the ways to named rooms",
-    "semnav_env/simulator": "world, lidar and odometry behind `step(twist) -> Sensed`",
-    "semnav_env/tasks": "what episodes are about, and what a step is worth",
+    "semnav_env/judge/routes": "routes in words, and the ways to named rooms",
+    "semnav_env/world/simulator": "world, lidar and odometry behind `step(twist) -> Sensed`",
+    "semnav_env/judge/tasks": "what episodes are about, and what a step is worth",
     "semnav_env/vector": "many robots in one environment",
-    "semnav_env/verifier": "the judge",
-    "semnav_env/world": "the physics; the only folder that imports Pymunk",
+    "semnav_env/judge/verifier": "the judge",
+    "semnav_env/world/physics": "the physics; the only folder that imports Pymunk",
     "semnav_agents": "scripted, oracle and learned agents, and floors, behind one protocol",
     "semnav_agents/evaluation": "suites of episodes, driven and judged",
     "semnav_agents/hearing": "agents that hear the command: a learned grounding for the planner",
@@ -81,37 +81,37 @@ itself. Paths below begin with the package.
 
 `tests/test_layers.py` checks the imports. `semnav_scripts` may import `semnav_agents`, which may
 import `semnav_env`, which may import `semnav_features`, never the other way round. No module
-imports itself by way of others. `semnav_env/belief` imports nothing of the simulator or the
+imports itself by way of others. `semnav_env/mind/belief` imports nothing of the simulator or the
 judge.
 
 ## Three walks
 
 **A scan.** `SemNavEnv.step` (`semnav_env/env.py`) makes one compiled call, `run_period`
 (`semnav_env/robot_loop.py`), which calls three others. `sense`
-(`semnav_env/simulator/sensing.py`) drives the body (`semnav_env/world/drive.py`), reckons
-(`semnav_env/simulator/odometry.py`) and scans. `understand`
-(`semnav_env/belief/understand.py`) extracts the features (`semnav_features/kernels/chain.py`),
+(`semnav_env/world/simulator/sensing.py`) drives the body (`semnav_env/world/physics/drive.py`), reckons
+(`semnav_env/world/simulator/odometry.py`) and scans. `understand`
+(`semnav_env/mind/belief/understand.py`) extracts the features (`semnav_features/kernels/chain.py`),
 corrects the drift (`semnav_features/kernels/drift.py`), remembers walls and doors
 (`semnav_features/kernels/memory.py`) and notes how far the clause under way has come
-(`semnav_env/grounding/clause_progress.py`). `judge_motion`
-(`semnav_env/verifier/judge_record.py`) keeps the judge's count. They return events, such as a
+(`semnav_env/mind/grounding/clause_progress.py`). `judge_motion`
+(`semnav_env/judge/verifier/judge_record.py`) keeps the judge's count. They return events, such as a
 completed clause; only where there is one does `BeliefTracker.think`
-(`semnav_env/belief/tracker.py`) ground anew. On a real robot `BeliefTracker.update` calls
+(`semnav_env/mind/belief/tracker.py`) ground anew. On a real robot `BeliefTracker.update` calls
 `understand` with what was sensed. `EntryObservation.observe`
-(`semnav_env/observations/observer.py`) makes the arrays that an agent gets.
+(`semnav_env/mind/observations/observer.py`) makes the arrays that an agent gets.
 
-**A command.** `parse` (`semnav_env/commands/parser.py`) turns text into a `Command`, a tuple of
-clauses. `MissionMaker` (`semnav_env/tasks/mission_maker.py`) checks on the floor plan that it
-can be carried out. The robot's `Follower` (`semnav_env/grounding/follower.py`) holds the clause
-under way and asks `semnav_env/grounding/ground.py` where it leads, on what is remembered; the
+**A command.** `parse` (`semnav_env/language/parser.py`) turns text into a `Command`, a tuple of
+clauses. `MissionMaker` (`semnav_env/judge/tasks/mission_maker.py`) checks on the floor plan that it
+can be carried out. The robot's `Follower` (`semnav_env/mind/grounding/follower.py`) holds the clause
+under way and asks `semnav_env/mind/grounding/ground.py` where it leads, on what is remembered; the
 answer is a goal: seek, reach, pass or stop. The judge's `Verifier`
-(`semnav_env/verifier/verifier.py`) runs the same follower on the true scene.
+(`semnav_env/judge/verifier/verifier.py`) runs the same follower on the true scene.
 
 **An action.** `Actions.twist` (`semnav_env/robots/actions.py`) turns the action into a
-velocity. `drive` (`semnav_env/world/drive.py`) bounds its acceleration and lets Chipmunk, the
-engine in Pymunk, move the body (`semnav_env/world/chipmunk.py`). The true `Motion` goes to the
-`EpisodeJudge` (`semnav_env/tasks/judge.py`): crossed doors, reached places, progress.
-`RewardWeights.terms` (`semnav_env/tasks/rewards.py`) says what the step was worth.
+velocity. `drive` (`semnav_env/world/physics/drive.py`) bounds its acceleration and lets Chipmunk, the
+engine in Pymunk, move the body (`semnav_env/world/physics/chipmunk.py`). The true `Motion` goes to the
+`EpisodeJudge` (`semnav_env/judge/tasks/judge.py`): crossed doors, reached places, progress.
+`RewardWeights.terms` (`semnav_env/judge/tasks/rewards.py`) says what the step was worth.
 
 ## Folders
 

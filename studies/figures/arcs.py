@@ -11,10 +11,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from semnav_env.lidar import Lidar
-from semnav_env.maps import bundled_names, load_floor_plan
-from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import WHEELCHAIR
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import bundled_names, load_floor_plan
+from semnav_env.world.maps.placement import sample_pose
 from semnav_features import Arc, Scan, extract
 from semnav_features.frames import Point
 from semnav_features.plot import save_page

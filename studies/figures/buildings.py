@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.maps.draw import draw_floor_plan
+from semnav_env.world.maps.draw import draw_floor_plan
 from semnav_features import ExtractorSettings
 from studies.buildings.buildings import find_buildings, look_around
 from studies.buildings.failure_pages import Failure, draw_failure

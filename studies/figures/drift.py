@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Episode, evenly, load_episodes
-from semnav_env.maps.draw import draw_floor_plan
-from semnav_env.simulator.odometry import OdometrySettings
+from semnav_env.judge.episodes import Episode, evenly, load_episodes
+from semnav_env.world.maps.draw import draw_floor_plan
+from semnav_env.world.simulator.odometry import OdometrySettings
 from semnav_features.frames import compose, relative
 from studies.figures import IMAGES
 

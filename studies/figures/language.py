@@ -6,9 +6,9 @@ import statistics
 import time
 from contextlib import suppress
 
-from semnav_env.commands import CommandError, parse, readings
-from semnav_env.commands.languages import languages
-from semnav_env.commands.normalise import MAX_WORDS
+from semnav_env.language import CommandError, parse, readings
+from semnav_env.language.languages import languages
+from semnav_env.language.normalise import MAX_WORDS
 from semnav_scripts.evaluate_language import Arguments
 
 COMMAND = parse(

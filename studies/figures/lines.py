@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from semnav_env.lidar import Lidar
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import load_floor_plan
 from semnav_features import polylines
 from studies.features.clutter import cluttered
 from studies.figures import IMAGES

@@ -1,7 +1,7 @@
 """Draw docs/images/logs.png: three simulated scans with what the extractor finds in them."""
 
-from semnav_env.lidar import Lidar
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import load_floor_plan
 from semnav_features import extract
 from semnav_features.plot import save_page
 from studies.figures import IMAGES

@@ -7,10 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.lidar import Lidar
-from semnav_env.maps import FloorPlan, load_floor_plan
-from semnav_env.maps.draw import draw_floor_plan
-from semnav_env.maps.line_map_plan import plan_of_scene
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import FloorPlan, load_floor_plan
+from semnav_env.world.maps.draw import draw_floor_plan
+from semnav_env.world.maps.line_map_plan import plan_of_scene
 from semnav_features import extract
 from semnav_features.frames import compose
 from semnav_features.mapping import LineMap, ScanOdometry

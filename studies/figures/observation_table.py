@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from semnav_env.observations.layout import (
+from semnav_env.mind.observations.layout import (
     CLAUSE,
     GOAL,
     HALLWAY,
@@ -24,8 +24,8 @@ TITLE = """# Entries of the observation
 
 Each entry is one flat array. Features, bumps and the goal are in the robot frame: x forward, y
 left, origin at the centre of the footprint. An entry with a mask has `NAME_mask` beside it,
-with 1 for each row that counts; `semnav_env.observations.table(observation, "walls")` gives
-these rows. The numbers come from `semnav_env.observations.layout`, which also makes the spaces
+with 1 for each row that counts; `semnav_env.mind.observations.table(observation, "walls")` gives
+these rows. The numbers come from `semnav_env.mind.observations.layout`, which also makes the spaces
 and the kernels' offsets.
 
 | entry | size | columns | bounds | unit | meaning |
@@ -60,7 +60,7 @@ well, like `mission` in MiniGrid:
 
 ```python
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import EntryObservation, InstructionEntry
+from semnav_env.mind.observations import EntryObservation, InstructionEntry
 
 env = SemNavEnv(observation=EntryObservation("command", [InstructionEntry()]))
 observation, info = env.reset(seed=0)

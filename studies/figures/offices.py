@@ -6,8 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.draw import draw_floor_plan
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.draw import draw_floor_plan
 from studies.figures import IMAGES
 
 SHEET = (

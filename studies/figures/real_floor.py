@@ -9,16 +9,16 @@ import numpy as np
 
 from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
-from semnav_env.commands import Approach, Command, DoorReference, GoToDoor, Side
 from semnav_env.env import SemNavEnv
-from semnav_env.grounding import GroundingError
-from semnav_env.grounding.goal import door_of
-from semnav_env.maps import FloorPlan
-from semnav_env.maps.importers import import_map
-from semnav_env.maps.placement import sample_pose
+from semnav_env.judge.verifier import plan_goals
+from semnav_env.language import Approach, Command, DoorReference, GoToDoor, Side
+from semnav_env.mind.grounding import GroundingError
+from semnav_env.mind.grounding.goal import door_of
 from semnav_env.rendering.video import save_video
 from semnav_env.robots import WHEELCHAIR
-from semnav_env.verifier import plan_goals
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.maps.importers import import_map
+from semnav_env.world.maps.placement import sample_pose
 from studies.figures import IMAGES
 
 FLOORS = ("2", "3ne")

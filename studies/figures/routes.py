@@ -1,9 +1,9 @@
 """Draw docs/images/routes.png: three routes, and what is said for each."""
 
-from semnav_env.maps import load_floor_plan
-from semnav_env.routes.describe import describe
-from semnav_env.routes.draw import save_routes
-from semnav_env.routes.route_to import route_to
+from semnav_env.judge.routes.describe import describe
+from semnav_env.judge.routes.draw import save_routes
+from semnav_env.judge.routes.route_to import route_to
+from semnav_env.world.maps import load_floor_plan
 from studies.figures import IMAGES
 
 START = (1.3, 9.1, 0.0)

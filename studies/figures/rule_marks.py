@@ -7,9 +7,9 @@ import math
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Wedge
 
-from semnav_env.commands.references import Side
-from semnav_env.grounding import Goal, GoalKind, PassGoal, ReachGoal
-from semnav_env.grounding.counted_doors import doors_along
+from semnav_env.language.references import Side
+from semnav_env.mind.grounding import Goal, GoalKind, PassGoal, ReachGoal
+from semnav_env.mind.grounding.counted_doors import doors_along
 from semnav_features.corridor import Corridor
 from semnav_features.frames import Point, Pose, compose
 from semnav_features.scene import Scene

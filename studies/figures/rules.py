@@ -16,12 +16,12 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.belief import BeliefTracker
-from semnav_env.commands import parse
-from semnav_env.grounding import ground
-from semnav_env.lidar import Lidar
-from semnav_env.maps import load_floor_plan
+from semnav_env.language import parse
+from semnav_env.mind.belief import BeliefTracker
+from semnav_env.mind.grounding import ground
 from semnav_env.robots import WHEELCHAIR
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import load_floor_plan
 from semnav_features.corridor import corridor_at
 from semnav_features.frames import Point, Pose, compose
 from semnav_features.scene import Door, Scene, Wall

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.maps import FloorPlan, Material
+from semnav_env.world.maps import FloorPlan, Material
 from semnav_features.frames import Point, Pose
 from studies.figures import IMAGES
 from tests.support.situations import ROWS, TABLE, Row, situation

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from semnav_env.bench.suite import growth
 from semnav_env.bench.timing import Timing
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 from studies.figures import IMAGES
 
 THREADS, RUNS, STEPS = 2, 5, 1500

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.maps import Material
+from semnav_env.world.maps import Material
 from studies.figures import IMAGES
 from studies.tour.tour import TourPeriod, result, tour
 from studies.tour.villa import villa

@@ -10,7 +10,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from semnav_env.maps import bundled_names, load_floor_plan
+from semnav_env.world.maps import bundled_names, load_floor_plan
 from semnav_scripts.progress import tracked
 from studies.features.cases import Case, draw_cases
 from studies.lines.line_accuracy import segmentations, wall_accuracy

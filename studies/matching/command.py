@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from semnav_env.maps import FloorPlan, bundled_names, load_floor_plan
-from semnav_env.maps.importers import load_vector_map
+from semnav_env.world.maps import FloorPlan, bundled_names, load_floor_plan
+from semnav_env.world.maps.importers import load_vector_map
 from semnav_features.mapping import MatchSettings
 from semnav_features.readers import open_log
 from semnav_scripts.progress import tracked

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from semnav_env.lidar import Lidar, LidarSpec, lidar_spec
-from semnav_env.maps import FloorPlan
-from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import WHEELCHAIR
+from semnav_env.world.lidar import Lidar, LidarSpec, lidar_spec
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.maps.placement import sample_pose
 from semnav_features.frames import FloatArray, Point, Pose, compose, relative
 from semnav_features.mapping import Match, MatchError, MatchSettings, match_scans
 from semnav_features.readers import LogRecord

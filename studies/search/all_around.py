@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.lidar.lidar import Lidar
-from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.maps.reach import reach
 from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.rescue.visible_floor import ALL_AROUND, CELL, STANDPOINT, FloorGrid
 from semnav_env.robots import RobotSpec
+from semnav_env.world.lidar.lidar import Lidar
+from semnav_env.world.maps.floor_plan import FloorPlan
+from semnav_env.world.maps.reach import reach
 
 
 def seen_all_around(

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from semnav_env.maps.library import bundled_names, load_floor_plan
+from semnav_env.world.maps.library import bundled_names, load_floor_plan
 from semnav_features.settings import ExtractorSettings
 from semnav_features.strategies import BreakpointRule, strategy_names
 from semnav_scripts.progress import tracked

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.extraction import beam_directions
 from semnav_features.frames import FloatArray, Point
 from semnav_features.kernels.chain import extract_arrays

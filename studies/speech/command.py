@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.commands.corpora import ParseOutcome, development_corpora, load_sentences
+from semnav_env.language.corpora import ParseOutcome, development_corpora, load_sentences
 from studies.speech.robustness import (
     changed_commands,
     outcomes,

@@ -9,12 +9,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.commands import parse
-from semnav_env.commands.command import Command
-from semnav_env.commands.corpora import ParseOutcome, Sentence, judge
-from semnav_env.commands.corpora.measure import rooms_in
-from semnav_env.commands.errors import CommandError
-from semnav_env.commands.sampling import sample_command
+from semnav_env.language import parse
+from semnav_env.language.command import Command
+from semnav_env.language.corpora import ParseOutcome, Sentence, judge
+from semnav_env.language.corpora.measure import rooms_in
+from semnav_env.language.errors import CommandError
+from semnav_env.language.sampling import sample_command
 
 FILLERS = {
     "en": ("uh", "um", "so", "please", "you know", "like", "well", "okay", "just"),

@@ -6,11 +6,11 @@ from typing import Protocol
 
 import numpy as np
 
-from semnav_env.belief import BeliefTracker
-from semnav_env.commands import parse
-from semnav_env.localization import PlanLocalizer
+from semnav_env.language import parse
+from semnav_env.mind.belief import BeliefTracker
+from semnav_env.mind.localization import PlanLocalizer
 from semnav_env.robots import SPOT
-from semnav_env.simulator import Sensed
+from semnav_env.world.simulator import Sensed
 from semnav_features.frames import Pose, compose, relative
 from studies.tour.detectors import DoorSensor
 

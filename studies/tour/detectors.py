@@ -7,9 +7,9 @@ from functools import cache
 
 import numpy as np
 
-from semnav_env.depth import DepthRig, RaisedPlan, raise_plan
 from semnav_env.robots import SPOT
-from semnav_env.simulator import Sensed
+from semnav_env.world.depth import DepthRig, RaisedPlan, raise_plan
+from semnav_env.world.simulator import Sensed
 from semnav_features import Scan, extract
 from semnav_features.clouds.detected_door import DetectedDoor
 from semnav_features.clouds.finder import DoorFinder

@@ -8,9 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.localization import PlanLocalizer
+from semnav_env.mind.localization import PlanLocalizer
 from semnav_env.robots import SPOT
-from semnav_env.simulator import SPOT_ODOMETRY, OdometrySettings, RobotSetup, Sensed, Simulator
+from semnav_env.world.simulator import (
+    SPOT_ODOMETRY,
+    OdometrySettings,
+    RobotSetup,
+    Sensed,
+    Simulator,
+)
 from semnav_features.frames import Point, Pose, compose
 from studies.tour.beliefs import (
     DeadReckoning,

@@ -14,8 +14,8 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon, box
 
-from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface
-from semnav_env.maps.geodesic import Geodesic
+from semnav_env.world.maps import FloorPlan, Material, PlanDoor, Region, Surface
+from semnav_env.world.maps.geodesic import Geodesic
 from semnav_features.frames import FloatArray, Point, Pose
 
 HALLS = {"hall": (0.0, 5.0, 12.0, 7.0), "entrance": (5.0, 0.0, 7.0, 5.0)}

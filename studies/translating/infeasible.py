@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from semnav_env.commands.languages import english, language_of
-from semnav_env.commands.normalise import normalise
-from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of
-from semnav_env.commands.words import pieces
+from semnav_env.language.languages import english, language_of
+from semnav_env.language.normalise import normalise
+from semnav_env.language.speech.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.words import pieces
 
 SYLLABLES = ("ba", "del", "ko", "mun", "ti", "gra", "sel", "po", "nig", "tur", "fle", "zan", "lok")
 """Of which unknown words are made."""

@@ -10,14 +10,14 @@ from pathlib import Path
 from semnav_agents.translating.files import load_translator
 from semnav_agents.translating.interpreter import LearnedInterpreter
 from semnav_agents.translating.translator import translate
-from semnav_env.commands.command import Command
-from semnav_env.commands.corpora import ParseOutcome, Sentence
-from semnav_env.commands.corpora.meanings import meaning_of, normal
-from semnav_env.commands.corpora.measure import rooms_in
-from semnav_env.commands.errors import AmbiguousCommandError, CommandError
-from semnav_env.commands.interpreters import Interpretation, Interpreter
-from semnav_env.commands.languages import english
-from semnav_env.commands.parser import readings
+from semnav_env.language.command import Command
+from semnav_env.language.corpora import ParseOutcome, Sentence
+from semnav_env.language.corpora.meanings import meaning_of, normal
+from semnav_env.language.corpora.measure import rooms_in
+from semnav_env.language.errors import AmbiguousCommandError, CommandError
+from semnav_env.language.interpreters import Interpretation, Interpreter
+from semnav_env.language.languages import english
+from semnav_env.language.parser import readings
 
 
 @dataclass(frozen=True)

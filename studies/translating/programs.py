@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from semnav_env.commands.clauses import (
+from semnav_env.language.clauses import (
     Approach,
     Clause,
     Face,
@@ -18,10 +18,10 @@ from semnav_env.commands.clauses import (
     Turn,
     Turning,
 )
-from semnav_env.commands.command import Command
-from semnav_env.commands.corpora.meanings import ENDS, meaning_of, normal
-from semnav_env.commands.corpora.notation import Step, Steps
-from semnav_env.commands.references import (
+from semnav_env.language.command import Command
+from semnav_env.language.corpora.meanings import ENDS, meaning_of, normal
+from semnav_env.language.corpora.notation import Step, Steps
+from semnav_env.language.references import (
     OTHER,
     Distance,
     DoorReference,
@@ -31,7 +31,7 @@ from semnav_env.commands.references import (
     Side,
     Unit,
 )
-from semnav_env.commands.rooms import plain_name
+from semnav_env.language.rooms import plain_name
 
 
 def command_of_meaning(steps: Steps) -> Command | None:

@@ -9,11 +9,11 @@ from importlib.resources import files
 
 import numpy as np
 
-from semnav_env.commands.language import Language
-from semnav_env.commands.languages import english, language_of
-from semnav_env.commands.normalise import normalise
-from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of
-from semnav_env.commands.words import pieces
+from semnav_env.language.language import Language
+from semnav_env.language.languages import english, language_of
+from semnav_env.language.normalise import normalise
+from semnav_env.language.speech.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.words import pieces
 
 SWAPPED = frozenset(
     {
@@ -39,7 +39,7 @@ _SIDED = re.compile(r"left|right|link|recht")
 
 @cache
 def _table(name: str) -> dict[str, list[str]]:
-    text = (files("semnav_env.commands.speech") / f"{name}.json").read_text("utf-8")
+    text = (files("semnav_env.language.speech") / f"{name}.json").read_text("utf-8")
     return {key: row.split("|") for key, row in json.loads(text).items()}
 
 

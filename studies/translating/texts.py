@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.commands.clauses import Clause, IfThere, Turn, Turning
-from semnav_env.commands.command import MAX_CLAUSES, Command, reference_of, room_of
-from semnav_env.commands.corpora import Sentence, load_sentences
-from semnav_env.commands.corpora.measure import rooms_in
-from semnav_env.commands.references import DoorReference, PlaceReference, Side
-from semnav_env.commands.rewording import paraphrases
-from semnav_env.commands.sampling import sample_command
+from semnav_env.language.clauses import Clause, IfThere, Turn, Turning
+from semnav_env.language.command import MAX_CLAUSES, Command, reference_of, room_of
+from semnav_env.language.corpora import Sentence, load_sentences
+from semnav_env.language.corpora.measure import rooms_in
+from semnav_env.language.references import DoorReference, PlaceReference, Side
+from semnav_env.language.rewording import paraphrases
+from semnav_env.language.sampling import sample_command
 from studies.speech.robustness import FILLERS, PUNCTUATION
 from studies.translating.infeasible import infeasible
 from studies.translating.programs import command_of_meaning

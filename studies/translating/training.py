@@ -26,7 +26,7 @@ from semnav_agents.translating.programs import (
     UnsayableError,
     symbols_of,
 )
-from semnav_env.commands.errors import CommandError
+from semnav_env.language.errors import CommandError
 from semnav_features.checked_fields import Count, check_fields
 from studies.translating.texts import TrainingText
 from studies.translating.torch_network import TorchTranslator

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.maps.doorways import DRAWING_TOLERANCE
-from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor
+from semnav_env.world.maps.doorways import DRAWING_TOLERANCE
+from semnav_env.world.maps.floor_plan import FloorPlan, Material, PlanDoor
 from semnav_features.frames import FloatArray, Point, Pose, to_local
 from semnav_features.scene import Door, SceneLeaf
 from studies.truth.sweep import Outline, distances_along, points_at

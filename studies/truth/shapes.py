@@ -11,7 +11,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
+from semnav_env.world.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_features.frames import FloatArray, Point
 
 MAX_CIRCLE_ERROR = 0.01

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.lidar.lidar import Lidar
-from semnav_env.maps.floor_plan import FloorPlan
+from semnav_env.world.lidar.lidar import Lidar
+from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import FloatArray, Pose, compose, points_to_local
 from semnav_features.lidar_spec import LidarSpec, lidar_spec
 from semnav_features.scan import Scan

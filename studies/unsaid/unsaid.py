@@ -16,13 +16,13 @@ import numpy as np
 
 from semnav_agents.base import Agent
 from semnav_agents.evaluation.drive import drive
-from semnav_env.commands import Command, DoorReference, GoToDoor, Leave, Side, Turn, Turning
 from semnav_env.env import SemNavEnv
-from semnav_env.grounding import GroundingError
-from semnav_env.maps import FloorPlan
-from semnav_env.maps.placement import sample_pose
+from semnav_env.judge.verifier import place, plan_goals
+from semnav_env.language import Command, DoorReference, GoToDoor, Leave, Side, Turn, Turning
+from semnav_env.mind.grounding import GroundingError
 from semnav_env.robots import RobotSpec
-from semnav_env.verifier import place, plan_goals
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.maps.placement import sample_pose
 from semnav_features.frames import Pose
 
 MAX_ORDINAL = 3

@@ -25,10 +25,10 @@ from semnav_agents.hearing.learning import Learner
 from semnav_agents.hearing.network import NetworkShape
 from semnav_agents.hearing.torch_network import TorchGrounding
 from semnav_agents.learning.files import save_tensors
-from semnav_env.commands import encode, parse
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Episode
-from semnav_env.observations import EntryObservation, Moment
+from semnav_env.judge.episodes import Episode
+from semnav_env.language import encode, parse
+from semnav_env.mind.observations import EntryObservation, Moment
 
 BATCH_SIZE, FIRST_RATE, LAST_RATE = 256, 1.5e-3, 3e-5
 """Samples in a gradient step, and the step size at the beginning and the end."""

@@ -11,10 +11,10 @@ from semnav_agents.evaluation import SUITES, Trial, run_suite
 from semnav_agents.evaluation.runner import run_trial
 from semnav_agents.registry import make_agent
 from semnav_agents.scripted import ScriptedAgent
-from semnav_env.dynamics import Dynamics
 from semnav_env.env import SemNavEnv
-from semnav_env.maps.placement import placement_error
 from semnav_env.robots import ROBOTS
+from semnav_env.world.dynamics import Dynamics
+from semnav_env.world.maps.placement import placement_error
 from tests.support.episodes import START, fresh
 
 HEIDELBERG = SUITES["heidelberg"]

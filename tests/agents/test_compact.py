@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver
-from semnav_env.observations import GOAL, UNBOUNDED
+from semnav_env.mind.observations import GOAL, UNBOUNDED
 from semnav_env.robots import ROBOTS
 from semnav_env.vector import SemNavVectorEnv
 from tests.support.compact_observations import LIDAR, compact, observation

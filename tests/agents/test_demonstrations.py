@@ -18,9 +18,9 @@ from semnav_agents.demonstrations import Demonstration, demonstrate
 from semnav_agents.expert import Expert
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import evenly, load_episodes
-from semnav_env.observations import MODES, EntryObservation
-from semnav_env.tasks import RewardWeights
+from semnav_env.judge.episodes import evenly, load_episodes
+from semnav_env.judge.tasks import RewardWeights
+from semnav_env.mind.observations import MODES, EntryObservation
 from semnav_features.interruption import uninterrupted
 from semnav_scripts import demonstrate as script
 from semnav_scripts.main import main

@@ -20,21 +20,21 @@ from semnav_agents.evaluation.provenance import provenance
 from semnav_agents.evaluation.suites import Trial
 from semnav_agents.hearing.agent import HearingAgent
 from semnav_agents.registry import make_agent
-from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import (
+from semnav_env.judge.episodes import (
     Expected,
     StaleEpisodeError,
     find_episode,
     load_episodes,
     write_episodes,
 )
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.placement import placement_error
-from semnav_env.metrics import METRIC_NAMES, Metrics
-from semnav_env.metrics.final_belief import FinalBelief
+from semnav_env.judge.metrics import METRIC_NAMES, Metrics
+from semnav_env.judge.metrics.final_belief import FinalBelief
+from semnav_env.judge.verifier import plan_goals
+from semnav_env.language import parse
 from semnav_env.robots import ROBOTS, RobotSpec
-from semnav_env.verifier import plan_goals
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.placement import placement_error
 from semnav_features.frames import compose, relative, to_parent
 from semnav_scripts.main import main
 
@@ -195,7 +195,9 @@ def test_a_failure_is_filmed_and_its_picture_shows_what_was_believed(
 ) -> None:
     monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
     shown: list[FinalBelief] = []
-    monkeypatch.setattr("semnav_env.metrics.picture.draw_belief", lambda _, it: shown.append(it))
+    monkeypatch.setattr(
+        "semnav_env.judge.metrics.picture.draw_belief", lambda _, it: shown.append(it)
+    )
     folders = ["--films", str(tmp_path / "films"), "--pictures", str(tmp_path / "pictures")]
     assert main(["evaluate", "test_real", "--episodes", "1", *folders]) == 0
     assert "filmed 1 failure into" in capsys.readouterr().out

@@ -15,9 +15,9 @@ from semnav_agents.planning.exit_via_door import PAUSE, ExitViaDoor
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_agents.planning.planner import plan
 from semnav_env.approach import DoorSide
-from semnav_env.maps import load_floor_plan
 from semnav_env.robots import ROBOTS, SPOT, RobotSpec
-from semnav_env.simulator import RobotSetup, Simulator
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.simulator import RobotSetup, Simulator
 from semnav_features.frames import FloatArray, Pose
 from studies.exits.cases import ExitCase, exit_cases, side_of
 from studies.exits.command import Arguments, judged_pose

@@ -10,9 +10,9 @@ import pytest
 
 from semnav_agents.expert import Expert, true_goal
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import evenly, load_episodes
-from semnav_env.grounding.goal import GoalKind
-from semnav_env.observations import SeenGoal
+from semnav_env.judge.episodes import evenly, load_episodes
+from semnav_env.mind.grounding.goal import GoalKind
+from semnav_env.mind.observations import SeenGoal
 from semnav_env.vector import SemNavVectorEnv
 from tests.support.episodes import START, actions
 

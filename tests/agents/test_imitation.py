@@ -8,7 +8,7 @@ pytest.importorskip("torch", reason='needs the extra "rl"')
 from semnav_agents.learning.compact import COMPACT_SIZE, VELOCITY
 from semnav_agents.learning.imitation import pauses
 from semnav_agents.learning.mirrored import mirrored_actions, mirrored_observations
-from semnav_env.observations import GOAL
+from semnav_env.mind.observations import GOAL
 from semnav_features.frames import points_to_parent
 from tests.support.compact_observations import LIDAR, compact, observation
 

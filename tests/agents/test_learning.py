@@ -21,7 +21,7 @@ from semnav_agents.learning.files import (
 from semnav_agents.learning.policy import Policy
 from semnav_agents.learning.presets import PRESETS
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import GOAL
+from semnav_env.mind.observations import GOAL
 from semnav_env.robots import ROBOTS
 from tests.golden import drive
 from tests.support.compact_observations import LIDAR, compact, observation

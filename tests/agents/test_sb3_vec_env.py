@@ -18,7 +18,7 @@ from semnav_agents.learning.preset_envs import dealt, preset_envs  # noqa: E402
 from semnav_agents.learning.presets import PRESETS  # noqa: E402
 from semnav_agents.learning.sb3_vec_env import as_sb3_vec_env  # noqa: E402
 from semnav_env.env import SemNavEnv  # noqa: E402
-from semnav_env.episodes import load_episodes  # noqa: E402
+from semnav_env.judge.episodes import load_episodes  # noqa: E402
 from semnav_env.vector import SemNavVectorEnv  # noqa: E402
 
 SHORT = {"floor_plan": "office_cross", "max_seconds": 1.5}

@@ -30,7 +30,7 @@ from semnav_agents.learning.files import (  # noqa: E402
 from semnav_agents.learning.imitation import load_demonstrations  # noqa: E402
 from semnav_agents.learning.presets import PRESETS  # noqa: E402
 from semnav_agents.learning.training import Trainer  # noqa: E402
-from semnav_env.metrics import spl  # noqa: E402
+from semnav_env.judge.metrics import spl  # noqa: E402
 from tests.support.paths import ROOT  # noqa: E402
 from tests.support.tiny_training import (  # noqa: E402
     LONG,

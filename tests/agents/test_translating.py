@@ -26,7 +26,7 @@ from semnav_agents.translating.network import TranslatorNetwork, TranslatorShape
 from semnav_agents.translating.programs import UnsayableError, command_of, symbols_of
 from semnav_agents.translating.support import TextSupport
 from semnav_agents.translating.translator import MAX_TRANSLATED_WORDS, translate
-from semnav_env.commands import (
+from semnav_env.language import (
     AmbiguousCommandError,
     Command,
     CommandError,
@@ -34,8 +34,8 @@ from semnav_env.commands import (
     parse,
     sample_command,
 )
-from semnav_env.commands.command import room_of
-from semnav_env.commands.references import Side
+from semnav_env.language.command import room_of
+from semnav_env.language.references import Side
 from tests.support.command_strategies import commands
 
 INTERPRETER = LearnedInterpreter()

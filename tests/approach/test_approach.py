@@ -16,9 +16,9 @@ from semnav_env.approach import (
 )
 from semnav_env.approach.in_plan import side_towards
 from semnav_env.approach.poses import body_at
-from semnav_env.maps import load_floor_plan
 from semnav_env.robots import ROBOTS, SPOT, WHEELCHAIR, RobotSpec
-from semnav_env.simulator import RobotSetup, Simulator
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.simulator import RobotSetup, Simulator
 from semnav_features import Scan, extract
 from semnav_features.frames import Pose, compose, points_to_parent
 from semnav_features.scene import Door

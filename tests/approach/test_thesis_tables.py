@@ -11,7 +11,7 @@ from shapely import LineString, Polygon, union_all
 
 from semnav_env.approach import THESIS_SETTINGS, ApproachPlan, Surroundings, plan_approach
 from semnav_env.approach.in_plan import side_towards
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 from tests.support.paths import SHARED
 
 VILLA = load_floor_plan("villa_hall")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import MODES
+from semnav_env.mind.observations import MODES
 from studies.figures import approach, architecture, leaderboard, observation_table
 from tests.support.paths import source
 

@@ -10,7 +10,7 @@ import pytest
 from gymnasium.spaces import Box
 
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import EntryObservation, Moment
+from semnav_env.mind.observations import EntryObservation, Moment
 from semnav_env.robots import RobotSpec
 from semnav_env.vector import SemNavVectorEnv
 

@@ -14,12 +14,12 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import semnav_env
-from semnav_env.commands import CommandError
 from semnav_env.env import SemNavEnv
-from semnav_env.grounding import GroundingError
-from semnav_env.maps import bundled_names
-from semnav_env.observations import MODES
+from semnav_env.language import CommandError
+from semnav_env.mind.grounding import GroundingError
+from semnav_env.mind.observations import MODES
 from semnav_env.robots import ROBOTS
+from semnav_env.world.maps import bundled_names
 from semnav_features.memory import SceneMemory
 from tests.support.episodes import START, actions, fresh
 
@@ -197,8 +197,8 @@ def test_bad_arguments_list_what_would_have_worked(arguments: dict, words: str) 
         ("lidar", "there are: tim561"),
         ("odometry", "there are: usual, exact"),
         ("extractor", "it must be a semnav_features.settings.ExtractorSettings"),
-        ("rewards", "it must be a semnav_env.tasks.RewardWeights"),
-        ("dynamics", "it must be a semnav_env.dynamics.settings.Dynamics"),
+        ("rewards", "it must be a semnav_env.judge.tasks.RewardWeights"),
+        ("dynamics", "it must be a semnav_env.world.dynamics.settings.Dynamics"),
         ("render_mode", "there are: rgb_array"),
         ("episodes", "name of a split|no split|Episode"),
     ],

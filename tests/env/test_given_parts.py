@@ -12,11 +12,11 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from semnav_env.env import SemNavEnv
-from semnav_env.lidar import TIM561, LidarSpec
-from semnav_env.observations import MODES, EntryObservation, Moment
+from semnav_env.judge.tasks import AddedTerms, RewardWeights, Tick
+from semnav_env.mind.observations import MODES, EntryObservation, Moment
 from semnav_env.robots import RobotSpec
-from semnav_env.tasks import AddedTerms, RewardWeights, Tick
 from semnav_env.vector import SemNavVectorEnv
+from semnav_env.world.lidar import TIM561, LidarSpec
 from tests.support.episodes import START, actions
 
 FAST = replace(TIM561, name="fast", rate_hz=40.0)

@@ -12,14 +12,14 @@ import pytest
 from gymnasium.envs.registration import EnvSpec
 from gymnasium.wrappers import FlattenObservation, TimeAwareObservation
 
-from semnav_env.dynamics import Dynamics
-from semnav_env.dynamics.settings import Walking
 from semnav_env.env import SemNavEnv
+from semnav_env.judge.tasks import RewardWeights
 from semnav_env.plain_settings import SETTINGS, from_plain
 from semnav_env.robots import SPOT, WHEELCHAIR
 from semnav_env.rules import Rules, SuccessRules
-from semnav_env.simulator import OdometrySettings
-from semnav_env.tasks import RewardWeights
+from semnav_env.world.dynamics import Dynamics
+from semnav_env.world.dynamics.settings import Walking
+from semnav_env.world.simulator import OdometrySettings
 from semnav_features import ExtractorSettings
 from semnav_features.lidar_spec import TIM561
 from tests.support.episodes import START, actions, digest, rollout

@@ -11,8 +11,8 @@ import pytest
 
 from semnav_agents.oracle import OracleAgent
 from semnav_env.env import SemNavEnv
+from semnav_env.judge.tasks import RandomisedRobot
 from semnav_env.robots import SPOT, RobotSpec
-from semnav_env.tasks import RandomisedRobot
 from semnav_features.lidar_spec import TIM561, LidarSpec
 
 MAX_PICKLED_BYTES = 2000

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import MODES
+from semnav_env.mind.observations import MODES
 from semnav_env.robots import ROBOTS
 
 sb3 = pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')

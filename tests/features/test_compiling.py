@@ -177,7 +177,7 @@ def test_a_place_that_cannot_be_written_to_is_replaced(tmp_path):
 
 KERNEL_MODULE = (
     "from semnav_features.kernels.compiling import kernel\n"
-    "from semnav_env.lidar.limits import LIMIT\n"
+    "from semnav_env.world.lidar.limits import LIMIT\n"
 )
 
 
@@ -185,7 +185,7 @@ def test_an_edit_counts_where_a_kernel_imports_it_and_nowhere_else(monkeypatch):
     def key(limit, unrelated):
         sources = {
             "semnav_env.a.kernels": KERNEL_MODULE,
-            "semnav_env.lidar.limits": limit,
+            "semnav_env.world.lidar.limits": limit,
             "semnav_env.env": unrelated,
         }
         monkeypatch.setattr(cache_key, "installed_sources", lambda: iter(sources.items()))
@@ -199,7 +199,7 @@ def test_the_modules_behind_kernels_are_found():
     behind = cache_key.behind_kernels(sources)
     assert {
         "semnav_agents.planning.search",
-        "semnav_env.belief.understand",
+        "semnav_env.mind.belief.understand",
         "semnav_env.rules",
         "semnav_features.frames",
     } <= behind

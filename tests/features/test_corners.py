@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.placement import sample_pose
 from semnav_env.robots import WHEELCHAIR
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.placement import sample_pose
 from semnav_features import Corner, CornerKind, ExtractorSettings, Scene, extract
 from semnav_features.frames import FloatArray, Pose, to_parent
 from tests.support.raycaster import cast, polygon, polyline, scan_of

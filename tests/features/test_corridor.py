@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 from semnav_features.corridor import corridor_at, doorway_at
 from semnav_features.frames import Pose, compose, wrap_angle
 from semnav_features.scene import Door, Scene, Wall

@@ -12,12 +12,17 @@ import numpy as np
 import pytest
 from shapely import box
 
-from semnav_env.belief.log_following import follow_log
-from semnav_env.commands import Clause, Command, Follow, GoToDoor, OwnClause, encode, parse
 from semnav_env.env import SemNavEnv
-from semnav_env.grounding import Goal, GroundedClause, GroundingError, ReachGoal, Situation
-from semnav_env.maps import FloorPlan, FloorPlanError, Region, Surface, load_floor_plan
-from semnav_env.maps.importers import ImportedPlan, ImportReport, import_map, register_importer
+from semnav_env.language import Clause, Command, Follow, GoToDoor, OwnClause, encode, parse
+from semnav_env.mind.belief.log_following import follow_log
+from semnav_env.mind.grounding import Goal, GroundedClause, GroundingError, ReachGoal, Situation
+from semnav_env.world.maps import FloorPlan, FloorPlanError, Region, Surface, load_floor_plan
+from semnav_env.world.maps.importers import (
+    ImportedPlan,
+    ImportReport,
+    import_map,
+    register_importer,
+)
 from semnav_features import extract
 from semnav_features.frames import compose
 from semnav_features.readers import LogReader, LogRecord

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import STRtree
 
-from semnav_env.maps.importers.fitting import fit_door
-from semnav_env.maps.importers.labels import DoorLabel
+from semnav_env.world.maps.importers.fitting import fit_door
+from semnav_env.world.maps.importers.labels import DoorLabel
 from semnav_features.frames import Point, Pose, to_parent
 
 metres = st.floats(-20.0, 20.0)

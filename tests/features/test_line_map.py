@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, box
 
-from semnav_env.lidar import Lidar
-from semnav_env.maps import FloorPlan, Surface, load_floor_plan
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import FloorPlan, Surface, load_floor_plan
 from semnav_features import Scene, extract
 from semnav_features.frames import compose
 from semnav_features.mapping import KeyframeRule, LineMap, MapSettings, ScanOdometry

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import box
 
-from semnav_env.lidar import Lidar
-from semnav_env.maps import FloorPlan, Surface
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import FloorPlan, Surface
 from semnav_features import ExtractorSettings
 from semnav_features.elements import Door
 from semnav_features.frames import compose, to_local, to_parent

@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import box
 
-from semnav_env.lidar import Lidar
-from semnav_env.maps import FloorPlan, Surface, load_floor_plan
-from semnav_env.maps.importers import load_vector_map
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import FloorPlan, Surface, load_floor_plan
+from semnav_env.world.maps.importers import load_vector_map
 from semnav_features import Scan
 from semnav_features.frames import compose, relative
 from semnav_features.lidar_spec import TIM561

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.grounding.counted_doors import doors_along
+from semnav_env.mind.grounding.counted_doors import doors_along
 from semnav_features.corridor import corridor_at
 from semnav_features.frames import points_to_parent
 from semnav_features.kernels.narrowings import is_narrowing

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from semnav_agents.evaluation import run_suite
-from semnav_env.episodes import evenly, load_episodes
+from semnav_env.judge.episodes import evenly, load_episodes
 
 GOLDEN = Path(__file__).with_suffix(".json")
 

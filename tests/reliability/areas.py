@@ -18,16 +18,16 @@ import numpy as np
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
-from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.lidar import Lidar
+from semnav_env.judge.tasks import RewardWeights
+from semnav_env.judge.tasks.request import OPTIONS
+from semnav_env.language import parse
 from semnav_env.robots import SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.robots.actions import Actions
-from semnav_env.simulator import OdometrySettings
-from semnav_env.simulator.odometry import Odometry
-from semnav_env.tasks import RewardWeights
-from semnav_env.tasks.request import OPTIONS
-from semnav_env.world import World
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.physics import World
+from semnav_env.world.simulator import OdometrySettings
+from semnav_env.world.simulator.odometry import Odometry
 from semnav_features import extract
 from semnav_features.lidar_spec import LidarSpec
 from semnav_features.settings import ExtractorSettings

@@ -13,9 +13,9 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from semnav_env.episodes import load_episodes
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.importers import import_map
+from semnav_env.judge.episodes import load_episodes
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.importers import import_map
 from tests.reliability.children import PROCESSOR_SECONDS, Outcome, in_child, outcome_of
 from tests.reliability.readers import HOUSE, RANGES, READERS, SVG, read_drawing, read_log
 from tests.support.drawn_maps import two_rooms, write_map

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from hypothesis import strategies as st
 
 from semnav_agents.translating.interpreter import understand
-from semnav_env.commands import CommandError, parse
+from semnav_env.language import CommandError, parse
 
 CHARACTERS = (
     *string.printable,

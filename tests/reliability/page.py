@@ -7,14 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from semnav_agents.learning.files import MAX_FILE_SIZE
-from semnav_env.episodes.files import MAX_BYTES as MAX_EPISODES
-from semnav_env.maps.cell_budget import MAX_CELLS
-from semnav_env.maps.geodesic import COARSEST_SPACING, GRID_SPACING, RECENT_FIELDS
-from semnav_env.maps.importers.documents import MAX_YAML_BYTES
-from semnav_env.maps.importers.drawing import MAX_SEGMENTS
-from semnav_env.maps.importers.dxf import MAX_BLOCKS, MAX_ENTITIES
-from semnav_env.maps.importers.raster import MAX_IMAGE_BYTES, MAX_PIXELS
-from semnav_env.maps.importers.svg_budget import (
+from semnav_env.judge.episodes.files import MAX_BYTES as MAX_EPISODES
+from semnav_env.rescue.visible_floor import STANDPOINT
+from semnav_env.world.maps.cell_budget import MAX_CELLS
+from semnav_env.world.maps.geodesic import COARSEST_SPACING, GRID_SPACING, RECENT_FIELDS
+from semnav_env.world.maps.importers.documents import MAX_YAML_BYTES
+from semnav_env.world.maps.importers.drawing import MAX_SEGMENTS
+from semnav_env.world.maps.importers.dxf import MAX_BLOCKS, MAX_ENTITIES
+from semnav_env.world.maps.importers.raster import MAX_IMAGE_BYTES, MAX_PIXELS
+from semnav_env.world.maps.importers.svg_budget import (
     MAX_ARCS,
     MAX_CLOSINGS,
     MAX_DIGITS,
@@ -23,9 +24,8 @@ from semnav_env.maps.importers.svg_budget import (
     MAX_STYLE_SHEET,
     MAX_TRANSFORM,
 )
-from semnav_env.maps.library import MAX_KEPT_OFFICES
-from semnav_env.maps.reach import COARSEST_SPACING as COARSEST_REACH
-from semnav_env.rescue.visible_floor import STANDPOINT
+from semnav_env.world.maps.library import MAX_KEPT_OFFICES
+from semnav_env.world.maps.reach import COARSEST_SPACING as COARSEST_REACH
 from semnav_features.readers.chunks import MAX_CHUNK_BYTES
 from semnav_features.readers.npz_arrays import MAX_BYTES as MAX_ARRAY
 from semnav_features.readers.text import MAX_EXPANSION
@@ -92,7 +92,7 @@ what was accepted works.
 ## Memory by geometry
 
 Grids and tables over a floor plan have one budget of {cells:,} cells
-(`semnav_env/maps/cell_budget.py`): ways, what a body reaches, the floor that is seen in a search,
+(`semnav_env/world/maps/cell_budget.py`): ways, what a body reaches, the floor that is seen in a search,
 the walls near a lidar, points on walls. Where a plan needs more, the grid gets coarser, for ways
 up to {ways:g} m and for what a body reaches up to {reach:g} m; a plan for which that is too coarse
 to find doors, of more than {ways_area:,.0f} m2 and {reach_area:,.0f} m2, is refused in one line

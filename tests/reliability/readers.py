@@ -15,10 +15,10 @@ from PIL import Image
 
 from semnav_agents.learned import LearnedAgent
 from semnav_agents.learning.files import load_tensors, save_tensors
-from semnav_env.episodes import load_episodes, write_episodes
-from semnav_env.maps import load_floor_plan, save_floor_plan
-from semnav_env.maps.importers import Drawing, import_map
-from semnav_env.metrics import Recording
+from semnav_env.judge.episodes import load_episodes, write_episodes
+from semnav_env.judge.metrics import Recording
+from semnav_env.world.maps import load_floor_plan, save_floor_plan
+from semnav_env.world.maps.importers import Drawing, import_map
 from semnav_features.readers import Geometry, open_log
 from tests.support.bags import BagFile, Moved, Sweep, storage
 from tests.support.drawn_maps import two_rooms, write_map

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from semnav_env.env import SemNavEnv
-from semnav_env.maps.geodesic import RECENT_FIELDS
-from semnav_env.maps.library import MAX_KEPT_OFFICES
+from semnav_env.world.maps.geodesic import RECENT_FIELDS
+from semnav_env.world.maps.library import MAX_KEPT_OFFICES
 
 EPISODES_ON_A_FLOOR = 10
 """Episodes after which a floor is generated that has never been seen before."""

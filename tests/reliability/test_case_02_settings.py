@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from semnav_env.dynamics import Dynamics
 from semnav_env.env import SemNavEnv
-from semnav_env.lidar import TIM561
-from semnav_env.simulator import OdometrySettings
-from semnav_env.tasks import RewardWeights
+from semnav_env.judge.tasks import RewardWeights
+from semnav_env.world.dynamics import Dynamics
+from semnav_env.world.lidar import TIM561
+from semnav_env.world.simulator import OdometrySettings
 from tests.support.episodes import START
 
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from semnav_env.env import SemNavEnv
-from semnav_env.lidar import TIM561
-from semnav_env.tasks import EpisodeRequest
+from semnav_env.judge.tasks import EpisodeRequest
+from semnav_env.world.lidar import TIM561
 from tests.support.episodes import START
 
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.maps import load_floor_plan, save_floor_plan
 from semnav_env.rendering.video import save_gif, save_png
+from semnav_env.world.maps import load_floor_plan, save_floor_plan
 from semnav_features.writing import replacing, write_file
 from semnav_scripts.main import main
 from tests.test_layers import MODULES

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from semnav_env.env import SemNavEnv
-from semnav_env.maps import generate_office, save_floor_plan
+from semnav_env.world.maps import generate_office, save_floor_plan
 from semnav_scripts.dispatch import LONGEST_LINE
 from semnav_scripts.main import main
 from tests.support.paths import ROOT

@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 
-from semnav_env.episodes import load_episodes
-from semnav_env.episodes.files import to_line
-from semnav_env.maps import load_floor_plan
-from semnav_env.maps.importers import import_map
+from semnav_env.judge.episodes import load_episodes
+from semnav_env.judge.episodes.files import to_line
+from semnav_env.world.maps import load_floor_plan
+from semnav_env.world.maps.importers import import_map
 from semnav_features.decompression import decompressed
 from semnav_features.readers import open_log
 from tests.reliability.bombs import BOMBS

@@ -15,14 +15,20 @@ import numpy as np
 import pytest
 import shapely
 
-from semnav_env.lidar import Lidar
-from semnav_env.lidar.culling import CELL_SIZE, Culling
-from semnav_env.maps import FloorPlan, Surface, bundled_names, load_floor_plan, save_floor_plan
-from semnav_env.maps.cell_budget import MAX_CELLS
-from semnav_env.maps.geodesic import COARSEST_SPACING, GRID_SPACING, Geodesic
-from semnav_env.maps.nearness import clear_near
-from semnav_env.maps.reach import REACH_SPACING, reach
 from semnav_env.robots import WHEELCHAIR
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.lidar.culling import CELL_SIZE, Culling
+from semnav_env.world.maps import (
+    FloorPlan,
+    Surface,
+    bundled_names,
+    load_floor_plan,
+    save_floor_plan,
+)
+from semnav_env.world.maps.cell_budget import MAX_CELLS
+from semnav_env.world.maps.geodesic import COARSEST_SPACING, GRID_SPACING, Geodesic
+from semnav_env.world.maps.nearness import clear_near
+from semnav_env.world.maps.reach import REACH_SPACING, reach
 from semnav_features.frames import FloatArray
 from tests.reliability.children import MEMORY, Outcome, in_child
 from tests.reliability.vast_plans import FAR, PLANS, USES, crossed, large, search, vast
@@ -97,7 +103,7 @@ def test_a_grid_of_any_spacing_within_the_budget_gives_nearly_the_same_ways(
 ) -> None:
     plan = crossed(20.0, 20.0, "small")
     fine = Geodesic(plan).to((2.5, -3.0)).length((-9.0, 0.0))
-    monkeypatch.setattr("semnav_env.maps.cell_budget.MAX_CELLS", 50_000)
+    monkeypatch.setattr("semnav_env.world.maps.cell_budget.MAX_CELLS", 50_000)
     coarse = Geodesic(plan)
     assert coarse.spacing > 1.7 * GRID_SPACING
     assert coarse.to((2.5, -3.0)).length((-9.0, 0.0)) == pytest.approx(fine, abs=0.5)
@@ -110,7 +116,7 @@ def test_larger_cells_of_shorter_lists_change_no_range(monkeypatch: pytest.Monke
     plan = replace(crossed(50.0, 50.0, "crowd"), surfaces=surfaces_of(segments))
     poses = [(*place, 0.3) for place in rng.uniform(-45.0, 45.0, (40, 2)).tolist()]
     before = [Lidar(plan, FAR).exact_ranges(pose) for pose in poses]
-    monkeypatch.setattr("semnav_env.lidar.culling.MAX_CELLS", 20_000)
+    monkeypatch.setattr("semnav_env.world.lidar.culling.MAX_CELLS", 20_000)
     shorter = Culling.of(plan.segments, FAR.range_max)
     assert shorter.ends.shape[1] <= 20_000
     assert shorter.grid["cell"][0] > CELL_SIZE

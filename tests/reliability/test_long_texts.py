@@ -6,8 +6,8 @@ import time
 
 import pytest
 
-from semnav_env.commands import CommandError, parse
-from semnav_env.commands.normalise import MAX_CHARACTERS, MAX_WORD_LENGTH, MAX_WORDS
+from semnav_env.language import CommandError, parse
+from semnav_env.language.normalise import MAX_CHARACTERS, MAX_WORD_LENGTH, MAX_WORDS
 from tests.reliability.long_texts import CHARACTERS, TOKENS, read_run, run_of
 
 

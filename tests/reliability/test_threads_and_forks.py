@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from semnav_env.belief import BeliefTracker
-from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.simulator import Simulator
+from semnav_env.language import parse
+from semnav_env.mind.belief import BeliefTracker
 from semnav_env.vector import SemNavVectorEnv
+from semnav_env.world.simulator import Simulator
 from semnav_features.one_thread import ThreadDoor
 from tests.support.episodes import START
 from tests.support.paths import ROOT

@@ -15,16 +15,16 @@ from semnav_agents.oracle import OracleAgent
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_agents.searching.house_plan import HousePlan
 from semnav_agents.searching.settings import SearchSettings
-from semnav_env.depth import DepthRig, raise_plan
-from semnav_env.dynamics import Dynamics
 from semnav_env.env import SemNavEnv
-from semnav_env.lidar import Lidar
-from semnav_env.maps import FloorPlan, Material, PlanDoor, Region, Surface
-from semnav_env.maps.check import check
-from semnav_env.maps.draw import save_picture
-from semnav_env.maps.occupancy_export import export_map
+from semnav_env.judge.routes.route_to import route_to
 from semnav_env.rescue.environment import search_and_rescue
-from semnav_env.routes.route_to import route_to
+from semnav_env.world.depth import DepthRig, raise_plan
+from semnav_env.world.dynamics import Dynamics
+from semnav_env.world.lidar import Lidar
+from semnav_env.world.maps import FloorPlan, Material, PlanDoor, Region, Surface
+from semnav_env.world.maps.check import check
+from semnav_env.world.maps.draw import save_picture
+from semnav_env.world.maps.occupancy_export import export_map
 from semnav_features.lidar_spec import LidarSpec
 
 FAR = LidarSpec("far", 360, -math.pi, math.radians(1.0), range_max=1000.0)

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from semnav_env.grounding.goal import PassGoal, ReachGoal, SeekGoal, StopGoal
-from semnav_env.maps.floor_plan import Material, Surface
+from semnav_env.mind.grounding.goal import PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.legend import LEGEND_HEIGHT, ROW_HEIGHT, legend_entries
 from semnav_env.rendering.viewer import Viewer
 from semnav_env.robots import SPOT, WHEELCHAIR
+from semnav_env.world.maps.floor_plan import Material, Surface
 from semnav_features.scene import Corner, CornerKind, CorridorProbe, Scene, Wall
 from tests.support.small_office import DOOR, PLAIN, PLAN, office
 

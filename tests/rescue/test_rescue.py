@@ -11,9 +11,6 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.dynamics import Dynamics, PlanSource
-from semnav_env.dynamics.victims import VICTIM_SPACING, victims_of
-from semnav_env.maps import FloorPlan, Material, Surface, generate_office
 from semnav_env.rescue import (
     PersonDetectorSettings,
     PersonMap,
@@ -24,6 +21,9 @@ from semnav_env.rescue.outcome import Report, judge_reports
 from semnav_env.rescue.person_detector import PersonDetector
 from semnav_env.rescue.room_coverage import RoomCoverage
 from semnav_env.robots import SPOT
+from semnav_env.world.dynamics import Dynamics, PlanSource
+from semnav_env.world.dynamics.victims import VICTIM_SPACING, victims_of
+from semnav_env.world.maps import FloorPlan, Material, Surface, generate_office
 from semnav_features.lidar_spec import TIM561
 
 SURE = PersonDetectorSettings(

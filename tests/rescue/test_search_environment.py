@@ -10,8 +10,8 @@ import pytest
 
 from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
-from semnav_env.commands import Command, GoBack, SearchHouse
 from semnav_env.env import SemNavEnv
+from semnav_env.language import Command, GoBack, SearchHouse
 from semnav_env.rescue import PersonSearch, PersonTrack
 from semnav_env.rescue.environment import search_and_rescue
 from semnav_env.rescue.people_entry import read_people

@@ -7,16 +7,16 @@ import math
 import numpy as np
 import shapely
 
-from semnav_env.lidar.lidar import Lidar
-from semnav_env.maps import FloorPlan, PlanDoor, Region, Surface, generate_office
-from semnav_env.maps.pose_flood import REACHED
-from semnav_env.maps.reach import reach
 from semnav_env.rescue import PersonDetectorSettings
 from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.person_detector import view_spec
 from semnav_env.rescue.room_coverage import RoomCoverage
 from semnav_env.rescue.visible_floor import CELL, FloorGrid, visible_floor
 from semnav_env.robots import SPOT
+from semnav_env.world.lidar.lidar import Lidar
+from semnav_env.world.maps import FloorPlan, PlanDoor, Region, Surface, generate_office
+from semnav_env.world.maps.pose_flood import REACHED
+from semnav_env.world.maps.reach import reach
 from semnav_features.frames import compose
 from studies.search.all_around import seen_all_around
 

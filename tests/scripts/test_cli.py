@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.maps import bundled_names, load_floor_plan, save_floor_plan
+from semnav_env.world.maps import bundled_names, load_floor_plan, save_floor_plan
 from semnav_scripts import main as cli
 from semnav_scripts import progress
 from semnav_scripts.arguments import parse

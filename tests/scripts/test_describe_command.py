@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from semnav_env.commands import from_program, parse
+from semnav_env.language import from_program, parse
 from semnav_scripts.main import main
 
 

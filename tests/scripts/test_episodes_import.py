@@ -10,10 +10,10 @@ import pytest
 import shapely
 from shapely import affinity, box
 
-from semnav_env.episodes import SPLITS, load_episodes
-from semnav_env.episodes.generate import TooBareError, generate_episode
-from semnav_env.episodes.site import Site
-from semnav_env.maps import FloorPlan, PlanDoor, Region, load_floor_plan, save_floor_plan
+from semnav_env.judge.episodes import SPLITS, load_episodes
+from semnav_env.judge.episodes.generate import TooBareError, generate_episode
+from semnav_env.judge.episodes.site import Site
+from semnav_env.world.maps import FloorPlan, PlanDoor, Region, load_floor_plan, save_floor_plan
 from semnav_features.frames import Point
 from tests.support.command_line import run
 from tests.support.small_plans import closed

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.belief.log_following import PoseChoice, follow_log
-from semnav_env.commands import parse
-from semnav_env.lidar import Lidar
+from semnav_env.language import parse
+from semnav_env.mind.belief.log_following import PoseChoice, follow_log
+from semnav_env.world.lidar import Lidar
 from semnav_features import Scan
 from semnav_features.frames import Pose
 from semnav_features.readers import Geometry, open_log

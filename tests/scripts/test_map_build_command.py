@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 from semnav_features import Scan
 from semnav_features.frames import compose, relative
 from semnav_features.mapping import ScanOdometry

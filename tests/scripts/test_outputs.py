@@ -3,10 +3,10 @@ import json
 import pytest
 from PIL import Image
 
-from semnav_env.maps import load_floor_plan
-from semnav_env.routes.describe import describe
-from semnav_env.routes.route import RouteError
-from semnav_env.routes.route_to import route_to
+from semnav_env.judge.routes.describe import describe
+from semnav_env.judge.routes.route import RouteError
+from semnav_env.judge.routes.route_to import route_to
+from semnav_env.world.maps import load_floor_plan
 from semnav_scripts import main as cli
 from semnav_scripts.outputs import check_file, check_folder, counted
 from tests.support.drawn_maps import DOORS, two_rooms, write_map

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 from semnav_scripts.printable import LAYOUT, UNPRINTABLE, printable
 from tests.reliability.readers import READERS, Reader
 from tests.support.command_line import run

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from semnav_env.maps.floor_plan import PlanDoor
-from semnav_env.maps.importers import read_occupancy
-from semnav_env.maps.importers.segments import plan_of_segments
+from semnav_env.world.maps.floor_plan import PlanDoor
+from semnav_env.world.maps.importers import read_occupancy
+from semnav_env.world.maps.importers.segments import plan_of_segments
 from semnav_features import ExtractorSettings
 from semnav_features.scene import Door
 from studies.__main__ import STUDIES

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from shapely import LineString, Point
 
-from semnav_env.maps import Material, bundled_names, load_floor_plan
+from semnav_env.world.maps import Material, bundled_names, load_floor_plan
 from studies.features.clutter import cluttered
 from studies.truth import TrueView
 from studies.truth.shapes import fit_circle

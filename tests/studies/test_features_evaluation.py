@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 from PIL import Image
 
-from semnav_env.maps import bundled_names, load_floor_plan
+from semnav_env.world.maps import bundled_names, load_floor_plan
 from semnav_features import Door, ExtractorSettings, Scene
 from studies.__main__ import STUDIES
 from studies.doors.door_sightings import Gate

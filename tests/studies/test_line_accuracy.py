@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 from semnav_features import Door, ExtractorSettings, Scan, Scene, Wall
 from studies.features.cases import Case, CaseSituation, draw_cases
 from studies.lines.command import Arguments

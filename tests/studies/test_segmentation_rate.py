@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from semnav_env.lidar import TIM561
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.lidar import TIM561
+from semnav_env.world.maps import load_floor_plan
 from semnav_features import ExtractorSettings
 from studies.__main__ import STUDIES
 from studies.segmentation.segment_labels import NO_SEGMENT, found_lines, label, labelled_scans

@@ -4,8 +4,8 @@ import time
 
 import numpy as np
 
-from semnav_env.commands import parse
-from semnav_env.commands.corpora import ParseOutcome, development_corpora, load_sentences
+from semnav_env.language import parse
+from semnav_env.language.corpora import ParseOutcome, development_corpora, load_sentences
 from studies.speech.robustness import (
     changed_commands,
     outcomes,

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from shapely import LineString
 
-from semnav_env.maps.check import check
 from semnav_env.robots import SPOT
+from semnav_env.world.maps.check import check
 from studies.__main__ import STUDIES
 from studies.tour.pursuit import PlanPursuit
 from studies.tour.tour import CORRECTIONS, result, tour

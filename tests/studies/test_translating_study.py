@@ -3,15 +3,15 @@
 import numpy as np
 
 from semnav_agents.translating.files import BUNDLED_FOLDER
-from semnav_env.commands import parse
-from semnav_env.commands.corpora import (
+from semnav_env.language import parse
+from semnav_env.language.corpora import (
     ParseOutcome,
     development_corpora,
     judge,
     load_sentences,
 )
-from semnav_env.commands.corpora.meanings import meaning_of, normal
-from semnav_env.commands.corpora.measure import rooms_in
+from semnav_env.language.corpora.meanings import meaning_of, normal
+from semnav_env.language.corpora.measure import rooms_in
 from studies.translating.infeasible import infeasible
 from studies.translating.measure import interpreters, outcome_of
 from studies.translating.programs import command_of_meaning

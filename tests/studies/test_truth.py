@@ -9,8 +9,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from shapely import Point, union_all
 
-from semnav_env.lidar.lidar import Lidar
-from semnav_env.maps import Material, PlanDoor, Surface, bundled_names, load_floor_plan
+from semnav_env.world.lidar.lidar import Lidar
+from semnav_env.world.maps import Material, PlanDoor, Surface, bundled_names, load_floor_plan
 from semnav_features import CornerKind, extract
 from semnav_features.lidar_spec import TIM561, LidarSpec
 from studies.doors.door_sightings import Gate, View, matches

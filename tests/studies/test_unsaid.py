@@ -8,14 +8,14 @@ import math
 import numpy as np
 import pytest
 
-from semnav_env.commands import Leave, parse
 from semnav_env.env import SemNavEnv
-from semnav_env.grounding import GroundingError, PassGoal, ground
-from semnav_env.grounding.room_exits import room_exits
-from semnav_env.grounding.visible_doors import doors_around
-from semnav_env.maps import load_floor_plan
-from semnav_env.tasks.implicit import with_implicit_steps
-from semnav_env.verifier import plan_goals
+from semnav_env.judge.tasks.implicit import with_implicit_steps
+from semnav_env.judge.verifier import plan_goals
+from semnav_env.language import Leave, parse
+from semnav_env.mind.grounding import GroundingError, PassGoal, ground
+from semnav_env.mind.grounding.room_exits import room_exits
+from semnav_env.mind.grounding.visible_doors import doors_around
+from semnav_env.world.maps import load_floor_plan
 from semnav_features.frames import Pose
 from semnav_features.scene import Door, Scene, Wall
 from studies.__main__ import STUDIES

@@ -8,10 +8,10 @@ import pytest
 
 pytest.importorskip("torch")
 
-from semnav_env.commands import GoToRoom
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Episode, load_episodes
-from semnav_env.observations import table
+from semnav_env.judge.episodes import Episode, load_episodes
+from semnav_env.language import GoToRoom
+from semnav_env.mind.observations import table
 from studies.wordless.wordless import WordlessAgent, WordlessObservation, train
 
 

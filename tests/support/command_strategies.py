@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
-from semnav_env.commands import (
+from semnav_env.language import (
     MAX_CLAUSES,
     MAX_FROM_END,
     MAX_ORDINAL,
@@ -30,7 +30,7 @@ from semnav_env.commands import (
     Turning,
     Unit,
 )
-from semnav_env.commands.command import room_of
+from semnav_env.language.command import room_of
 
 ordinals = st.integers(-MAX_FROM_END, MAX_ORDINAL).filter(lambda ordinal: ordinal != OTHER)
 doors = st.builds(

@@ -3,8 +3,8 @@
 import numpy as np
 
 from semnav_agents.learning.compact import CompactObserver
-from semnav_env.observations import GOAL
-from semnav_env.observations.layout import BUMP_ROWS
+from semnav_env.mind.observations import GOAL
+from semnav_env.mind.observations.layout import BUMP_ROWS
 from semnav_env.robots import ROBOTS
 from semnav_features.lidar_spec import lidar_spec
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from semnav_env.robots import WHEELCHAIR, RobotSpec
-from semnav_env.world import World
+from semnav_env.world.physics import World
 from semnav_features.frames import Pose
 from tests.support.small_plans import empty_hall
 

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from semnav_agents.oracle import OracleAgent
-from semnav_env.maps.floor_plan import FloorPlan
-from semnav_env.metrics import Recording
-from semnav_env.verifier import Motion, Verifier, place
+from semnav_env.judge.metrics import Recording
+from semnav_env.judge.verifier import Motion, Verifier, place
+from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import FloatArray, Point, wrap_angle
 
 PERIOD = 1.0 / 15.0

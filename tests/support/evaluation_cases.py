@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 from semnav_features import Wall
 from studies.features.cases import draw_cases
 from studies.features.comparison import compare

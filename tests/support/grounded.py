@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from semnav_env.commands import Clause, parse
-from semnav_env.grounding import Goal, ground
-from semnav_env.grounding.goal import door_of
+from semnav_env.language import Clause, parse
+from semnav_env.mind.grounding import Goal, ground
+from semnav_env.mind.grounding.goal import door_of
 from semnav_features.frames import Pose
 from semnav_features.scene import Scene
 from tests.support.hand_made import corridor

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import shapely
 
-from semnav_env.dynamics import Dynamics, PlanSource
-from semnav_env.maps.placement import footprint, sample_pose
 from semnav_env.robots import ROBOTS
-from semnav_env.world import World
+from semnav_env.world.dynamics import Dynamics, PlanSource
+from semnav_env.world.maps.placement import footprint, sample_pose
+from semnav_env.world.physics import World
 from tests.support.driving import random_commands
 
 EPISODE = 250

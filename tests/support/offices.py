@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import strategies as st
 
-from semnav_env.maps import DISTRIBUTIONS
+from semnav_env.world.maps import DISTRIBUTIONS
 
 every_distribution = pytest.mark.parametrize("name", DISTRIBUTIONS)
 seeds = st.integers(0, 2**63 - 1)

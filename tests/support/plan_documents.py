@@ -6,8 +6,8 @@ import copy
 import json
 from typing import Any
 
-from semnav_env.maps import FloorPlan
-from semnav_env.maps.reader import parse_plan
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.maps.reader import parse_plan
 
 Document = dict[str, Any]
 

@@ -8,7 +8,7 @@ import shapely
 from shapely import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 
-from semnav_env.maps import FloorPlan, PlanDoor
+from semnav_env.world.maps import FloorPlan, PlanDoor
 
 
 def solid(plan: FloorPlan, assumed: bool = True) -> shapely.MultiLineString:

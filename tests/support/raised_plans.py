@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 from shapely import box
 
-from semnav_env.depth import DepthCamera, DepthRig
-from semnav_env.maps.floor_plan import FloorPlan, PlanDoor, Surface
+from semnav_env.world.depth import DepthCamera, DepthRig
+from semnav_env.world.maps.floor_plan import FloorPlan, PlanDoor, Surface
 from tests.support.small_plans import plan_of
 
 DOOR = PlanDoor("door", (2.0, -0.45), (2.0, 0.45))

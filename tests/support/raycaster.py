@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from semnav_env.maps import load_floor_plan
+from semnav_env.world.maps import load_floor_plan
 from semnav_features import Scan
 from semnav_features.frames import FloatArray, Point, Pose
 

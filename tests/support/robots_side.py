@@ -9,7 +9,7 @@ import sys
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from semnav_env.belief import Belief, BeliefTracker
+    from semnav_env.mind.belief import Belief, BeliefTracker
 
 SIMULATOR = ("dynamics", "env", "episodes", "lidar", "maps", "metrics", "observations", "rendering")
 SIMULATOR += ("robots", "routes", "simulator", "tasks", "verifier", "world", "agents", "scripts")
@@ -26,8 +26,8 @@ class Recorded(NamedTuple):
 
 def begun(record: Recorded) -> BeliefTracker:
     """A tracker that has been told the command."""
-    from semnav_env.belief import BeliefTracker
-    from semnav_env.commands import parse
+    from semnav_env.language import parse
+    from semnav_env.mind.belief import BeliefTracker
 
     tracker = BeliefTracker("tim561", record.mount)
     tracker.begin(parse(record.command))

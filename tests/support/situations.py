@@ -15,7 +15,7 @@ from typing import Any
 
 from shapely import box
 
-from semnav_env.maps import FloorPlan, Material, PlanDoor, Surface, load_floor_plan
+from semnav_env.world.maps import FloorPlan, Material, PlanDoor, Surface, load_floor_plan
 from semnav_features.frames import Point, Pose
 from semnav_features.scene import Scene, Wall
 from tests.support.hand_made import corridor, polyline

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from shapely import box
 
-from semnav_env.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_env.rendering.frame import Frame
 from semnav_env.robots import WHEELCHAIR
+from semnav_env.world.maps.floor_plan import FloorPlan, Material, PlanDoor, Region, Surface
 from semnav_features.scene import Door
 
 DOOR = Door((4.0, 0.0), (5.0, 0.0))

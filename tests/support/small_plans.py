@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from shapely import box
 
-from semnav_env.maps.floor_plan import FloorPlan, Material, Surface
+from semnav_env.world.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_features.frames import Point
 
 

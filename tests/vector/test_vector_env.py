@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
-from semnav_env.dynamics import Dynamics
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import EntryObservation
-from semnav_env.tasks import AddedTerms, RewardWeights
+from semnav_env.judge.tasks import AddedTerms, RewardWeights
+from semnav_env.mind.observations import EntryObservation
 from semnav_env.vector import SemNavVectorEnv
+from semnav_env.world.dynamics import Dynamics
 
 EACH = (
     {"floor_plan": "heidelberg_hallway"},
@@ -195,7 +195,7 @@ def test_what_a_stranger_gives_works_in_a_vector(options):
 def test_the_path_of_pymunk_gives_the_same_bits(monkeypatch):
     fast = SemNavVectorEnv(2, floor_plan="office_cross")
     fast.reset(seed=4)
-    monkeypatch.setattr("semnav_env.world.world.chipmunk_can_be_called", lambda: False)
+    monkeypatch.setattr("semnav_env.world.physics.world.chipmunk_can_be_called", lambda: False)
     slow = SemNavVectorEnv(2, floor_plan="office_cross")
     slow.reset(seed=4)
     assert_goes_on_like(fast, slow, steps=60)

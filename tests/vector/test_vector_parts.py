@@ -10,9 +10,9 @@ import pytest
 
 from semnav_agents.learning.sb3_vec_env import as_sb3_vec_env
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import EntryObservation
+from semnav_env.judge.tasks import EpisodeRequest, RewardWeights
+from semnav_env.mind.observations import EntryObservation
 from semnav_env.rescue import PersonSearch
-from semnav_env.tasks import EpisodeRequest, RewardWeights
 from semnav_env.vector import SemNavVectorEnv
 from semnav_features.lidar_spec import TIM561
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from semnav_env.commands import CommandError, GrammarInterpreter, Interpreter
-from semnav_env.episodes import Episode
+from semnav_env.judge.episodes import Episode
+from semnav_env.language import CommandError, GrammarInterpreter, Interpreter
 
 
 def grammar_of(episode: Episode) -> Interpreter:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from semnav_env.grounding.goal import Goal, door_of
-from semnav_env.metrics import Metrics
-from semnav_env.verifier import Verdict, Verifier
+from semnav_env.judge.metrics import Metrics
+from semnav_env.judge.verifier import Verdict, Verifier
+from semnav_env.mind.grounding.goal import Goal, door_of
 
 
 def cause_of(verifier: Verifier, metrics: Metrics, impossible: str | None) -> str:

@@ -10,14 +10,14 @@ from typing import Any
 from semnav_agents.base import Agent, GoalHolder, steps
 from semnav_agents.evaluation.causes import cause_of
 from semnav_env.env import SemNavEnv
-from semnav_env.metrics import Metrics, Recorder, Recording, measure
-from semnav_env.metrics.event_log import events_of
-from semnav_env.metrics.events import Event
-from semnav_env.metrics.final_belief import FinalBelief
+from semnav_env.judge.metrics import Metrics, Recorder, Recording, measure
+from semnav_env.judge.metrics.event_log import events_of
+from semnav_env.judge.metrics.events import Event
+from semnav_env.judge.metrics.final_belief import FinalBelief
+from semnav_env.judge.verifier import Verdict, Verifier
+from semnav_env.judge.verifier.recheck import recheck
 from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
-from semnav_env.verifier import Verdict, Verifier
-from semnav_env.verifier.recheck import recheck
 from semnav_features.frames import ORIGIN, compose, relative, to_parent
 
 
@@ -80,7 +80,9 @@ class Drive:
 
     def save_picture(self, path: str | Path, title: str = "") -> None:
         """Write a picture: plan, true route, path driven, contacts, goals, what was believed."""
-        from semnav_env.metrics.picture import save_episode  # matplotlib only when it is wanted
+        from semnav_env.judge.metrics.picture import (
+            save_episode,  # matplotlib only when it is wanted
+        )
 
         mission = self.verifier.mission
         plan, route, goals = mission.floor_plan, mission.route, mission.goals

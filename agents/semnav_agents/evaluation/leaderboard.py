@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from semnav_agents.evaluation.attempts import Attempt
 from semnav_agents.evaluation.intervals import wilson_interval
-from semnav_env.metrics import cvar
+from semnav_env.judge.metrics import cvar
 from semnav_features.frames import FloatArray
 
 RESAMPLES = 2000

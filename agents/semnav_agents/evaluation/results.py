@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 
 from semnav_agents.evaluation.intervals import wilson_interval
-from semnav_env.dynamics.social import for_json
-from semnav_env.metrics import WORST_SHARES, Metrics, means, worst
-from semnav_env.verifier import FAILURES
+from semnav_env.judge.metrics import WORST_SHARES, Metrics, means, worst
+from semnav_env.judge.verifier import FAILURES
+from semnav_env.world.dynamics.social import for_json
 
 INTERVAL_MEASURES = ("success", "contact_free")
 """Measures that are shares of episodes, and so have an interval."""

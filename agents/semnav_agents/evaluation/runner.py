@@ -18,13 +18,13 @@ from semnav_agents.evaluation.drive import Drive, drive
 from semnav_agents.evaluation.results import Result, failure_line
 from semnav_agents.evaluation.suites import Trial
 from semnav_agents.registry import AgentSource, make_agent
-from semnav_env.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Episode, Expected
-from semnav_env.maps import FloorPlan
-from semnav_env.maps.placement import MAX_DRAWS, has_room, placement_error
+from semnav_env.judge.episodes import Episode, Expected
 from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
+from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.maps.placement import MAX_DRAWS, has_room, placement_error
 from semnav_features.frames import Pose
 from semnav_features.interruption import for_this_process_alone
 

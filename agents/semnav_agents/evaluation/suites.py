@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from semnav_env.commands.suggest import did_you_mean
-from semnav_env.episodes import SPLITS
+from semnav_env.judge.episodes import SPLITS
+from semnav_env.language.suggest import did_you_mean
 from semnav_features.frames import Pose
 
 

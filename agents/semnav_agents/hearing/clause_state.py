@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.commands.tokens import CLAUSE_FEATURES, CONDITION_CASES, TokenVerb
-from semnav_env.grounding.ways import WAY_SPACING, Trail
+from semnav_env.language.tokens import CLAUSE_FEATURES, CONDITION_CASES, TokenVerb
+from semnav_env.mind.grounding.ways import WAY_SPACING, Trail
 from semnav_features.frames import FloatArray, Point, Pose, to_local
 
 STANDSTILL_SPEED = 0.05

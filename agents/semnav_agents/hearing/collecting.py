@@ -16,15 +16,15 @@ from semnav_agents.hearing.clause_state import ClauseState
 from semnav_agents.hearing.elements import Description, describe
 from semnav_agents.hearing.labels import Label, as_record, imagined_label, real_label, steps_on
 from semnav_agents.scripted import ScriptedAgent
-from semnav_env.commands.clauses import Clause, GoToRoom
-from semnav_env.commands.command import Command
-from semnav_env.commands.encoding import encode
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import Episode
-from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal import door_of
-from semnav_env.observations import EntryObservation, Moment, SeenGoal
-from semnav_env.observations.layout import GOAL
+from semnav_env.judge.episodes import Episode
+from semnav_env.language.clauses import Clause, GoToRoom
+from semnav_env.language.command import Command
+from semnav_env.language.encoding import encode
+from semnav_env.mind.grounding.follower import Follower
+from semnav_env.mind.grounding.goal import door_of
+from semnav_env.mind.observations import EntryObservation, Moment, SeenGoal
+from semnav_env.mind.observations.layout import GOAL
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import relative, to_local
 from semnav_features.lidar_spec import LidarSpec

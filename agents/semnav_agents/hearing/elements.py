@@ -20,7 +20,7 @@ from semnav_agents.hearing.clause_state import ClauseState
 from semnav_agents.hearing.openings import describe_doors, describe_openings
 from semnav_agents.hearing.tokens import describe_clauses
 from semnav_agents.hearing.told import told_place_rows
-from semnav_env.observations import read_odometry, table
+from semnav_env.mind.observations import read_odometry, table
 from semnav_features.corridor import Corridor, corridor_along
 from semnav_features.frames import Pose, points_to_local, relative, to_local
 from semnav_features.lidar_spec import LidarSpec

@@ -13,17 +13,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.commands.clauses import Clause, GoBack, GoToRoom, IfThere
-from semnav_env.grounding.clause_order import comes_after_corridor, in_context
-from semnav_env.grounding.conditions import is_met
-from semnav_env.grounding.errors import GroundingError
-from semnav_env.grounding.follower import Follower
-from semnav_env.grounding.goal import Goal, GoalKind, ReachGoal, door_of
-from semnav_env.grounding.goals import search_goal
-from semnav_env.grounding.ground import goal_of
-from semnav_env.grounding.known_way import next_on_way
-from semnav_env.grounding.search import Searching
-from semnav_env.grounding.situation import Situation
+from semnav_env.language.clauses import Clause, GoBack, GoToRoom, IfThere
+from semnav_env.mind.grounding.clause_order import comes_after_corridor, in_context
+from semnav_env.mind.grounding.conditions import is_met
+from semnav_env.mind.grounding.errors import GroundingError
+from semnav_env.mind.grounding.follower import Follower
+from semnav_env.mind.grounding.goal import Goal, GoalKind, ReachGoal, door_of
+from semnav_env.mind.grounding.goals import search_goal
+from semnav_env.mind.grounding.ground import goal_of
+from semnav_env.mind.grounding.known_way import next_on_way
+from semnav_env.mind.grounding.search import Searching
+from semnav_env.mind.grounding.situation import Situation
 from semnav_features.frames import Pose, relative, to_local
 from semnav_features.scene import Scene
 

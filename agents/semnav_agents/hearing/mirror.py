@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from semnav_agents.hearing.elements import ElementKind
 from semnav_agents.hearing.tokens import CLAUSE_SIZE
-from semnav_env.commands.tokens import COLUMN_SIZES, TokenVerb
+from semnav_env.language.tokens import COLUMN_SIZES, TokenVerb
 
 Arrays = dict[str, NDArray[Any]]
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.commands.clauses import DEGREE_STEP
-from semnav_env.commands.references import AMOUNT_STEP, STEP_LENGTH, Unit
-from semnav_env.commands.tokens import (
+from semnav_env.language.clauses import DEGREE_STEP
+from semnav_env.language.references import AMOUNT_STEP, STEP_LENGTH, Unit
+from semnav_env.language.tokens import (
     COLUMN_SIZES,
     DEGREES,
     LAST_TOKEN,

@@ -10,7 +10,7 @@ import numpy as np
 from semnav_agents.base import Observation
 from semnav_agents.hearing.clause_state import ClauseState
 from semnav_agents.hearing.openings import RowArrays, through_one
-from semnav_env.observations import table
+from semnav_env.mind.observations import table
 from semnav_features.frames import FloatArray, Pose, points_to_local, to_local
 
 AHEAD = (0, 1, 2, 3)

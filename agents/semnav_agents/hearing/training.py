@@ -27,7 +27,7 @@ from semnav_agents.hearing.network import GroundingNetwork
 from semnav_agents.hearing.presets import HearingPreset, HearingRound
 from semnav_agents.hearing.torch_network import TorchGrounding
 from semnav_agents.learning.files import load_tensors, save_tensors
-from semnav_env.episodes import Episode, load_episodes
+from semnav_env.judge.episodes import Episode, load_episodes
 from semnav_features.writing import replacing
 
 STATE_FILE, SAMPLES = "training.safetensors", "samples"

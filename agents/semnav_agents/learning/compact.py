@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from semnav_agents.base import Observation
 from semnav_agents.learning.room_memory import PROBED_MOVES, SECTORS, RoomMemory
 from semnav_agents.planning.obstacles import points_of_segments
-from semnav_env.observations.layout import BUMP_ROWS, GOAL, ODOMETRY
+from semnav_env.mind.observations.layout import BUMP_ROWS, GOAL, ODOMETRY
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import FloatArray
 from semnav_features.lidar_spec import LidarSpec

@@ -18,10 +18,10 @@ from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver
 from semnav_agents.learning.joined_vec_env import JoinedVecEnv
 from semnav_agents.learning.presets import Preset
 from semnav_agents.learning.sb3_vec_env import as_sb3_vec_env
-from semnav_env.episodes import Episode, load_episodes
-from semnav_env.maps import load_floor_plan
+from semnav_env.judge.episodes import Episode, load_episodes
+from semnav_env.judge.tasks import EpisodeRequest
 from semnav_env.robots import RobotSpec, robot_spec
-from semnav_env.tasks import EpisodeRequest
+from semnav_env.world.maps import load_floor_plan
 
 Array = NDArray[np.float32]
 

@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass
 from typing import Annotated, Any
 
 from semnav_agents.evaluation.suites import Trial, suite
+from semnav_env.judge.tasks import RewardWeights
 from semnav_env.robots import robot_spec
-from semnav_env.tasks import RewardWeights
 from semnav_features.checked_fields import Bounds, Count, Share, check_fields
 
 

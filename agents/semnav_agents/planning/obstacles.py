@@ -16,7 +16,7 @@ from semnav_agents.planning.obstacle_kernels import (
     forget,
     select,
 )
-from semnav_env.maps.cell_budget import check_cells
+from semnav_env.world.maps.cell_budget import check_cells
 from semnav_features.checked_fields import Bounds, Count, Length, Share, check_fields
 from semnav_features.frames import FloatArray, Pose, wrap_angle
 

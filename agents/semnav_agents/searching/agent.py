@@ -21,9 +21,8 @@ from semnav_agents.searching.search_map import FREE, SearchMap, without_lost
 from semnav_agents.searching.searcher import Searcher
 from semnav_agents.searching.settings import SearchSettings
 from semnav_agents.searching.views import Looker
-from semnav_env.grounding.goal import GoalKind
-from semnav_env.maps import FloorPlan
-from semnav_env.observations import (
+from semnav_env.mind.grounding.goal import GoalKind
+from semnav_env.mind.observations import (
     EntryObservation,
     ObservationType,
     SeenGoal,
@@ -33,6 +32,7 @@ from semnav_env.observations import (
 from semnav_env.rescue.people_entry import PeopleEntry, read_people
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.robots import RobotSpec
+from semnav_env.world.maps import FloorPlan
 from semnav_features.frames import (
     ORIGIN,
     FloatArray,

@@ -8,7 +8,7 @@ import shapely
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_agents.searching.search_map import Mask, SearchMap
 from semnav_agents.searching.settings import SearchSettings
-from semnav_env.maps import FloorPlan, Material
+from semnav_env.world.maps import FloorPlan, Material
 from semnav_features.frames import FloatArray, Pose, points_to_local, points_to_parent
 
 MARGIN = 1.0

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.searching.settings import SearchSettings
-from semnav_env.maps.cell_budget import check_cells
+from semnav_env.world.maps.cell_budget import check_cells
 from semnav_features.frames import FloatArray, Point, Pose
 from semnav_features.kernels.compiling import kernel
 

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from semnav_agents.searching.search_map import SAFE, Mask, SearchMap
-from semnav_env.maps.reach import Reach, reach_in_grid
 from semnav_env.robots import RobotSpec
+from semnav_env.world.maps.reach import Reach, reach_in_grid
 from semnav_features.frames import FloatArray, Point, Pose
 from semnav_features.kernels.grid_search import least_costs
 

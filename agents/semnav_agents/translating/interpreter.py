@@ -9,17 +9,17 @@ from pathlib import Path
 from semnav_agents.translating.files import BUNDLED_FOLDER, load_translator
 from semnav_agents.translating.support import TextSupport
 from semnav_agents.translating.translator import TranslatedText, Translation, translate
-from semnav_env.commands.clauses import GoToDoor, Stop
-from semnav_env.commands.command import Command
-from semnav_env.commands.corpora.meanings import meaning_of, normal
-from semnav_env.commands.defaults import decided
-from semnav_env.commands.errors import AmbiguousCommandError, CommandError
-from semnav_env.commands.interpreters import Interpretation
-from semnav_env.commands.language import Language
-from semnav_env.commands.normalise import normalise
-from semnav_env.commands.parser import check_rooms, differences, readings
-from semnav_env.commands.speech.recognition import language_of_text
-from semnav_env.commands.speech.understanding import QUESTION
+from semnav_env.language.clauses import GoToDoor, Stop
+from semnav_env.language.command import Command
+from semnav_env.language.corpora.meanings import meaning_of, normal
+from semnav_env.language.defaults import decided
+from semnav_env.language.errors import AmbiguousCommandError, CommandError
+from semnav_env.language.interpreters import Interpretation
+from semnav_env.language.language import Language
+from semnav_env.language.normalise import normalise
+from semnav_env.language.parser import check_rooms, differences, readings
+from semnav_env.language.speech.recognition import language_of_text
+from semnav_env.language.speech.understanding import QUESTION
 
 SETTLED = (QUESTION, "a distance is")
 """How problems begin that the grammar has understood: "30 cm" is no occasion to ask about 30 m."""

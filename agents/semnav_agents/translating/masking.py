@@ -11,15 +11,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from semnav_env.commands.errors import CommandError
-from semnav_env.commands.languages import english, languages
-from semnav_env.commands.normalise import normalise
-from semnav_env.commands.references import Side
-from semnav_env.commands.speech.lexicon import SpeechLexicon, lexicon_of
-from semnav_env.commands.speech.numerals import read_number
-from semnav_env.commands.speech.recognition import recognised
-from semnav_env.commands.speech.room_words import name_phrases
-from semnav_env.commands.words import pieces
+from semnav_env.language.errors import CommandError
+from semnav_env.language.languages import english, languages
+from semnav_env.language.normalise import normalise
+from semnav_env.language.references import Side
+from semnav_env.language.speech.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.speech.numerals import read_number
+from semnav_env.language.speech.recognition import recognised
+from semnav_env.language.speech.room_words import name_phrases
+from semnav_env.language.words import pieces
 
 _Key = TypeVar("_Key")
 

@@ -13,7 +13,7 @@ from semnav_agents.translating.masking import (
     VALUE_SYMBOLS,
     MaskedText,
 )
-from semnav_env.commands.clauses import (
+from semnav_env.language.clauses import (
     Approach,
     Clause,
     Face,
@@ -28,8 +28,8 @@ from semnav_env.commands.clauses import (
     Turn,
     Turning,
 )
-from semnav_env.commands.command import Command
-from semnav_env.commands.references import (
+from semnav_env.language.command import Command
+from semnav_env.language.references import (
     Distance,
     DoorReference,
     Place,

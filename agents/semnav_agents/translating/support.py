@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from semnav_env.commands.clauses import Follow, GoBack, Leave, Stop
-from semnav_env.commands.command import Command
-from semnav_env.commands.references import DoorReference, PlaceReference
-from semnav_env.commands.speech.lexicon import SpeechLexicon, parts_of
-from semnav_env.commands.speech.recognition import lexicon_for, recognised
+from semnav_env.language.clauses import Follow, GoBack, Leave, Stop
+from semnav_env.language.command import Command
+from semnav_env.language.references import DoorReference, PlaceReference
+from semnav_env.language.speech.lexicon import SpeechLexicon, parts_of
+from semnav_env.language.speech.recognition import lexicon_for, recognised
 
 _COUNTED = ("one", "ordinal", "another")
 NEEDED = {

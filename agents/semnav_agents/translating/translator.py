@@ -14,8 +14,8 @@ from semnav_agents.translating.programs import (
     command_of,
     symbols_of,
 )
-from semnav_env.commands.command import Command
-from semnav_env.commands.errors import CommandError
+from semnav_env.language.command import Command
+from semnav_env.language.errors import CommandError
 
 MAX_TRANSLATED_WORDS = 60
 """The longest text that is translated, words; those of the training are shorter."""

@@ -7,10 +7,10 @@ from semnav_agents.hearing.clause_state import ClauseState
 from semnav_agents.hearing.elements import MOST_ELEMENTS, describe
 from semnav_agents.hearing.network import GroundingNetwork, NetworkShape
 from semnav_agents.hearing.tokens import COMMAND_SIZE, describe_clauses
-from semnav_env.commands import encode, parse
 from semnav_env.env import SemNavEnv
-from semnav_env.observations import read_odometry, table
-from semnav_env.observations.layout import MEMORY_TABLES, TABLES
+from semnav_env.language import encode, parse
+from semnav_env.mind.observations import read_odometry, table
+from semnav_env.mind.observations.layout import MEMORY_TABLES, TABLES
 
 SHAPE = NetworkShape(width=16, heads=2, layers=2, hidden=24)
 COMMAND = "go through the second door on the right and turn left"

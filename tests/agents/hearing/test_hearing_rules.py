@@ -10,10 +10,10 @@ from semnav_agents.hearing.agent import REST_SECONDS, HearingAgent
 from semnav_agents.hearing.clause_state import ClauseState
 from semnav_agents.hearing.network import NetworkOutput
 from semnav_agents.hearing.told import outward_of
-from semnav_env.commands import encode, parse
 from semnav_env.env import SemNavEnv
-from semnav_env.grounding import GoalKind
-from semnav_env.observations import SeenGoal
+from semnav_env.language import encode, parse
+from semnav_env.mind.grounding import GoalKind
+from semnav_env.mind.observations import SeenGoal
 
 DOOR = np.array((0.0, -0.5, 0.0, 0.5))
 """Jambs; who comes from the left of the plane heads through it along x."""

@@ -13,7 +13,7 @@ from semnav_agents.hearing.card import ModelCard
 from semnav_agents.learned import agent_label
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.episodes import load_episodes
+from semnav_env.judge.episodes import load_episodes
 from tests.support.paths import GOLDEN
 
 EXPECTED = json.loads((GOLDEN / "listener.json").read_text())

@@ -18,7 +18,7 @@ from ray.tune.registry import register_env
 from semnav_agents.learning.presets import Preset
 from semnav_agents.learning.rllib.options import RayOptions
 from semnav_agents.learning.rllib.runner_env import RunnerVectorEnv, runner_envs
-from semnav_env.metrics import spl
+from semnav_env.judge.metrics import spl
 
 ENVIRONMENT = "semnav-preset"
 """Name under which Ray knows the environments."""

@@ -1,0 +1,56 @@
+"""Checks frozen episodes anew: starts, meanings and feasibility."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from semnav_env.judge.episodes.episode import Episode, Expected, StaleEpisodeError
+from semnav_env.judge.routes.room_guide import RoomGuide
+from semnav_env.judge.verifier import plan_goals
+from semnav_env.language import readings
+from semnav_env.mind.grounding import GroundingError
+from semnav_env.robots import ROBOTS
+from semnav_env.world.maps import FloorPlan
+from semnav_env.world.maps.geodesic import Geodesic
+from semnav_env.world.maps.placement import placement_error
+
+
+def faults(episodes: Iterable[Episode]) -> Iterator[tuple[Episode, tuple[str, ...]]]:
+    """Every episode with what is wrong with it, which is nothing for most."""
+    plan: FloorPlan | None = None
+    geodesic: Geodesic | None = None
+    for episode in episodes:
+        try:
+            found = episode.plan()
+        except StaleEpisodeError as error:
+            yield episode, (str(error),)
+            continue
+        if geodesic is None or found is not plan:
+            plan, geodesic = found, found.derived(Geodesic)
+        yield episode, tuple(_faults(episode, found, geodesic))
+
+
+def _faults(episode: Episode, plan: FloorPlan, geodesic: Geodesic) -> Iterator[str]:
+    for robot in ROBOTS.values():
+        problem = placement_error(plan, robot, episode.start)
+        if problem is not None:
+            yield f"{episode.id}: {problem}"
+    meanings = episode.meanings()
+    anew = replace(episode, programs=(), token_rows=()).understood(plan.room_names)
+    if episode.programs not in ((), anew.programs):
+        yield f"{episode.id}: its programs are not what its readings mean"
+    if episode.token_rows not in ((), anew.token_rows):
+        yield f"{episode.id}: its tokens are not those of its first reading"
+    understood = readings(episode.command, episode.language, plan.room_names)
+    if set(understood) != set(meanings):
+        meant = " or ".join(f'"{m.say(episode.language)}"' for m in understood)
+        yield f'{episode.id}: "{episode.command}" now means {meant}'
+    for command in meanings:
+        try:
+            plan_goals(plan, command, episode.start, RoomGuide(plan, command, geodesic))
+            impossible = ""
+        except GroundingError as error:
+            impossible = str(error)
+        if bool(impossible) != (episode.expected is Expected.INFEASIBLE):
+            yield f"{episode.id}: {impossible or 'it can be carried out'}"

@@ -1,0 +1,31 @@
+"""A fingerprint of the geometry of a floor plan, by which a change of it is noticed."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+
+import numpy as np
+
+from semnav_env.world.maps import FloorPlan
+
+FINGERPRINT_DIGITS = 16
+"""Length of a fingerprint in hexadecimal digits: 64 bits, so that no two plans of a split share one
+by chance."""
+
+STEPS_PER_METRE = 1000
+"""Steps to which coordinates are rounded, per metre: whole millimetres."""
+
+
+def fingerprint(plan: FloorPlan) -> str:
+    """The first `FINGERPRINT_DIGITS` of a SHA-256 of what is solid, the doors and the rooms.
+
+    Coordinates are rounded to millimetres, so that every platform gives the same.
+    """
+    doors = "".join(f"{d.name}|{_whole((*d.start, *d.end))}|{d.open}\n" for d in plan.doors)
+    rooms = "".join(f"{r.name}|{_whole(r.polygon.bounds)}\n" for r in plan.rooms)
+    solid = "".join(_whole(row) for row in plan.segments.tolist())
+    return sha256(f"{solid}\n{doors}{rooms}".encode()).hexdigest()[:FINGERPRINT_DIGITS]
+
+
+def _whole(values: tuple[float, ...] | list[float]) -> str:
+    return f"{np.rint(np.array(values) * STEPS_PER_METRE).astype(np.int64).tolist()}"

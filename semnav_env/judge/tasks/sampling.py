@@ -1,0 +1,126 @@
+"""Random commands that make sense where the robot stands."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from semnav_env.judge.verifier import Mission, plan_mission
+from semnav_env.language import (
+    LAST,
+    Approach,
+    Clause,
+    Command,
+    DoorReference,
+    Follow,
+    GoToDoor,
+    Place,
+    PlaceReference,
+    Side,
+    Turn,
+    Turning,
+)
+from semnav_env.mind.grounding import Goal, GroundingError, ReachGoal
+from semnav_env.mind.grounding.counted_doors import doors_along
+from semnav_env.mind.grounding.junctions import junctions_ahead
+from semnav_env.rules import GroundingRules, Rules
+from semnav_env.world.maps.floor_plan import FloorPlan
+from semnav_env.world.maps.geodesic import Geodesic
+from semnav_env.world.maps.placement import is_clear
+from semnav_features.corridor import Corridor, corridor_at
+from semnav_features.frames import Pose
+from semnav_features.scene import StillScene
+
+ALONG, TO_END = Follow(), Follow(PlaceReference(Place.END))
+"""Clauses that are drawn: go down the corridor, and do so to its end."""
+
+TURNS = [
+    [
+        [Turn(turning, PlaceReference(place, ordinal)) for ordinal in (1, 1, 1, 2)]
+        for place in (Place.INTERSECTION, Place.CORNER)
+    ]
+    for turning in (Turning.LEFT, Turning.RIGHT)
+]
+"""Turns that are drawn, by side, place and ordinal; what stands twice is drawn twice as often."""
+
+DOORS = [
+    [
+        [GoToDoor(DoorReference(ordinal, side), how) for how in (Approach.THROUGH, Approach.TO)]
+        for ordinal in (1, 1, 2, 2, 3, 4, LAST)
+    ]
+    for side in (Side.LEFT, Side.RIGHT)
+]
+"""Doors that are drawn, likewise by side and ordinal, and whether to stop before them."""
+
+TRIES = 50
+"""Commands drawn before a start pose is given up."""
+
+SPACE = 0.3
+"""Around a place to go to, metres."""
+
+
+def sample_mission(
+    floor_plan: FloorPlan,
+    geodesic: Geodesic,
+    start: Pose,
+    rng: np.random.Generator,
+    most_clauses: int = 3,
+    rules: Rules = Rules(),
+) -> Mission | None:
+    """A random command of one to `most_clauses` clauses that can be carried out from `start`.
+
+    Returns:
+        None if `TRIES` draws found none.
+    """
+    scene = floor_plan.scene_by(rules.door)
+    corridor = corridor_at(scene, start)
+    for _ in range(TRIES):
+        clauses = _draw(rng, most_clauses)
+        first = clauses[1] if clauses[0] is ALONG else clauses[0]
+        if leads_nowhere(first, scene, corridor, rules.grounding):
+            continue
+        try:
+            mission = plan_mission(floor_plan, geodesic, Command(clauses), start, rules=rules)
+        except GroundingError:
+            continue
+        if all(_has_space(floor_plan, goal) for goal in mission.goals):
+            return mission
+    return None
+
+
+def leads_nowhere(
+    clause: Clause, scene: StillScene, corridor: Corridor, rules: GroundingRules
+) -> bool:
+    """Whether a corridor has too few doors or junctions for the first clause of a command.
+
+    Grounding would say so, too; but most commands that are drawn fail here, and it takes longer.
+    """
+    match clause:
+        case Turn(turning, PlaceReference(place, ordinal)):
+            count = len(junctions_ahead(corridor, place, turning, rules))
+        case GoToDoor(DoorReference(ordinal, side)):
+            count = len(doors_along(scene, corridor, side, rules))
+        case _:
+            return False
+    return count < abs(ordinal)
+
+
+def _has_space(floor_plan: FloorPlan, goal: Goal) -> bool:
+    """Whether no desk stands where a robot is told to be: at the end of a lounge, say."""
+    return not isinstance(goal, ReachGoal) or is_clear(floor_plan, goal.pose[:2], SPACE)
+
+
+def _draw(rng: np.random.Generator, most_clauses: int) -> tuple[Clause, ...]:
+    last = _last_clause(rng)
+    turns = tuple([_turn(rng) for _ in range(rng.integers(0, most_clauses))])
+    along = (ALONG,) if 0 < len(turns) < most_clauses - 1 and rng.random() < 0.3 else ()
+    return (*along, *turns, last)
+
+
+def _turn(rng: np.random.Generator) -> Clause:
+    return TURNS[rng.integers(2)][rng.integers(2)][rng.integers(4)]
+
+
+def _last_clause(rng: np.random.Generator) -> Clause:
+    doors = DOORS[rng.integers(2)][rng.integers(7)]
+    door = doors[rng.random() < 0.15]
+    return TO_END if rng.random() < 0.15 else door

@@ -1,0 +1,118 @@
+"""Tasks made of tasks: a curriculum, and another body or other sensors in each episode."""
+
+from __future__ import annotations
+
+import warnings
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+
+from semnav_env.judge.tasks.request import EpisodeRequest
+from semnav_env.judge.tasks.task import AdaptiveTask, Task, as_task
+from semnav_env.robots import RobotSpec, robot_spec
+from semnav_env.world.simulator.odometry import OdometrySettings
+from semnav_features.lidar_spec import LidarSpec, lidar_spec
+
+_T = TypeVar("_T")
+
+MOST_UNHEARD = 1000
+"""A curriculum that was asked for more episodes, and heard of no end, warns: more than there are
+environments that share it."""
+
+
+class Curriculum:
+    """Goes on to the next task when the last episodes of one have succeeded often enough.
+
+    Args:
+        tasks: in order; each is what `task=` takes.
+        promotion: share of the last episodes that must succeed.
+        window: how many episodes that share is taken of.
+
+    Attributes:
+        stage: index of the task under way.
+
+    Raises:
+        ValueError: no tasks, a share outside [0, 1], or a window below 1.
+    """
+
+    def __init__(self, tasks: Sequence[object], promotion: float = 0.8, window: int = 20) -> None:
+        if not tasks or not 0.0 <= promotion <= 1.0 or window < 1:
+            raise ValueError(
+                f"a curriculum has one task or more (here {len(tasks)}), a promotion in [0, 1] "
+                f"(here {promotion}) and a window of at least 1 (here {window})"
+            )
+        self._tasks = tuple(map(as_task, tasks))
+        self._promotion, self.stage, self._unheard = promotion, 0, 0
+        self._ended: deque[bool] = deque(maxlen=window)
+
+    def request(self, rng: np.random.Generator) -> EpisodeRequest:
+        """What the task under way asks for."""
+        self._unheard += 1
+        if self._unheard == MOST_UNHEARD + 1:
+            warnings.warn(
+                f"a curriculum was asked for {MOST_UNHEARD} episodes and heard of no end; where a "
+                "TimeLimit cuts them off, give max_seconds= in place of max_episode_steps=",
+                RuntimeWarning,
+                stacklevel=2,
+            )
+        return self._tasks[self.stage].request(rng)
+
+    def note(self, success: bool) -> None:
+        """Count an episode, and go on to the next task if it is time."""
+        self._unheard = 0
+        _pass_on(self._tasks[self.stage], success)
+        self._ended.append(success)
+        full = len(self._ended) == self._ended.maxlen
+        enough = sum(self._ended) >= self._promotion * len(self._ended)
+        if full and enough and self.stage + 1 < len(self._tasks):
+            self.stage += 1
+            self._ended.clear()
+
+
+class RandomisedRobot:
+    """Draws body, lidar and odometry for each episode of a task.
+
+    Args:
+        task: what `task=` takes.
+        robots: bodies to draw from, with the action space of the environment's.
+        lidars: lidars to draw from, with the beams, range and rate of the environment's.
+        odometry: errors of odometry to draw from.
+    """
+
+    def __init__(
+        self,
+        task: object = None,
+        robots: Sequence[str | RobotSpec] = (),
+        lidars: Sequence[str | LidarSpec] = (),
+        odometry: Sequence[OdometrySettings] = (),
+    ) -> None:
+        self._task: Task = as_task(task)
+        self._robots = tuple(map(robot_spec, robots))
+        self._lidars = tuple(map(lidar_spec, lidars))
+        self._odometry = tuple(odometry)
+
+    def request(self, rng: np.random.Generator) -> EpisodeRequest:
+        """What the task asks for, with a robot that is drawn."""
+        request = self._task.request(rng)
+        return replace(
+            request,
+            robot=_chosen(self._robots, rng),
+            lidar=_chosen(self._lidars, rng),
+            odometry=_chosen(self._odometry, rng),
+        )
+
+    def note(self, success: bool) -> None:
+        """Tell the task how its episode ended."""
+        _pass_on(self._task, success)
+
+
+def _pass_on(task: Task, success: bool) -> None:
+    if isinstance(task, AdaptiveTask):
+        task.note(success)
+
+
+def _chosen(choices: tuple[_T, ...], rng: np.random.Generator) -> _T | None:
+    return choices[int(rng.integers(len(choices)))] if choices else None

@@ -1,0 +1,79 @@
+"""What a command asks for on the true scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from semnav_env.judge.routes.room_guide import RoomGuide
+from semnav_env.language import Command
+from semnav_env.mind.grounding.errors import GroundingError
+from semnav_env.mind.grounding.follower import Follower
+from semnav_env.mind.grounding.goal import Goal, PassGoal, SeekGoal
+from semnav_env.mind.grounding.ways import Guide
+from semnav_env.rules import Rules
+from semnav_env.world.maps.floor_plan import FloorPlan
+from semnav_features.frames import Point, Pose
+
+
+def plan_goals(
+    floor_plan: FloorPlan,
+    command: Command,
+    start: Pose,
+    guide: Guide | None = None,
+    rules: Rules = Rules(),
+) -> tuple[Goal, ...]:
+    """The goals of a command on the true scene, each grounded where the one before ends.
+
+    Args:
+        floor_plan: the truth.
+        command: what to do.
+        start: from where.
+        guide: points out the ways to rooms; a `RoomGuide` of the floor plan if not given.
+        rules: distances and tolerances.
+
+    Raises:
+        GroundingError: a clause cannot be carried out; of several, the message says which.
+    """
+    return tuple(goal for _, goal in goals_in_turn(floor_plan, command, start, guide, rules))
+
+
+def goals_in_turn(
+    floor_plan: FloorPlan,
+    command: Command,
+    start: Pose,
+    guide: Guide | None = None,
+    rules: Rules = Rules(),
+) -> Iterator[tuple[int, Goal]]:
+    """As `plan_goals`, each with the index of its clause; an error comes after the goals before."""
+    guide = RoomGuide(floor_plan, command) if guide is None else guide
+    follower = Follower(command, complete=True, guide=guide, rules=rules)
+    scene = floor_plan.scene_by(rules.door)
+    try:
+        follower.start(scene, start)
+        while not follower.done:
+            check_grounded(follower)
+            yield follower.active, follower.goal
+            follower.skip_to_next(scene)
+    except GroundingError as error:
+        if len(command.clauses) == 1:
+            raise
+        from semnav_env.mind.grounding.clause_error import ClauseError  # few commands need it
+
+        raise ClauseError(command, follower.active, str(error)) from None
+
+
+def check_grounded(follower: Follower) -> None:
+    """Refuse a clause under way that the true scene has nothing for.
+
+    Raises:
+        GroundingError: says what is missing.
+    """
+    if follower.impossible is not None:
+        raise GroundingError(follower.impossible)
+    if isinstance(follower.goal, SeekGoal):
+        raise GroundingError(f"{follower.goal.what}: the floor plan shows none there")
+
+
+def place(goal: Goal) -> Point:
+    """The point that a goal leads to: the middle of the doorway to cross, else its pose."""
+    return goal.door.midpoint if isinstance(goal, PassGoal) else goal.pose[:2]

@@ -1,0 +1,129 @@
+"""One compiled call per control period: what a judge keeps count of, and when it must think.
+
+Everything stands in one structure, so that a call hands over one thing, and many robots' records
+can be kept by one loop.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba.experimental import structref
+
+from semnav_env.judge.verifier.exact_hypot import exact_hypot
+from semnav_env.mind.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
+from semnav_env.mind.grounding.crossing import first_crossed
+from semnav_env.world.maps.geodesic import distance_at
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.structures import ArraysType
+
+DOOR_CROSSED, ASTRAY, TOO_STILL = 8, 16, 32
+"""Events beside those of `clause_progress`, as bits: a door was crossed; the robot is inside an arm
+that the clause does not name, or far behind its junction; it has stood still for longer than is
+allowed."""
+
+NO_ARMS, NO_DISTANCES = np.empty((0, 5)), np.empty((0, 0))
+"""Of a record without a goal."""
+
+
+@structref.register
+class JudgeRecordType(ArraysType):
+    """How compiled code sees `JudgeRecord`."""
+
+
+class JudgeRecord(structref.StructRefProxy):
+    """What a judge keeps count of in an episode.
+
+    Attributes:
+        state: numbers, dtype `JUDGE_STATE`, shape (1,).
+        doors: `FloorPlan.door_ends`.
+        arms: of the corridor that lead astray, see `wrong_arms`; set with each goal.
+        distances: `WaysTo.distances` of the goal, shape (0, 0) where no way is left to go.
+        progress: `Follower.progress` of the verifier's follower.
+    """
+
+    state: np.ndarray
+    doors: FloatArray
+    arms: FloatArray
+    distances: FloatArray
+    progress: np.ndarray
+
+
+structref.define_proxy(JudgeRecord, JudgeRecordType, list(JudgeRecord.__annotations__))
+
+
+@kernel(counts_references=True)
+def join_record(
+    state: np.ndarray,
+    doors: FloatArray,
+    arms: FloatArray,
+    distances: FloatArray,
+    progress: np.ndarray,
+) -> JudgeRecord:
+    """The arrays as one structure; they are shared, not copied."""
+    return JudgeRecord(state, doors, arms, distances, progress)
+
+
+@kernel(counts_references=True)
+def set_arms(record: JudgeRecord, arms: FloatArray) -> None:
+    """Put other arms into a record, for another goal."""
+    record.arms = arms
+
+
+@kernel(counts_references=True)
+def set_distances(record: JudgeRecord, distances: FloatArray) -> None:
+    """Put another field of distances into a record, and read it where the robot is."""
+    record.distances = distances
+    record.state[0].remaining = _remaining(record, record.state[0])
+
+
+@kernel(borrows=True)
+def judge_motion(record: JudgeRecord) -> int:
+    """Take the motion of one control period into account; returns the events as bits."""
+    state = record.state[0]
+    pose = (state.x, state.y, state.heading)
+    events = note_pose(record.progress, pose, state.speed, state.seconds)
+    events &= CLAUSE_DONE | TRAIL_DUE
+    x, y = state.last_x, state.last_y
+    state.path_length += exact_hypot(state.x - x, state.y - y)
+    if state.in_contact > state.was_in_contact:
+        state.collisions += 1
+    state.was_in_contact = state.in_contact
+    still = state.speed < state.still_speed and abs(state.yaw_rate) < state.still_yaw_rate
+    state.still_seconds = state.still_seconds + state.seconds if still else 0.0
+    if state.still_seconds > state.longest_still:
+        events |= TOO_STILL
+    crossed = first_crossed(record.doors, x, y, state.x, state.y)
+    if crossed >= 0:
+        events |= DOOR_CROSSED
+    if _is_astray(record.arms, state):
+        events |= ASTRAY
+    before, now = state.remaining, _remaining(record, state)
+    state.progress = before - now if math.isfinite(before - now) else 0.0
+    state.remaining_before, state.remaining, state.crossed_door = before, now, crossed
+    state.last_x, state.last_y = state.x, state.y
+    return events
+
+
+@kernel(borrows=True)
+def _remaining(record: JudgeRecord, state: Any) -> float:
+    """Length of the way to the goal, metres."""
+    if record.distances.size == 0:
+        return 0.0
+    return distance_at(record.distances, state.west, state.south, state.spacing, state.x, state.y)
+
+
+@kernel
+def _is_astray(arms: FloatArray, state: Any) -> bool:
+    """Whether the robot is inside an arm that leads astray, or has missed its junction."""
+    c, s = state.corridor_cos, state.corridor_sin
+    dx, dy = state.x - state.corridor_x, state.y - state.corridor_y
+    along, offset = c * dx + s * dy, c * dy - s * dx
+    for k in range(len(arms)):
+        sign, near, far, begin, depth = arms[k]
+        if near < along < far and sign * offset - begin > depth:
+            return True
+    return bool(along > state.missed_beyond)

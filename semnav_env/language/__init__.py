@@ -1,0 +1,122 @@
+"""Commands: texts become typed clauses, and clauses become texts and tokens."""
+
+from typing import TYPE_CHECKING
+
+from semnav_env.language.clauses import (
+    Approach,
+    Clause,
+    Face,
+    Follow,
+    GoBack,
+    GoToDoor,
+    GoToRoom,
+    IfThere,
+    Leave,
+    OwnClause,
+    SearchHouse,
+    Stop,
+    Turn,
+    Turning,
+)
+from semnav_env.language.command import MAX_CLAUSES, Command
+from semnav_env.language.references import (
+    LAST,
+    MAX_FROM_END,
+    MAX_ORDINAL,
+    OTHER,
+    Distance,
+    DoorReference,
+    Place,
+    PlaceReference,
+    RoomReference,
+    Side,
+    Unit,
+)
+from semnav_env.language.tokens import CLAUSE_FEATURES, token_mask, token_space
+from semnav_features.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from semnav_env.language.decoding import decode
+    from semnav_env.language.encoding import encode
+    from semnav_env.language.errors import AmbiguousCommandError, CommandError
+    from semnav_env.language.interpreters import (
+        GrammarInterpreter,
+        Interpretation,
+        Interpreter,
+        ModelInterpreter,
+        TemplateInterpreter,
+    )
+    from semnav_env.language.parser import correct, parse, readings
+    from semnav_env.language.program import from_program, to_program
+    from semnav_env.language.rewording import paraphrases
+    from semnav_env.language.sampling import sample_clause, sample_command
+
+__all__ = [
+    "CLAUSE_FEATURES",
+    "LAST",
+    "MAX_CLAUSES",
+    "MAX_FROM_END",
+    "MAX_ORDINAL",
+    "OTHER",
+    "AmbiguousCommandError",
+    "Approach",
+    "Clause",
+    "Command",
+    "CommandError",
+    "Distance",
+    "DoorReference",
+    "Face",
+    "Follow",
+    "GoBack",
+    "GoToDoor",
+    "GoToRoom",
+    "GrammarInterpreter",
+    "IfThere",
+    "Interpretation",
+    "Interpreter",
+    "Leave",
+    "ModelInterpreter",
+    "OwnClause",
+    "Place",
+    "PlaceReference",
+    "RoomReference",
+    "SearchHouse",
+    "Side",
+    "Stop",
+    "TemplateInterpreter",
+    "Turn",
+    "Turning",
+    "Unit",
+    "correct",
+    "decode",
+    "encode",
+    "from_program",
+    "paraphrases",
+    "parse",
+    "readings",
+    "sample_clause",
+    "sample_command",
+    "to_program",
+    "token_mask",
+    "token_space",
+]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        ".decoding": ("decode",),
+        ".encoding": ("encode",),
+        ".errors": ("AmbiguousCommandError", "CommandError"),
+        ".interpreters": (
+            "GrammarInterpreter",
+            "Interpretation",
+            "Interpreter",
+            "ModelInterpreter",
+            "TemplateInterpreter",
+        ),
+        ".parser": ("correct", "parse", "readings"),
+        ".program": ("from_program", "to_program"),
+        ".rewording": ("paraphrases",),
+        ".sampling": ("sample_clause", "sample_command"),
+    },
+)

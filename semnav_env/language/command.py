@@ -1,0 +1,153 @@
+"""A command: the clauses that a robot is to carry out, and how they depend on each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from itertools import pairwise
+from typing import TYPE_CHECKING, get_args
+
+from semnav_env.language.clauses import Clause, Face, Follow, GoToDoor, GoToRoom, IfThere, Turn
+from semnav_env.language.references import DoorReference, PlaceReference, RoomReference
+
+if TYPE_CHECKING:
+    from semnav_env.language.language import Language
+
+MAX_CLAUSES = 8
+"""The most clauses of a command; it fixes the shape of its tokens."""
+
+_KINDS = get_args(Clause)
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """Clauses to carry out one after the other: "go down the hallway, turn left and stop".
+
+    `str(command)` is canonical English, and `parse(str(command)) == command`. The same holds for
+    `command.say(language)` in every language.
+
+    Attributes:
+        clauses: 1 to `MAX_CLAUSES` of them, in order.
+
+    Raises:
+        ValueError: there are too few or too many clauses, or something else among them.
+    """
+
+    clauses: tuple[Clause, ...]
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.clauses, tuple):
+            kind = type(self.clauses).__name__
+            raise ValueError(
+                f"a command holds a tuple of clauses, not {kind}; text goes to parse()"
+            )
+        for clause in self.clauses:
+            if not isinstance(clause, _KINDS):
+                kinds = ", ".join(kind.__name__ for kind in _KINDS)
+                raise ValueError(f"a clause is one of {kinds}, not {clause!r}")
+        if not 1 <= len(self.clauses) <= MAX_CLAUSES:
+            raise ValueError(f"a command has 1 to {MAX_CLAUSES} clauses, not {len(self.clauses)}")
+        links_of(self.clauses)
+
+    def __str__(self) -> str:
+        return self.say()
+
+    def say(self, language: str | Language = "en") -> str:
+        """In the words of a language.
+
+        Args:
+            language: "en", "de" or a loaded one.
+
+        Raises:
+            ValueError: there is no such language.
+        """
+        from semnav_env.language.languages import language_of  # read when first spoken
+
+        return "".join(self.parts(language_of(language)))
+
+    def parts(self, spoken: Language) -> list[str]:
+        """The words of the clauses, and between each two of them the words that join them."""
+        said = [self.clauses[0].say(spoken)]
+        links = links_of(self.clauses)
+        last = len(self.clauses) - 2
+        for index, (before, clause) in enumerate(pairwise(self.clauses)):
+            link = links[index + 1]
+            plain = link is Link.NEXT
+            joint = spoken.say("and" if plain and index == last else "comma")
+            anew = plain and may_count_on(before, clause)
+            adverb = spoken.say("from_there" if anew else link.value) if anew or not plain else ""
+            said += [joint + adverb, clause.say(spoken)]
+        return said
+
+
+class Link(Enum):
+    """How a clause depends on those before it; the value is the phrase of a language for it."""
+
+    NEXT = "next"
+    THEN = "in_that_case"
+    OTHERWISE = "otherwise"
+    IN_ANY_CASE = "in_any_case"
+
+
+def links_of(clauses: Sequence[Clause]) -> list[Link]:
+    """How each clause depends on those before it.
+
+    Raises:
+        ValueError: a condition is not followed by the clauses that depend on it.
+    """
+    links: list[Link] = []
+    expected: list[Link] = []
+    for clause in clauses:
+        link = expected.pop(0) if expected else Link.NEXT
+        links.append(link)
+        if not isinstance(clause, IfThere):
+            continue
+        if link in (Link.THEN, Link.OTHERWISE):
+            raise ValueError("a condition cannot depend on another one")
+        expected = [Link.THEN, *[Link.OTHERWISE] * clause.otherwise, Link.IN_ANY_CASE]
+    if expected and expected != [Link.IN_ANY_CASE]:
+        raise ValueError("a condition is followed by what to do then, and otherwise if it says so")
+    return links
+
+
+def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
+    """The door or place to which a clause refers; None if there is none."""
+    match clause:
+        case Follow(DoorReference() | PlaceReference() as until):
+            return until
+        case Turn(_, at):
+            return at
+        case GoToDoor(door):
+            return door
+        case IfThere(what) | Face(DoorReference() | PlaceReference() as what):
+            return what
+        case _:
+            return None
+
+
+def room_of(clause: Clause) -> str | None:
+    """The plain name of the room that a clause names; None if it names none."""
+    match clause:
+        case GoToRoom(name) | Follow(RoomReference(name)) | Face(RoomReference(name)):
+            return name
+        case _:
+            return None
+
+
+def may_count_on(before: Clause, clause: Clause) -> bool:
+    """Whether a listener may count on: "past the first door, then through the second".
+
+    That is so if a clause leads to or past the nth of a kind, and the next one names a later one of
+    the same kind. It can be counted from where the first clause began, or anew from there.
+    """
+    first, second = reference_of(before), reference_of(clause)
+    if not isinstance(before, Follow) or first is None or type(first) is not type(second):
+        return False
+    assert second is not None
+    same = _kind(first) == _kind(second)
+    return same and 0 < first.ordinal < second.ordinal
+
+
+def _kind(reference: DoorReference | PlaceReference) -> object:
+    return reference.side if isinstance(reference, DoorReference) else reference.place

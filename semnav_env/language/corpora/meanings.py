@@ -1,0 +1,271 @@
+"""A command as steps of the notation, and which steps mean the same.
+
+The equivalences, each true by the rules of docs/commands.md:
+
+1. "hallway" before a step that says how far, where to turn or which door, adds nothing.
+2. "hallway" at the end, and "cross" in a room, lead to the end.
+3. A turn after "hallway" or "past" is at the next turning; after "until" a place, it is there.
+4. "through D after P" is "past P; through D"; a door "between P and Q" is behind P and before Q.
+5. Doors on one side count on: "past door(2,left); through door(1,left)" is the third on the left.
+6. "until D" or "to D", then through that door, is through D.
+7. Only open doors count, so a closed door is none, and any door is the first.
+8. A corner and the end are where the hallway ends, so "before" them limits nothing; a door
+   "at end" is the one ahead, or the last one of its side.
+9. "back to P" is to turn around and to go on until the next P.
+10. "leave D" is "through D"; a "stop" at the end adds nothing, nor does one before a "wait".
+11. A turn that depends on a place is made there.
+12. Places of a kind that are passed one after the other add up.
+13. "until D" is "to D" at the end and before a stop: the door is reached.
+14. Whether a room is open is seen in front of it, and its door is then the first one.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from semnav_env.language.clauses import (
+    Approach,
+    Clause,
+    Face,
+    Follow,
+    GoBack,
+    GoToDoor,
+    GoToRoom,
+    IfThere,
+    Leave,
+    Stop,
+    Turn,
+)
+from semnav_env.language.command import Command
+from semnav_env.language.corpora.notation import Step, Steps
+from semnav_env.language.references import (
+    OTHER,
+    Distance,
+    DoorReference,
+    PlaceReference,
+    RoomReference,
+    Side,
+    Unit,
+)
+from semnav_env.language.rooms import plain_name
+
+_FIRST = ("door", 1, None, None, None)
+
+ENDS = ("corner", "end", "t-junction")
+"""Places at which a hallway ends, so that no door lies behind them."""
+
+
+def meaning_of(command: Command) -> Steps:
+    """The steps of a command, with conditions around those that depend on them."""
+    steps: list[Step] = []
+    clauses = list(command.clauses)
+    while clauses:
+        clause = clauses.pop(0)
+        if isinstance(clause, IfThere):
+            then = (_step_of(clauses.pop(0)),)
+            otherwise = (_step_of(clauses.pop(0)),) if clause.otherwise else ()
+            word = "no" if clause.absent else "there"
+            steps.append(("if", word, _place_of(clause.what), then, otherwise))
+        else:
+            steps.append(_step_of(clause))
+    return tuple(steps)
+
+
+def _step_of(clause: Clause) -> Step:
+    match clause:
+        case Follow(None):
+            return ("hallway",)
+        case Follow(Distance(amount, unit)):
+            return ("hallway", "for", float(amount), "m" if unit is Unit.METRES else "s")
+        case Follow(until, past):
+            return ("hallway", "past" if past else "until", _place_of(until))
+        case Turn(turning, _, int(degrees)):
+            return ("turn by", turning.value, degrees)
+        case Turn(turning, at, None):
+            return ("turn", turning.value, None if at is None else _place_of(at))
+        case GoToDoor(door, approach):
+            return ("through" if approach is Approach.THROUGH else str(approach), _place_of(door))
+        case GoToRoom(name, approach):
+            room = ("room", name)
+            return room if approach is Approach.THROUGH else ("to", room)
+        case Face(Side() as side):
+            return ("face", ("wall", side.value))
+        case Face(what):
+            return ("face", _place_of(what))
+        case Leave():
+            return ("leave",)
+        case GoBack():
+            return ("back",)
+        case Stop(seconds):
+            return ("wait", float(seconds)) if seconds else ("stop",)
+    raise TypeError(f"{clause!r} has no step in the notation")
+
+
+def _place_of(reference: Any) -> Step:
+    match reference:
+        case DoorReference(ordinal, side):
+            return (
+                "door",
+                "other" if ordinal == OTHER else ordinal,
+                side and side.value,
+                None,
+                None,
+            )
+        case RoomReference(name):
+            return ("room", name)
+        case PlaceReference(place, ordinal):
+            return (place.value.replace("_", "-"), ordinal)
+    raise TypeError(f"{reference!r} is no place of the notation")
+
+
+def normal(steps: Steps) -> Steps:
+    """The same steps in the one form in which two meanings are compared."""
+    plain = [part for step in _ends(steps) for part in _unfolded(step)]
+    found: list[Step] = []
+    for step in plain:
+        _append(found, step)
+    while len(found) > 1 and found[-1] == ("stop",):
+        found.pop()
+    match found[-1:]:
+        case [("hallway", "until", ("door", *_) as door)]:
+            found[-1] = ("to", tuple(door))
+    if found and found[-1] == ("hallway",):
+        found[-1] = ("hallway", "until", ("end", 1))
+    return tuple(found)
+
+
+def _ends(value: Any) -> Any:
+    """The same with the plain names of rooms, and with the wall ahead as the end."""
+    match value:
+        case ("room", str(name)):
+            return ("room", plain_name(name))
+        case ("wall", int()):
+            return ("end", 1)
+        case tuple():
+            return tuple(map(_ends, value))
+    return value
+
+
+def _unfolded(step: Step) -> list[Step]:
+    """A step as the plainer ones that it stands for."""
+    match step:
+        case ("cross",):
+            return [("hallway", "until", ("end", 1))]
+        case ("back", place):
+            return [("turn", "around", None), ("hallway", "until", place)]
+        case ("leave", door):
+            return _with_door(("through",), door)
+        case ("through" | "to" | "in" as verb, ("door", *_) as door):
+            return _with_door((verb,), tuple(door))
+        case ("hallway", "until" | "past" as relation, ("door", *_) as door):
+            return _with_door(("hallway", relation), tuple(door))
+        case ("turn", way, ("room", _) as room):
+            return [("hallway", "until", room), ("turn", way, None)]
+        case ("turn", way, ("door", *_) as door):
+            return [*_with_door(("hallway", "until"), tuple(door)), ("turn", way, None)]
+        case ("if", word, what, then, otherwise):
+            if what[0] == "room":
+                cases = (
+                    tuple(("through", _FIRST) if each == what else each for each in case)
+                    for case in (then, otherwise)
+                )
+                there = ("if", word, _FIRST, *cases)
+                return [("to", what), *_unfolded(there)]
+            absent = {"closed": "no", "open": "there"}.get(word, word)
+            if absent == "no" and otherwise:
+                absent, then, otherwise = "there", otherwise, then
+            then = _turned_at(what, then) if absent == "there" else then
+            first = _plain(what)[1]
+            if first[:2] == ("door", 1) and normal(then) == (("through", first),):
+                second = ("door", 2, *first[2:])
+                if normal(otherwise) == (("through", second),):
+                    return [("through", first)]  # the first open one
+            return [("if", absent, _plain(what)[1], normal(then), normal(otherwise))]
+    return [step]
+
+
+def _turned_at(place: Step, then: Steps) -> Steps:
+    """The steps of a condition with a turn at the place that it asks for."""
+    match then:
+        case (("turn", "left" | "right" as way, None),) if place[0] not in ("door", "room"):
+            return (("turn", way, place),)
+    return then
+
+
+def _with_door(verb: tuple[str, ...], door: Step) -> list[Step]:
+    before, plain = _plain(door)
+    return [*before, (*verb, plain)]
+
+
+def _plain(place: Step) -> tuple[list[Step], Step]:
+    """A door without a relation that can be said by other steps, and these steps."""
+    if place[0] != "door":
+        return [], place
+    _, ordinal, side, relation, others = place
+    ordinal = 1 if ordinal in ("any", "nearest") else ordinal
+    before: list[Step] = []
+    if others is None:
+        return before, ("door", ordinal, side, None, None)
+    if relation in ("after", "between"):
+        return [("hallway", "past", others[0])], ("door", ordinal, side, None, None)
+    if relation == "before" and others[0][0] in ENDS:
+        return before, ("door", ordinal, side, None, None)
+    if relation == "at" and side == "opposite":
+        return [("hallway", "until", others[0])], ("door", ordinal, side, None, None)
+    if relation == "at" and others[0][0] == "end":
+        ordinal, side = (1, "ahead") if side is None else (-1, side)
+        relation, others = None, None
+    return before, ("door", ordinal, side, relation, others)
+
+
+def _append(found: list[Step], step: Step) -> None:
+    """Add a step; what it makes needless of the step before is taken away."""
+    before = found[-1] if found else None
+    match before, step:
+        case ("hallway",), ("turn", "left" | "right" as way, None):
+            found[-1:] = [("turn", way, ("turning", 1))]
+        case ("to" | "in", _), ("stop",):
+            pass
+        case ("stop",), ("wait", _):
+            found[-1:] = [step]
+        case ("wait", float(first)), ("wait", seconds):
+            found[-1:] = [("wait", first + seconds)]
+        case ("turn", "around", None), ("turn", "around", None):
+            found.append(step)
+        case ("hallway",), ("hallway", *_) | ("through" | "to" | "in" | "room", *_):
+            found[-1:] = [step]
+        case ("hallway",), ("turn", _, (_, *_)):
+            found[-1:] = [step]
+        case ("hallway", "past", _), ("turn", "left" | "right" as way, None):
+            found.append(("turn", way, ("turning", 1)))
+        case ("hallway", "until", (kind, _) as place), ("turn", way, None) if kind != "wall":
+            found[-1:] = [("turn", way, place)]
+        case ("hallway", "until", (kind, _) as place), ("turn", way, (same, 1)) if (
+            same in (kind, "turning") and kind != "room"
+        ):
+            found[-1:] = [("turn", way, place)]
+        case ("hallway", "past", (kind, int(n))), ("hallway", "past", (other, int(m))) if (
+            kind == other and n > 0 and m > 0
+        ):
+            found[-1:] = [("hallway", "past", (kind, n + m))]
+        case ("hallway", "past", ("door", int(n), side, None, None)), (
+            *verb,
+            ("door", int(m), other, relation, places),
+        ) if side == other and n > 0 and m > 0:
+            found.pop()
+            _append(found, (*verb, ("door", n + m, side, relation, places)))
+        case ("hallway", "until", door), ("through" | "to" | "in" as verb, again) if _same_door(
+            door, again
+        ):
+            found[-1:] = [(verb, door)]
+        case ("to", door), ("through" | "in" as verb, again) if _same_door(door, again):
+            found[-1:] = [(verb, door)]
+        case _:
+            found.append(step)
+
+
+def _same_door(door: Step, again: Step) -> bool:
+    """Whether a step names the door to which the step before it led."""
+    if door[0] != "door" or again[0] != "door":
+        return False
+    return again == door or (again[1] == 1 and again[2] in (door[2], None, "ahead"))

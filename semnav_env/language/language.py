@@ -1,0 +1,100 @@
+"""A language of commands: its words, and how it puts commands in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from semnav_env.language.words import fold
+
+DIGITS_HINT = "0-9"
+"""The key in `Language.hints` of all words that begin with a digit."""
+
+
+@dataclass(frozen=True, eq=False)
+class Language:
+    """A language of commands, as `languages.load` reads it from its file.
+
+    Attributes:
+        name: stem of its file, such as "english".
+        code: its ISO 639-1 code, such as "en".
+        terminals: words that decide what is meant, by what they name; see `templates`.
+        ordinals: for 1, 2, ... in order its words, the usual one first.
+        from_end: for the last, the second to last, ... in order its words, the usual one first.
+        numbers: the value of each number word.
+        counts: the ordinal of each word of `ordinals` and, negative, of `from_end`.
+        decimal: the decimal sign.
+        punctuation: characters that part clauses or end a command.
+        same_as: characters that are read as others.
+        hints: advice for words that people often try and that are not understood.
+        phrases: format strings that put commands in words; "door:to" is a form of "door".
+        wordings: other format strings for these phrases; those of "1" are other words for the
+            first, and those of "command" frame a whole command.
+    """
+
+    name: str
+    code: str
+    terminals: dict[str, tuple[str, ...]]
+    ordinals: tuple[tuple[str, ...], ...]
+    from_end: tuple[tuple[str, ...], ...]
+    numbers: dict[str, float]
+    counts: dict[str, int]
+    decimal: str
+    punctuation: str
+    same_as: dict[str, str]
+    hints: dict[str, str]
+    phrases: dict[str, str]
+    wordings: dict[str, tuple[str, ...]]
+
+    def folded(self, words: str) -> str:
+        """Words in the spelling that the grammar reads."""
+        return fold(words, self.same_as)
+
+    def number(self, words: str) -> float:
+        """The value of a number word or of a number in digits."""
+        known = self.numbers.get(words)
+        return float(words.replace(self.decimal, ".")) if known is None else known
+
+    def number_text(self, amount: float) -> str:
+        """A number in digits, with the decimal sign of the language."""
+        return f"{amount:g}".replace(".", self.decimal)
+
+    def ordinal(self, number: int) -> str:
+        """The usual word for an ordinal: positive, `OTHER` (0), or negative from the end."""
+        if number == 0:
+            return self.terminals["OTHER"][0]
+        return self.ordinals[number - 1][0] if number > 0 else self.from_end[-number - 1][0]
+
+    def vocabulary(self, terminal: str) -> tuple[str, ...]:
+        """The single words of a terminal's phrases, as they are written."""
+        phrases = self.terminals.get(terminal, ())
+        return tuple(word for phrase in phrases for word in phrase.replace("-", " ").split())
+
+    def hint(self, word: str) -> str | None:
+        """Advice for a word that was not understood; None if there is none."""
+        return self.hints.get(DIGITS_HINT if word[:1].isdigit() else word)
+
+    def say(self, phrase: str, form: str = "", **parts: Any) -> str:
+        """Put a phrase in words, in the given form if the language has it.
+
+        Parts that are references are put in the form that the phrase asks for: "{door:to}".
+        """
+        return self.fill(self.phrases.get(f"{phrase}:{form}") or self.phrases[phrase], parts)
+
+    def fill(self, template: str, parts: dict[str, Any]) -> str:
+        """Fill parts into a format string, each in the form that it asks for."""
+        return template.format(**{key: _SpokenPart(part, self) for key, part in parts.items()})
+
+
+class _SpokenPart:
+    """A part of a phrase; the format specification names the grammatical form that it takes."""
+
+    def __init__(self, value: Any, language: Language) -> None:
+        self._value = value
+        self._language = language
+
+    def __format__(self, form: str) -> str:
+        if isinstance(self._value, str):
+            return self._value
+        said: str = self._value.say(self._language, form)
+        return said

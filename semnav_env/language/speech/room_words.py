@@ -1,0 +1,62 @@
+"""The words that people say for rooms: their names, and kinds of rooms in both languages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from semnav_env.language.rooms import (
+    GERMAN_LETTERS,
+    plain_name,
+    spoken_names,
+    without_accents,
+)
+from semnav_env.language.words import pieces
+
+
+def name_phrases(names: Sequence[str]) -> dict[tuple[str, ...], str]:
+    """The plain name of each room by the words that people say for it."""
+    found: dict[tuple[str, ...], str] = {}
+    for name in names:
+        folded = "".join(GERMAN_LETTERS.get(c, c) for c in name.casefold()).replace("\u2019", "'")
+        folded = without_accents(folded)
+        found[tuple(p.text for p in pieces(folded) if p.text != "'")] = plain_name(name)
+    for said, name in spoken_names(names).items():
+        words = tuple(piece.text for piece in pieces(said))
+        found[words] = name
+        if len(words) == 2 and words[0] in _ROOM_WORDS and words[1][0].isdigit():
+            found.setdefault(words[1:], name)
+    for words, name in tuple(found.items()):
+        for other in _in_other_words(words):
+            found.setdefault(other, name)
+    return found
+
+
+def kinds_of_rooms(names: Iterable[tuple[str, ...]]) -> frozenset[str]:
+    """The words for kinds of rooms, such as "office" or "labor", that are in these names."""
+    said = {word for words in names for word in words}
+    return frozenset(word for kind in _KINDS for word in kind if said.intersection(kind))
+
+
+def _in_other_words(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+    """A name with one of its words in other words or in the other language: "labor" for "lab"."""
+    for at, word in enumerate(words):
+        for kind in _KINDS:
+            if word in kind:
+                yield from ((*words[:at], other, *words[at + 1 :]) for other in kind)
+
+
+_KINDS = (
+    ("office", "buero"),
+    ("lab", "laboratory", "labor"),
+    ("kitchen", "kueche"),
+    ("bathroom", "bad", "badezimmer"),
+    ("bedroom", "schlafzimmer"),
+    ("library", "bibliothek"),
+    ("workshop", "werkstatt"),
+    ("toilet", "toilette", "wc"),
+)
+"""Words for one kind of room, in both languages."""
+
+
+_ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
+"""Words that people leave out before a room's number."""

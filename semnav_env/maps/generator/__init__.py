@@ -1,7 +1,0 @@
-"""Offices drawn from a seed: corridors, rooms with names, doors, furniture."""
-
-from semnav_env.maps.generator.distributions import DISTRIBUTIONS
-from semnav_env.maps.generator.naming import generate_office
-from semnav_env.maps.generator.settings import OfficeSettings
-
-__all__ = ["DISTRIBUTIONS", "OfficeSettings", "generate_office"]

@@ -1,0 +1,52 @@
+"""Why one clause of a command cannot be grounded."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from semnav_env.language.command import Command
+from semnav_env.language.language import Language
+from semnav_env.language.languages import language_of
+from semnav_env.mind.grounding.errors import GroundingError
+
+
+class ClauseError(GroundingError):
+    """One of the several clauses of a command cannot be carried out; the message names it.
+
+    Args:
+        command: the command.
+        clause: index of the clause.
+        reason: why it cannot be carried out.
+        language: of the words of the clause in the message.
+    """
+
+    def __init__(
+        self, command: Command, clause: int, reason: str, language: str | Language = "en"
+    ) -> None:
+        super().__init__(command, clause, reason, language)
+        self.command, self.clause, self.reason, self._language = command, clause, reason, language
+        self._message: str | None = None
+
+    def __str__(self) -> str:
+        """The message, worded when it is read: of commands that are drawn at random it is not."""
+        if self._message is None:
+            clause = self.command.clauses[self.clause]
+            words, why = clause.say(language_of(self._language)), self.reason
+            number = f"clause {self.clause + 1} of {len(self.command.clauses)}"
+            why = why.removeprefix(f"{clause}: ")
+            self._message = f'{number}, "{words}", cannot be carried out: {why}'
+        return self._message
+
+    def in_words_of(self, language: Language) -> ClauseError:
+        """The same error with the clause in the words of a language."""
+        return ClauseError(self.command, self.clause, self.reason, language)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.command, self.clause, self.reason, str(self))
+
+
+def _restored(command: Command, clause: int, reason: str, message: str) -> ClauseError:
+    """A pickled error, with the words in which it was said."""
+    error = ClauseError(command, clause, reason)
+    error._message = message
+    return error

@@ -1,0 +1,67 @@
+"""In which order the clauses of a command are done, and what one tells about the next."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from semnav_env.language.clauses import Clause, Follow, GoToDoor, IfThere, Turn, Turning
+from semnav_env.language.references import PlaceReference
+
+
+def after(clauses: Sequence[Clause], index: int, met: bool | None = None) -> int:
+    """The index of the clause to do after this one; beyond the end if there is none.
+
+    Args:
+        clauses: of the command.
+        index: of the clause that is done with, or of the condition that is decided.
+        met: how the condition was decided; None for another clause.
+    """
+    clause = clauses[index]
+    if isinstance(clause, IfThere):
+        return index + 1 if met else index + 2
+    condition = clauses[index - 1] if index else None
+    skips = isinstance(condition, IfThere) and condition.otherwise
+    return index + (2 if skips else 1)
+
+
+def in_context(clauses: Sequence[Clause], index: int) -> Clause:
+    """A clause as the one before completes it.
+
+    A left turn after "if there is an intersection" is one at that intersection.
+    """
+    before = clauses[index - 1] if index else None
+    match before, clauses[index]:
+        case IfThere(PlaceReference() as at, absent=False), Turn(turning, None, None):
+            return Turn(turning, at)
+    return clauses[index]
+
+
+def is_only_a_direction(clauses: Sequence[Clause], index: int) -> bool:
+    """Whether a clause is "go down the hallway" and the next one says how far."""
+    if clauses[index] != Follow() or index + 1 == len(clauses):
+        return False
+    if _hangs_on_condition(clauses, index):
+        return False
+    following = clauses[index + 1]
+    on_the_spot = isinstance(following, Turn) and following.degrees is not None
+    return isinstance(following, Follow | Turn | GoToDoor) and not on_the_spot
+
+
+def comes_after_corridor(clauses: Sequence[Clause], index: int) -> bool:
+    """Whether a bare turn means the next place that offers it, and not the place where it begins.
+
+    It does after "go down the hallway" and after "go past the second door".
+    """
+    if index == 0 or _hangs_on_condition(clauses, index - 1):
+        return False  # what hangs on a condition may not have been done
+    before, clause = clauses[index - 1 : index + 1]
+    aside = isinstance(clause, Turn) and clause.turning is not Turning.AROUND
+    passed = isinstance(before, Follow) and before.past and aside
+    return passed or is_only_a_direction(clauses, index - 1)
+
+
+def _hangs_on_condition(clauses: Sequence[Clause], index: int) -> bool:
+    """Whether a clause is one of the two that a condition chooses from."""
+    then = index > 0 and isinstance(clauses[index - 1], IfThere)
+    condition = clauses[index - 2] if index > 1 else None
+    return then or (isinstance(condition, IfThere) and condition.otherwise)

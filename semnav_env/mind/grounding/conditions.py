@@ -1,0 +1,46 @@
+"""Whether a condition is met."""
+
+from __future__ import annotations
+
+from semnav_env.language.clauses import IfThere
+from semnav_env.language.references import OTHER, DoorReference, Place, PlaceReference, Side
+from semnav_env.mind.grounding.find import named_doors
+from semnav_env.mind.grounding.junctions import junctions_ahead
+from semnav_env.mind.grounding.opposite import ORDINALS_OF_ONE, doors_opposite
+from semnav_env.mind.grounding.search import Known, Searching
+from semnav_env.mind.grounding.situation import Situation
+
+
+def is_met(condition: IfThere, situation: Situation) -> Known[bool] | Searching:
+    """Whether a condition is met, as far as it is known.
+
+    What is there is known as soon as it is seen; that nothing is there, at the end of the corridor,
+    or where there can be no more.
+    """
+    situation = situation.towards(condition.what)
+    if isinstance(condition.what, DoorReference) and condition.what.side is Side.OPPOSITE:
+        found = doors_opposite(condition.what, situation)
+        if isinstance(found, Searching):
+            return found
+        there = bool(found.value) and condition.what.ordinal in ORDINALS_OF_ONE
+        return Known(there is not condition.absent)
+    (count, more), wanted = _count(condition.what, situation), condition.what.ordinal
+    from_start, all_known = wanted > OTHER, situation.seen_to_end or not more
+    if (from_start or all_known) and count >= max(1, abs(wanted)):
+        there = wanted != OTHER or count == 1
+    elif all_known:
+        there = False
+    else:
+        return situation.go_on(condition.what)
+    return Known(there is not condition.absent)
+
+
+def _count(what: DoorReference | PlaceReference, situation: Situation) -> tuple[int, bool]:
+    """How many of the kind have been seen so far, and whether there may be more farther on."""
+    if isinstance(what, DoorReference):
+        doors, more = named_doors(what, situation)
+        return len(doors), more
+    if what.place is Place.END:
+        return int(situation.seen_to_end), True
+    rules = situation.rules.grounding
+    return len(junctions_ahead(situation.corridor, what.place, rules=rules)), True

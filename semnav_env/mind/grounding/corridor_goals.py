@@ -1,0 +1,182 @@
+"""The goals of turns and of following a corridor."""
+
+from __future__ import annotations
+
+import math
+
+from semnav_env.language.clauses import Follow, Turn, Turning
+from semnav_env.language.references import Distance, DoorReference, Place, RoomReference, Side
+from semnav_env.mind.grounding.counted_doors import doors_along
+from semnav_env.mind.grounding.errors import GroundingError, UnclearError
+from semnav_env.mind.grounding.find import find_door, find_junction, junction_name
+from semnav_env.mind.grounding.goal import Goal, ReachGoal, SeekGoal
+from semnav_env.mind.grounding.goals import search_goal
+from semnav_env.mind.grounding.junctions import QUARTER_TURNS, mouth_of
+from semnav_env.mind.grounding.search import Searching
+from semnav_env.mind.grounding.situation import Situation, turned
+from semnav_features.corridor import Junction, doorway_at
+from semnav_features.frames import compose
+from semnav_features.scene import Door
+
+END_OF_HALLWAY = "the end of the hallway"
+
+
+def turn_goal(clause: Turn, situation: Situation) -> Goal:
+    """The goal of "turn left at the intersection"."""
+    if clause.degrees is not None:
+        return _turn_by(clause.turning, clause.degrees, situation)
+    if clause.at is None and not situation.after_corridor:
+        return _turn_here(clause.turning, situation)
+    if clause.turning is Turning.AROUND:
+        return _turn_around(clause, situation)
+    found = find_junction(clause.at, clause.turning, situation)
+    if isinstance(found, Searching):
+        return search_goal(found)
+    because = f"turn {clause.turning} at {junction_name(clause.at)}"
+    return _into_arm(found.value, clause.turning, because, situation)
+
+
+def _into_arm(
+    junction: Junction, turning: Turning, because: str, situation: Situation
+) -> ReachGoal:
+    """Be in the mouth of a junction's arm, looking out along it."""
+    corridor = situation.corridor
+    rules, accepted = situation.rules.grounding, situation.rules.success
+    mouth = mouth_of(junction, turning, corridor, situation.scene, rules)
+    return ReachGoal(
+        compose(mouth, (rules.arm_depth, 0.0, 0.0)),
+        accepted.junction_distance,
+        accepted.turn_heading,
+        because,
+        corridor=corridor,
+        junction=junction,
+        onward=mouth,
+    )
+
+
+def follow_goal(clause: Follow, situation: Situation) -> Goal:
+    """The goal of "follow the hallway until the next intersection"."""
+    until, last_stop = clause.until, situation.last_stop
+    if isinstance(until, Distance):
+        return _go_on(situation, _distance_along(until, situation), str(until))
+    if isinstance(until, DoorReference):
+        return _follow_to_door(clause, until, situation)
+    if isinstance(until, RoomReference):
+        raise TypeError(f"{clause!r} is grounded by follow_to_room")
+    if until is None or until.place is Place.END:
+        if math.isinf(last_stop):
+            return search_goal(situation.go_on(END_OF_HALLWAY))
+        return _go_on(situation, last_stop, END_OF_HALLWAY)
+    found = find_junction(until, None, situation)
+    if isinstance(found, Searching):
+        return search_goal(found)
+    junction = found.value
+    if clause.past and until.place is Place.CORNER:
+        way = Turning.RIGHT if junction.left is None else Turning.LEFT
+        return _into_arm(junction, way, f"go on {_where(clause)}", situation)
+    if clause.past and not junction.ahead and situation.complete:
+        raise GroundingError(f"the hallway does not go on behind {until}")
+    behind = junction.far + situation.rules.grounding.behind_referent
+    along = min(behind, last_stop) if clause.past else junction.centre
+    return _go_on(situation, along, _where(clause))
+
+
+def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) -> Goal:
+    """Up to a door or past it.
+
+    Raises:
+        UnclearError: it is opposite, across the corridor and not along it; or it is the doorway
+            that the robot stands in.
+    """
+    if until.side is Side.OPPOSITE:
+        raise UnclearError(f"{clause}: it lies across; say to go to it, or through it")
+    found = find_door(until, situation)
+    if isinstance(found, Searching):
+        return search_goal(found)
+    door, rules = found.value, situation.rules.grounding
+    if situation.back:
+        from semnav_env.mind.grounding.visible_doors import own_doorway  # few commands need it
+
+        if door.door == own_doorway(situation.scene, turned(situation.begin), rules):
+            raise UnclearError(f"{clause}: one stands in that doorway; say to go through it")
+    shift = rules.behind_referent if clause.past else -rules.before_door
+    along = min(door.along + shift, situation.last_stop)
+    return _go_on(situation, along, _where(clause), door.door)
+
+
+def _where(clause: Follow) -> str:
+    return f"behind {clause.until}" if clause.past else str(clause.until)
+
+
+def _distance_along(distance: Distance, situation: Situation) -> float:
+    """How far to go, metres; not beyond the end of the corridor.
+
+    Raises:
+        GroundingError: the corridor is known, and shorter.
+    """
+    most = situation.corridor.end - situation.rules.grounding.end_margin / 2
+    if distance.metres > most and situation.complete:
+        raise GroundingError(
+            f"{distance} ahead: the hallway ends after {situation.corridor.end:.1f} m"
+        )
+    return min(distance.metres, most)
+
+
+def _go_on(situation: Situation, along: float, where: str, beside: Door | None = None) -> ReachGoal:
+    """Be so far along the corridor, beside a door if one says how far."""
+    return ReachGoal(
+        situation.corridor.place(along),
+        situation.rules.success.corridor_distance,
+        because=f"go on to {where}",
+        beside=beside,
+        corridor=situation.corridor,
+    )
+
+
+def _turn_here(turning: Turning, situation: Situation) -> ReachGoal:
+    """Turn where the clause began, or where there is room for it before the doorway there."""
+    rules, accepted = situation.rules.grounding, situation.rules.success
+    doorway = doorway_at(situation.scene, situation.begin)
+    out = 0.0 if doorway is None else min(rules.doorway_exit, situation.corridor.end / 2)
+    pose = compose(situation.begin, (out, 0.0, QUARTER_TURNS[turning] * math.pi / 2))
+    leaves_door = doorway is not None or _faces_a_door(situation)
+    past = rules.beside_doorway if leaves_door and turning is not Turning.AROUND else 0.0
+    return ReachGoal(
+        pose,
+        accepted.turn_distance,
+        accepted.turn_heading,
+        f"turn {turning} here",
+        onward=compose(pose, (past, 0.0, 0.0)),
+    )
+
+
+def _faces_a_door(situation: Situation) -> bool:
+    """Whether the robot stands right before a door and looks at it."""
+    rules = situation.rules.grounding
+    facing = doors_along(situation.scene, situation.corridor, Side.AHEAD, rules)
+    return any(door.along <= rules.faced_door_distance for door in facing)
+
+
+def _turn_by(turning: Turning, degrees: int, situation: Situation) -> ReachGoal:
+    """Turn by an angle where the clause began; only the heading in the end counts."""
+    angle, accepted = math.radians(degrees), situation.rules.success
+    return ReachGoal(
+        compose(situation.begin, (0.0, 0.0, math.copysign(angle, QUARTER_TURNS[turning]))),
+        accepted.turn_distance,
+        min(accepted.turn_heading, max(accepted.turn_heading_min, angle / 2)),
+        f"turn {turning} by {degrees} degrees",
+    )
+
+
+def _turn_around(clause: Turn, situation: Situation) -> Goal:
+    there = follow_goal(Follow(clause.at), situation)
+    if isinstance(there, SeekGoal):
+        return there
+    accepted = situation.rules.success
+    return ReachGoal(
+        compose(there.pose, (0.0, 0.0, math.pi)),
+        accepted.turn_distance,
+        accepted.turn_heading,
+        f"turn around at {clause.at or END_OF_HALLWAY}",
+        corridor=situation.corridor,
+    )

@@ -1,0 +1,169 @@
+"""What a reference names in a situation: a door or a junction, or where to look for it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from semnav_env.language.clauses import Turning
+from semnav_env.language.references import OTHER, DoorReference, PlaceReference, Side
+from semnav_env.mind.grounding.counted_doors import CountedDoor, doors_along
+from semnav_env.mind.grounding.door_geometry import heading_through
+from semnav_env.mind.grounding.errors import GroundingError, UnclearError
+from semnav_env.mind.grounding.junctions import junctions_ahead
+from semnav_env.mind.grounding.search import Known, Searching
+from semnav_env.mind.grounding.situation import Situation, is_behind
+from semnav_features.corridor import Junction
+
+
+def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
+    """The door that a reference names.
+
+    Args:
+        reference: to a door.
+        situation: of a robot that looks towards it, see `Situation.towards`.
+
+    Raises:
+        GroundingError: the corridor ended before.
+        UnclearError: the side is open and doors on both fit.
+    """
+    if reference.side is Side.OPPOSITE:
+        return _find_opposite(reference, situation)
+    doors, more = named_doors(reference, situation)
+    if more and reference.ordinal <= OTHER and not situation.seen_to_end:
+        return situation.go_on(reference)
+    index = _index(reference, len(doors))
+    if not 0 <= index < len(doors):
+        if not more:
+            raise GroundingError(f"no {str(reference).removeprefix('the ')}: there is {len(doors)}")
+        if situation.seen_to_end:
+            raise _missing(str(reference), len(doors))
+        return situation.go_on(reference)
+    door = doors[index]
+    if situation.complete:
+        _check_order(reference, doors, index, situation)
+    elif more and not (situation.back and situation.seen_to_end):
+        side = None if situation.back else reference.side
+        if _may_hide_a_door(situation, side, door.along):
+            return situation.go_on(f"doors before {reference}", door.along)
+    return Known(door)
+
+
+def named_doors(
+    reference: DoorReference, situation: Situation
+) -> tuple[Sequence[CountedDoor], bool]:
+    """The doors that a reference may name, in order, and whether there may be more farther on.
+
+    Args:
+        reference: to a door on any side but opposite.
+        situation: of a robot that looks towards it.
+    """
+    if not situation.back:
+        rules = situation.rules.grounding
+        return doors_along(situation.scene, situation.corridor, reference.side, rules), True
+    from semnav_env.mind.grounding.behind import doors_behind  # few commands need it
+
+    return doors_behind(situation)
+
+
+def find_junction(
+    reference: PlaceReference | None, turning: Turning | None, situation: Situation
+) -> Known[Junction] | Searching:
+    """The junction that a reference names.
+
+    Only junctions that open to the side of the turn count. Without a reference it is the next
+    one of any kind. Whether a junction is a corner can hang on an opening that is hard to see; so
+    at the end of a corridor that has none of the kind a robot takes what else leads its way.
+
+    Raises:
+        GroundingError: there is no such place.
+    """
+    place = None if reference is None else reference.place
+    ordinal = 1 if reference is None else reference.ordinal
+    corridor, rules = situation.corridor, situation.rules.grounding
+    junctions = junctions_ahead(corridor, place, turning, rules)
+    if not junctions and situation.seen_to_end and not situation.complete:
+        junctions = junctions_ahead(corridor, None, turning, rules)
+    counted = ordinal > 0 or situation.seen_to_end
+    if counted and len(junctions) >= abs(ordinal):
+        return Known(junctions[ordinal - 1 if ordinal > 0 else ordinal])
+    name = junction_name(reference) + ("" if turning is None else f" that leads {turning}")
+    if situation.seen_to_end:
+        raise _missing(name, len(junctions))
+    return situation.go_on(name)
+
+
+def junction_name(reference: PlaceReference | None) -> str:
+    """What a reference calls a junction; without one it is the next."""
+    return "the next junction" if reference is None else str(reference)
+
+
+def _find_opposite(
+    reference: DoorReference, situation: Situation
+) -> Known[CountedDoor] | Searching:
+    from semnav_env.mind.grounding import opposite  # few commands need it
+
+    if reference.ordinal not in opposite.ORDINALS_OF_ONE:
+        raise GroundingError(f"no {str(reference).removeprefix('the ')}: at most one is opposite")
+    found = opposite.doors_opposite(reference, situation)
+    if isinstance(found, Searching):
+        return found
+    if len(found.value) > 1:
+        sides = " and ".join(sorted(view.side for view in found.value))
+        raise UnclearError(f"{reference}: there is one {sides} there; say on which side")
+    for view, door in found.value.items():
+        outward = heading_through(door, view.pose[2])
+        return Known(CountedDoor(door, 0.0, Side.OPPOSITE, outward))
+    here = "this place" if opposite.view_from_door(situation) is None else "that door"
+    raise GroundingError(f"no door opposite: none faces {here}")
+
+
+def _index(reference: DoorReference, count: int) -> int:
+    """Which of `count` doors in the order of travel is meant; negative or too high if none.
+
+    Raises:
+        UnclearError: "the other door", of several.
+    """
+    if reference.ordinal == OTHER:
+        if count > 1:
+            raise UnclearError(f"{reference}: there are {count}; say which")
+        return 0
+    return reference.ordinal - 1 if reference.ordinal > 0 else count + reference.ordinal
+
+
+def _check_order(
+    reference: DoorReference, doors: Sequence[CountedDoor], index: int, situation: Situation
+) -> None:
+    """Refuse to choose between doors that are not one before the other."""
+    chosen, rules = doors[index], situation.rules.grounding
+    for other in doors[max(0, index - 1) : index + 2]:
+        straight = other.side is Side.BEHIND and abs(other.off - chosen.off) < rules.behind_angle
+        if other is not chosen and straight:
+            raise UnclearError(f"{reference}: two there are equally nearly straight behind")
+        abreast = abs(other.along - chosen.along) < rules.abreast_distance
+        if abreast and other.side is not chosen.side:
+            sides = " and ".join(sorted((other.side, chosen.side)))
+            say = "turn around first, and say" if is_behind(reference) else "say"
+            raise UnclearError(f"{reference}: there is one {sides} there; {say} on which side")
+
+
+def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> bool:
+    """Whether a stretch of the side ahead of the robot and before `until` is still unseen."""
+    if situation.has_come(until):
+        return False  # what cannot be seen from there, no looking will show
+    start, corridor = max(0.0, situation.progress), situation.corridor
+    for left, own_side in ((True, Side.LEFT), (False, Side.RIGHT)):
+        if side in (None, own_side) and math.isfinite(corridor.unseen(left, start, until)):
+            return True
+    return False
+
+
+def _missing(what: str, count: int) -> GroundingError:
+    """The error for something that is not there: "no third door: the hallway ended after 2".
+
+    Args:
+        what: was looked for, beginning with "the".
+        count: how many of the kind there are.
+    """
+    there = f"ended after {count}" if count else "has none"
+    return GroundingError(f"no {what.removeprefix('the ')}: the hallway {there}")

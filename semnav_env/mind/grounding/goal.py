@@ -1,0 +1,166 @@
+"""Where a clause leads: the interface between grounding and driving."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass, field
+from enum import IntEnum
+from typing import ClassVar, TypeAlias
+
+from semnav_env.mind.grounding.goal_check import is_crossed, is_reached
+from semnav_features.corridor import Corridor, Junction
+from semnav_features.frames import Point, Pose
+from semnav_features.scene import Door
+
+
+class GoalKind(IntEnum):
+    """The number by which an observation tells what reaching a goal means."""
+
+    SEEK = 0
+    REACH = 1
+    PASS = 2
+    STOP = 3
+
+
+@dataclass(frozen=True, slots=True)
+class BaseGoal:
+    """What all goals have; everything is in the frame of the scene that was grounded on.
+
+    Attributes:
+        pose: where the robot's centre should come to be, (x, y, heading).
+        corridor: the corridor in which the referent was found.
+        onward: where the next clause begins; None for `pose`. The middle of the doorway that was
+            crossed, or the mouth of the arm that was turned into.
+        places: of the way there, from its begin on, if it is known; (x, y) in metres.
+    """
+
+    kind: ClassVar[GoalKind]
+    pose: Pose
+    _: KW_ONLY
+    corridor: Corridor | None = field(default=None, compare=False, repr=False)
+    onward: Pose | None = None
+    places: tuple[Point, ...] = field(default=(), compare=False, repr=False)
+
+    @property
+    def next_begin(self) -> Pose:
+        """Where the next clause begins."""
+        return self.onward or self.pose
+
+
+@dataclass(frozen=True, slots=True)
+class SeekGoal(BaseGoal):
+    """Drive towards `pose` and keep looking: the referent has not been seen yet.
+
+    Attributes:
+        what: is being looked for, in words.
+    """
+
+    kind: ClassVar[GoalKind] = GoalKind.SEEK
+    what: str
+
+    @property
+    def because(self) -> str:
+        """What was understood, for the picture and the log."""
+        return f"looking for {self.what}"
+
+
+@dataclass(frozen=True, slots=True)
+class ReachGoal(BaseGoal):
+    """Be at `pose`, within the tolerances.
+
+    Attributes:
+        distance_tolerance: how far from `pose` still counts as there, metres.
+        heading_tolerance: how far off its heading, radians; pi where the heading is free.
+        because: what was understood, for the picture and the log.
+        door: the doorway to stand before; its `name` only on a true scene.
+        junction: the junction at which to turn.
+        beside: the door beside which the goal lies, of "until the second door".
+        offset_tolerance: where it is not None, `distance_tolerance` counts along the pose's heading
+            only, and this one across it, metres: at the end of a known way, where odometry may
+            have drifted.
+    """
+
+    kind: ClassVar[GoalKind] = GoalKind.REACH
+    distance_tolerance: float
+    heading_tolerance: float = math.pi
+    because: str = ""
+    door: Door | None = None
+    junction: Junction | None = field(default=None, compare=False, repr=False)
+    beside: Door | None = field(default=None, compare=False, repr=False)
+    offset_tolerance: float | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def fixes_heading(self) -> bool:
+        """Whether the robot must face a direction there."""
+        return self.heading_tolerance < math.pi
+
+    @property
+    def tolerances(self) -> tuple[float, float, float]:
+        """Tolerances of distance, heading and offset; NaN where there is none of the offset."""
+        offset = math.nan if self.offset_tolerance is None else self.offset_tolerance
+        return self.distance_tolerance, self.heading_tolerance, offset
+
+    def reached_by(self, pose: Pose, share: float = 1.0) -> bool:
+        """Whether `pose` lies within the tolerances, or within a `share` of them."""
+        return is_reached(self.pose, self.tolerances, pose, share)
+
+
+@dataclass(frozen=True, slots=True)
+class PassGoal(BaseGoal):
+    """Cross a doorway; `pose` lies behind it, heading away from it.
+
+    Attributes:
+        door: the doorway; its `name` only on a true scene.
+        because: what was understood, for the picture and the log.
+    """
+
+    kind: ClassVar[GoalKind] = GoalKind.PASS
+    door: Door
+    because: str = ""
+
+    def crossed_between(self, before: Pose, after: Pose, margin: float = 0.0) -> bool:
+        """Whether the way from `before` to `after` leads forward through the door.
+
+        Args:
+            before: a pose of the robot's centre.
+            after: the next one.
+            margin: how far beside the jambs still counts, and how far behind them the way must
+                lead, metres; for a door that is not known exactly.
+        """
+        ends, heading = (*self.door.start, *self.door.end), self.pose[2]
+        return is_crossed(before[:2], after[:2], ends, self.door.width, heading, margin)
+
+
+@dataclass(frozen=True, slots=True)
+class StopGoal(BaseGoal):
+    """Stand still.
+
+    Attributes:
+        because: what was understood, for the picture and the log.
+        wait: for how long, seconds.
+        roams: whether the robot may go anywhere before, through any door: it stands still to say
+            that it has finished.
+    """
+
+    kind: ClassVar[GoalKind] = GoalKind.STOP
+    because: str = ""
+    wait: float = 0.0
+    roams: bool = False
+
+
+Goal: TypeAlias = SeekGoal | ReachGoal | PassGoal | StopGoal
+"""Where a clause leads."""
+
+
+def door_of(goal: Goal) -> Door | None:
+    """The doorway that a goal is to cross, or to stand before."""
+    match goal:
+        case PassGoal(door=door) | ReachGoal(door=door):
+            return door
+        case SeekGoal() | StopGoal():
+            return None
+
+
+def wait_of(goal: Goal) -> float:
+    """How long the robot is to stand still at a goal, seconds."""
+    return goal.wait if isinstance(goal, StopGoal) else 0.0

@@ -1,0 +1,135 @@
+"""The goals of clauses that lead to a door, through one, out of a room, or where a way leads."""
+
+from __future__ import annotations
+
+import math
+
+from semnav_env.language.clauses import Approach, GoBack, GoToDoor, GoToRoom
+from semnav_env.language.references import Side
+from semnav_env.mind.grounding.counted_doors import CountedDoor
+from semnav_env.mind.grounding.door_geometry import heading_through
+from semnav_env.mind.grounding.errors import GroundingError
+from semnav_env.mind.grounding.find import find_door
+from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
+from semnav_env.mind.grounding.goal_check import looks_along
+from semnav_env.mind.grounding.search import Searching
+from semnav_env.mind.grounding.situation import Situation
+from semnav_env.mind.grounding.ways import Way, door_near
+from semnav_env.rules import GroundingRules
+from semnav_features.frames import Pose
+
+
+def search_goal(search: Searching) -> SeekGoal | ReachGoal:
+    """The goal of looking for something.
+
+    A search on the spot is a goal that no pose reaches, for turning is no end in itself.
+    """
+    if search.on_the_spot:
+        return ReachGoal(search.lookout, 0.0, 0.0, f"looking for {search.what}")
+    return SeekGoal(search.lookout, search.what, corridor=search.corridor)
+
+
+def is_search(goal: Goal) -> bool:
+    """Whether a goal is that of looking for something, see `search_goal`."""
+    on_the_spot = isinstance(goal, ReachGoal) and goal.distance_tolerance == 0.0
+    return on_the_spot or isinstance(goal, SeekGoal)
+
+
+def has_looked(goal: Goal, pose: Pose, rules: GroundingRules) -> bool:
+    """Whether a goal is that of looking for something, and a robot has come to look from there."""
+    if isinstance(goal, SeekGoal):
+        return math.dist(goal.pose[:2], pose[:2]) <= rules.lookout_distance
+    return is_search(goal) and looks_along(pose, goal.pose[2], rules.inspection_angle)
+
+
+def door_goal(clause: GoToDoor, situation: Situation) -> Goal:
+    """The goal of "go through the second door on the right", or to it."""
+    found = find_door(clause.door, situation)
+    if isinstance(found, Searching):
+        return search_goal(found)
+    door, because = found.value, _because(clause)
+    across = door.side in (Side.BEHIND, Side.OPPOSITE)  # not along the corridor
+    corridor = None if across else situation.corridor
+    stand_off = situation.rules.grounding.stand_off
+    if clause.approach is Approach.THROUGH:
+        behind, line = door.pose(stand_off), door.pose(0.0)
+        return PassGoal(behind, door.door, because, corridor=corridor, onward=line)
+    accepted, inside = situation.rules.success, clause.approach is Approach.IN
+    return ReachGoal(
+        door.pose(0.0 if inside else -stand_off),
+        accepted.door_distance / 2 if inside else accepted.door_distance,
+        accepted.door_heading,
+        because,
+        door.door,
+        corridor=corridor,
+    )
+
+
+def _because(clause: GoToDoor) -> str:
+    """The door, and that nothing was said of how to approach it."""
+    from semnav_env.language.languages import english  # read when first spoken
+
+    return str(clause.door) + (english().say("by_default") if clause.by_default else "")
+
+
+def leave_goal(situation: Situation) -> Goal:
+    """The goal of "leave the room"."""
+    from semnav_env.mind.grounding.behind import find_exit  # few commands need it
+
+    found = find_exit(situation)
+    if isinstance(found, Searching):
+        return search_goal(found)
+    door = found.value
+    behind, line = door.pose(situation.rules.grounding.stand_off), door.pose(0.0)
+    return PassGoal(behind, door.door, "leave the room", onward=line)
+
+
+def way_goal(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
+    """The goal of "go to the kitchen" and of "go back to the start".
+
+    The door that is seen where one was pointed out is the one to pass; until it is seen, the one
+    that was pointed out.
+
+    Raises:
+        GroundingError: the robot has not been told the way.
+    """
+    way, because = situation.way, str(clause)
+    if way is None:
+        raise GroundingError(f"{clause}: the robot has not been told the way there")
+    if way.door is None:
+        return _end_of_way(way, because, situation)
+    rules = situation.rules.grounding
+    door = door_near(situation.scene, way, situation.pose, rules) or way.door
+    line = CountedDoor(door, 0.0, Side.AHEAD, heading_through(door, way.heading))
+    if isinstance(clause, GoToRoom) and clause.approach is Approach.TO:
+        return _before_room(line, because, way, situation)
+    behind, onward = line.pose(rules.stand_off), line.pose(0.0)
+    return PassGoal(behind, door, because, onward=onward, places=way.places)
+
+
+def _before_room(line: CountedDoor, because: str, way: Way, situation: Situation) -> ReachGoal:
+    """Stand in front of a room's door, facing it."""
+    accepted = situation.rules.success
+    before = line.pose(-situation.rules.grounding.stand_off)
+    return ReachGoal(
+        before,
+        accepted.door_distance,
+        accepted.door_heading,
+        because,
+        line.door,
+        places=(*way.places[:-1], before[:2]),
+    )
+
+
+def _end_of_way(way: Way, because: str, situation: Situation) -> ReachGoal:
+    """Be where the way leads, facing as the last stretch of it does."""
+    (ax, ay), (bx, by) = way.places[-2:]
+    accepted = situation.rules.success
+    return ReachGoal(
+        (bx, by, math.atan2(by - ay, bx - ax)),
+        accepted.way_distance,
+        because=because,
+        offset_tolerance=accepted.way_offset,
+        onward=(bx, by, way.heading),
+        places=way.places,
+    )

@@ -1,0 +1,101 @@
+"""From a clause and a scene to a goal; one implementation for perceived and true scenes."""
+
+from __future__ import annotations
+
+from semnav_env.language.clauses import (
+    Clause,
+    Face,
+    Follow,
+    GoBack,
+    GoToDoor,
+    GoToRoom,
+    IfThere,
+    Leave,
+    SearchHouse,
+    Stop,
+    Turn,
+)
+from semnav_env.language.command import reference_of
+from semnav_env.language.references import RoomReference
+from semnav_env.mind.grounding.corridor_goals import follow_goal, turn_goal
+from semnav_env.mind.grounding.errors import GroundingError
+from semnav_env.mind.grounding.goal import Goal, StopGoal
+from semnav_env.mind.grounding.goals import door_goal, leave_goal, way_goal
+from semnav_env.mind.grounding.own_clause import GroundedClause
+from semnav_env.mind.grounding.situation import Situation
+from semnav_env.mind.grounding.ways import Way
+from semnav_env.rules import Rules
+from semnav_features.frames import Pose
+from semnav_features.scene import Scene
+
+
+def ground(
+    clause: Clause,
+    scene: Scene,
+    begin: Pose,
+    pose: Pose | None = None,
+    *,
+    complete: bool = False,
+    after_corridor: bool = False,
+    way: Way | None = None,
+    rules: Rules = Rules(),
+) -> Goal:
+    """Find what a clause refers to.
+
+    Args:
+        clause: one clause of a command.
+        scene: remembered or true walls and doors, any frame.
+        begin: where the robot was when the clause began, in the scene's frame.
+        pose: how far it has come since then; `begin` if not given.
+        complete: the scene holds everything there is, so there is nothing to look for.
+        after_corridor: the clause follows "go down the hallway", so a bare turn means the next
+            place that offers it.
+        way: to the room that the clause names, or back, in the scene's frame.
+        rules: distances and tolerances.
+
+    Returns:
+        The goal in the scene's frame. A `SeekGoal` while the referent is not seen yet.
+
+    Raises:
+        GroundingError: the referent cannot be there; the message says what is.
+        ValueError: a door of the scene has no width, and another one may lie behind it.
+    """
+    here = begin if pose is None else pose
+    situation = Situation(scene, begin, here, complete, after_corridor, way, rules=rules)
+    return goal_of(clause, situation)
+
+
+def goal_of(clause: Clause, situation: Situation) -> Goal:
+    """The goal of a clause in a situation; see `ground`.
+
+    Raises:
+        GroundingError: the referent cannot be there, or the clause is a condition.
+    """
+    situation = situation.towards(reference_of(clause))
+    match clause:
+        case GoToDoor():
+            return door_goal(clause, situation)
+        case Turn():
+            return turn_goal(clause, situation)
+        case Follow(RoomReference()) | Face():
+            from semnav_env.mind.grounding.landmark_goals import (
+                landmark_goal,  # here, as it is rare
+            )
+
+            return landmark_goal(clause, situation)
+        case Follow():
+            return follow_goal(clause, situation)
+        case Leave():
+            return leave_goal(situation)
+        case GoToRoom() | GoBack():
+            return way_goal(clause, situation)
+        case IfThere():
+            raise GroundingError(f"{clause}: a condition leads nowhere by itself")
+        case SearchHouse():
+            rest = situation.rules.success.search_rest_seconds
+            return StopGoal(situation.begin, str(clause), rest, roams=True)
+        case Stop():
+            return StopGoal(situation.begin, str(clause), float(clause.seconds))
+        case GroundedClause():
+            return clause.goal(situation)
+    raise TypeError(f"{clause!r} is no clause")

@@ -1,0 +1,45 @@
+"""Driving along a way that is known: the next place on it to head for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from semnav_env.mind.grounding.goal import Goal, PassGoal, SeekGoal
+from semnav_env.rules import GroundingRules
+from semnav_features.frames import Point, Pose, to_local, to_parent, wrap_angle
+
+
+def next_on_way(goal: Goal, pose: Pose, rules: GroundingRules) -> Goal:
+    """What a robot at a pose should head for: the goal, or the next place on a long known way."""
+    if not goal.places:
+        return goal
+    apart = [math.dist(place, pose[:2]) for place in goal.places]
+    here = apart.index(min(apart))
+    ahead = here + rules.places_ahead
+    there = _along(goal.places, ahead)
+    if ahead >= len(goal.places) - 1:
+        if isinstance(goal, PassGoal):
+            return goal
+        there = goal.pose
+    stretch = _along(goal.places, here)
+    if abs(wrap_angle(stretch[2] - there[2])) < rules.straight_way_angle:
+        offset = to_local(stretch, pose[:2])[1]
+        there = _beside(there, offset if abs(offset) < rules.way_drift else 0.0)
+    return SeekGoal(there, "the way")
+
+
+def _along(places: Sequence[Point], index: int) -> Pose:
+    """A place of a way, or the one before the last, and the direction of the way there."""
+    index = min(index, len(places) - 2)
+    (x, y), (bx, by) = places[index : index + 2]
+    return x, y, math.atan2(by - y, bx - x)
+
+
+def _beside(there: Pose, offset: float) -> Pose:
+    """The place as far to the left of one on a straight way as the robot is beside the way here.
+
+    So a corridor is driven down where it is, however far odometry has drifted to a side.
+    """
+    x, y = to_parent(there, (0.0, offset))
+    return x, y, there[2]

@@ -1,0 +1,79 @@
+"""Where else in a room to look for its door."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from semnav_env.mind.grounding.room_exits import distances_to, room_exits, without_gaps
+from semnav_env.mind.grounding.search import Searching
+from semnav_env.mind.grounding.situation import Situation, turned
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.scene import Door, Scene, ends_of
+
+WHAT = "the door of the room"
+"""What is looked for."""
+
+HEADINGS: FloatArray = math.pi / 12 * np.arange(24.0)
+"""Directions in which a lookout may lie, from the heading of the last one, radians."""
+
+HALF_WIDTH = 0.4
+"""Half of the width that must be free on the way to a lookout, metres: of a body."""
+
+WALL_DISTANCE = 0.9
+"""Distance that a lookout keeps from what lies behind it, metres: room to turn."""
+
+MAX_STEP, MIN_STEP = 4.0, 1.0
+"""Farthest and nearest that a lookout may lie from those before it, metres: within a room, and far
+enough to see past another piece of furniture."""
+
+MAX_LOOKOUTS = 5
+"""A room has been looked at from so many places at most, the first one included."""
+
+
+def exits_in_view(situation: Situation) -> list[Door] | Searching:
+    """The exits of the room that are in view from where the robot has looked, or where to look.
+
+    It turns around first, then it looks from other places in the room. None if that is of no use.
+    """
+    scene, begin, rules = situation.scene, situation.begin, situation.rules.grounding
+    for place in (begin, *situation.lookouts):
+        scene, around = without_gaps(scene, place, rules)
+        exits = room_exits(around, scene, place, rules)
+        if exits:
+            return exits
+    if not situation.lookouts:
+        return situation.turn_to(turned(begin)[2], WHAT)
+    lookout = next_lookout(scene, situation.lookouts)
+    return [] if lookout is None else Searching(WHAT, lookout)
+
+
+def next_lookout(scene: Scene, lookouts: Sequence[Pose]) -> Pose | None:
+    """The place straight ahead of the last lookout, in any direction, that is farthest from all.
+
+    Args:
+        scene: what is remembered; a known door is not driven through.
+        lookouts: where the robot has looked from, the last one last.
+
+    Returns:
+        The place, and the heading to it; None if there is none that would show more.
+    """
+    if len(lookouts) >= MAX_LOOKOUTS:
+        return None
+    last = lookouts[-1]
+    solid = np.vstack((ends_of(scene.walls), ends_of(scene.doors)))
+    headings = last[2] + HEADINGS
+    c, s = np.cos(headings), np.sin(headings)
+    steps = np.full(len(headings), MAX_STEP)
+    for aside in (-HALF_WIDTH, 0.0, HALF_WIDTH):
+        begins = np.column_stack((last[0] - aside * s, last[1] + aside * c))
+        steps = np.minimum(steps, distances_to(solid, begins, headings) - WALL_DISTANCE)
+    x, y = last[0] + steps * c, last[1] + steps * s
+    apart = np.min([np.hypot(x - px, y - py) for px, py, _ in lookouts], axis=0)
+    apart[steps < MIN_STEP] = 0.0
+    best = int(np.argmax(apart))
+    if apart[best] < MIN_STEP:
+        return None
+    return float(x[best]), float(y[best]), float(headings[best])

@@ -1,0 +1,109 @@
+"""What a clause is grounded on: a scene, where the clause began, and how far the robot is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from semnav_env.language.references import DoorReference, Side
+from semnav_env.mind.grounding.goal_check import looks_along
+from semnav_env.mind.grounding.search import Searching
+from semnav_env.mind.grounding.ways import Way
+from semnav_env.rules import Rules
+from semnav_features.corridor import Corridor, corridor_at
+from semnav_features.frames import Pose, compose
+from semnav_features.scene import Door, Scene
+
+
+@dataclass(frozen=True)
+class Situation:
+    """What a clause is grounded on.
+
+    Attributes:
+        scene: remembered or true walls and doors.
+        begin: where the clause began, in the scene's frame.
+        pose: how far the robot has come since then, in the scene's frame. Its heading is where the
+            robot looks now, or the direction it had to look in if it has done so since then.
+        complete: the scene holds everything there is, so there is nothing to look for.
+        after_corridor: the clause before was "go down the hallway".
+        way: that was pointed out or driven, for a clause that needs one.
+        beside: the door that the clause before led to, and not through.
+        lookouts: poses at which the robot has looked for the referent, in the order of time.
+        back: `begin` is turned around, see `towards`.
+        rules: distances and tolerances.
+    """
+
+    scene: Scene
+    begin: Pose
+    pose: Pose
+    complete: bool = False
+    after_corridor: bool = False
+    way: Way | None = None
+    beside: Door | None = None
+    lookouts: tuple[Pose, ...] = ()
+    back: bool = False
+    rules: Rules = field(default=Rules(), repr=False)
+
+    @cached_property
+    def corridor(self) -> Corridor:
+        """The corridor that the robot looked along when the clause began."""
+        return corridor_at(self.scene, self.begin)
+
+    @cached_property
+    def progress(self) -> float:
+        """How far along the corridor the robot has come, metres."""
+        return self.corridor.along((self.pose[0], self.pose[1]))
+
+    @property
+    def seen_to_end(self) -> bool:
+        """Whether nothing of the corridor is left to be looked at."""
+        if self.complete:
+            return True
+        looked = not self.back or self.looks_along(self.begin[2])
+        end = self.corridor.end - self.rules.grounding.seen_end_distance
+        return looked and self.progress > end
+
+    @property
+    def last_stop(self) -> float:
+        """How far along the corridor a robot goes at most, metres."""
+        return self.corridor.end - self.rules.grounding.end_margin
+
+    def towards(self, reference: object) -> Situation:
+        """The situation of a robot that turns to what is spoken of: around, if that is behind."""
+        return replace(self, begin=turned(self.begin), back=True) if is_behind(reference) else self
+
+    def looks_along(self, heading: float) -> bool:
+        """Whether the robot has looked in that direction."""
+        return looks_along(self.pose, heading, self.rules.grounding.inspection_angle)
+
+    def turn_to(self, heading: float, what: object) -> Searching:
+        """A search by turning on the spot, where the clause began."""
+        return Searching(str(what), (*self.begin[:2], heading), on_the_spot=True)
+
+    def go_on(self, what: object, at_most: float = math.inf) -> Searching:
+        """A search along the corridor; first the robot turns to where the referent may be.
+
+        Args:
+            what: is being looked for.
+            at_most: how far along the corridor to go, metres.
+        """
+        if self.back and not self.looks_along(self.begin[2]):
+            return self.turn_to(self.begin[2], what)
+        along = min(self.progress + self.rules.grounding.look_ahead, min(self.last_stop, at_most))
+        return Searching(str(what), self.corridor.place(along), self.corridor)
+
+    def has_come(self, at_most: float) -> bool:
+        """Whether the robot has gone as far as `go_on` would lead it."""
+        lookout = min(self.last_stop, at_most)
+        return self.progress > lookout - self.rules.grounding.lookout_distance
+
+
+def is_behind(reference: object) -> bool:
+    """Whether a reference is to a door behind the robot."""
+    return isinstance(reference, DoorReference) and reference.side is Side.BEHIND
+
+
+def turned(pose: Pose) -> Pose:
+    """The pose turned around on the spot."""
+    return compose(pose, (0.0, 0.0, math.pi))

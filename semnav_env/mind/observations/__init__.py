@@ -1,0 +1,59 @@
+"""What an agent observes: declared once, packed into one row per step, read back by name."""
+
+from typing import TYPE_CHECKING
+
+from semnav_env.mind.observations.checking import check_observation
+from semnav_env.mind.observations.layout import (
+    ENTRIES,
+    GOAL,
+    MEMORY_ENTRIES,
+    MEMORY_TABLES,
+    MODES,
+    TABLES,
+    UNBOUNDED,
+    Entry,
+)
+from semnav_env.mind.observations.observer import (
+    EntryObservation,
+    ExtraEntry,
+    Moment,
+    ObservationType,
+    as_observation,
+)
+from semnav_features.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from semnav_env.mind.observations.cloud_entry import CloudEntry
+    from semnav_env.mind.observations.instruction import InstructionEntry
+    from semnav_env.mind.observations.readers import SeenGoal, read_odometry, table
+
+__all__ = [
+    "ENTRIES",
+    "GOAL",
+    "MEMORY_ENTRIES",
+    "MEMORY_TABLES",
+    "MODES",
+    "TABLES",
+    "UNBOUNDED",
+    "CloudEntry",
+    "Entry",
+    "EntryObservation",
+    "ExtraEntry",
+    "InstructionEntry",
+    "Moment",
+    "ObservationType",
+    "SeenGoal",
+    "as_observation",
+    "check_observation",
+    "read_odometry",
+    "table",
+]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        ".cloud_entry": ("CloudEntry",),
+        ".instruction": ("InstructionEntry",),
+        ".readers": ("SeenGoal", "read_odometry", "table"),
+    },
+)

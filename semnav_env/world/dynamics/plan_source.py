@@ -1,0 +1,81 @@
+"""The floor plan of an episode: as drawn, or with leaves hung and furniture moved."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from semnav_env.robots import RobotSpec
+from semnav_env.world.dynamics.settings import Dynamics
+from semnav_env.world.maps import FloorPlan, load_floor_plan
+from semnav_features.frames import Point
+from semnav_features.validation import check_kind
+
+
+class PlanSource:
+    """Makes the floor plan of each episode.
+
+    Args:
+        default: the plan where no other is asked for: a name, a path or a plan.
+        dynamics: settings of what changes.
+        robot: moved furniture leaves every way free for it.
+
+    Raises:
+        ValueError: `dynamics` is something else.
+    """
+
+    def __init__(
+        self, default: str | Path | FloorPlan, dynamics: Dynamics, robot: RobotSpec
+    ) -> None:
+        check_kind("dynamics", dynamics, Dynamics)
+        self.dynamics, self._default, self._robot = dynamics, default, robot
+        self._hung: tuple[FloorPlan, FloorPlan] | None = None
+
+    def plan(
+        self,
+        floor_plan: str | Path | FloorPlan | None = None,
+        pose: object = None,
+        rng: np.random.Generator | None = None,
+    ) -> FloorPlan:
+        """The plan of an episode; the very plan that was loaded if nothing of it changes.
+
+        Args:
+            floor_plan: a name, a path or a plan; the default if not given.
+            pose: start pose of the robot if one was asked for.
+            rng: source of randomness for the furniture; without it furniture stays where it is.
+
+        Raises:
+            FloorPlanError: see `load_floor_plan`.
+        """
+        plan = load_floor_plan(floor_plan or self._default)
+        if self.dynamics.changing_doors:
+            plan = self._hung_with_leaves(plan)
+        if rng is None or not self.dynamics.furnishes:
+            return plan
+        from semnav_env.world.dynamics.furniture import (
+            with_moved_furniture,  # most plans do not change
+        )
+        from semnav_env.world.dynamics.victims import with_victims
+
+        keep = _point(pose)
+        plan = with_moved_furniture(plan, self.dynamics, self._robot, rng, keep)
+        return with_victims(plan, self.dynamics.victims, self._robot, rng, keep)
+
+    def _hung_with_leaves(self, plan: FloorPlan) -> FloorPlan:
+        """The plan with leaves; the same object for the same plan."""
+        if self._hung is None or plan is not self._hung[0]:
+            from semnav_env.world.dynamics.leaves import with_leaves  # most plans do not change
+
+            self._hung = plan, with_leaves(plan)
+        return self._hung[1]
+
+
+def _point(pose: Any) -> Point | None:
+    """The place of a pose that was asked for; None if it is malformed (refused elsewhere)."""
+    try:
+        x, y, _ = (float(value) for value in pose)
+    except (TypeError, ValueError):
+        return None
+    return x, y

@@ -1,0 +1,92 @@
+"""People who lie or sit on the floor of rooms, among the furniture, and are to be found."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from shapely import Polygon
+from shapely.affinity import rotate, translate
+from shapely.geometry.base import BaseGeometry
+
+from semnav_env.robots import RobotSpec
+from semnav_env.world.dynamics.furniture import FurnitureMover, free_ways
+from semnav_env.world.maps.floor_plan import FloorPlan, Material
+from semnav_features.frames import Point
+
+POSTURES = ((1.7, 0.5), (0.7, 0.5))
+"""Length and width of somebody who lies, and of somebody who sits, metres."""
+
+VICTIM_SPACING = 1.5
+"""Least distance between two victims, metres: a detector takes those side by side for one."""
+
+VICTIM_DISTANCE = 1.0
+"""Largest distance of a victim's middle from where a robot can drive, metres: it comes near."""
+
+MAX_TRIES = 5
+"""How often all of them are laid down anew: draws at random may miss a small free place."""
+
+
+def with_victims(
+    plan: FloorPlan, count: int, robot: RobotSpec, rng: np.random.Generator, keep: Point | None
+) -> FloorPlan:
+    """The plan with people on the floor of rooms and open areas, and no way blocked.
+
+    Args:
+        plan: as it is without them.
+        count: how many.
+        robot: everything stays reachable for it, and it can come near each of them.
+        rng: source of randomness.
+        keep: where the robot will stand; nobody lies near it. None if that is not known.
+
+    Raises:
+        ValueError: there is no room for so many.
+    """
+    if count == 0:
+        return plan
+    for _ in range(MAX_TRIES):
+        if (laid := _with_all(plan, count, FurnitureMover(plan, robot, keep), rng)) is not None:
+            return laid
+    raise ValueError(f"{plan.name} has no free place for {count} people on the floor")
+
+
+def _with_all(
+    plan: FloorPlan, count: int, mover: FurnitureMover, rng: np.random.Generator
+) -> FloorPlan | None:
+    """The plan with all of the people; None if those laid first left no place for the others."""
+    rooms = [region.polygon for region in (*plan.rooms, *plan.areas)]
+    ways = max(free_ways(plan, mover.half_lane), key=lambda way: way.area)
+    places = [room.intersection(ways.buffer(VICTIM_DISTANCE)) for room in rooms]
+    for _ in range(count):
+        if not any(_lay(mover, places[k], rng) for k in rng.permutation(len(places)).tolist()):
+            return None
+        apart = victims_of(mover.plan)[-1].buffer(VICTIM_SPACING)
+        places = [place.difference(apart) for place in places]
+    return mover.plan
+
+
+def victims_of(plan: FloorPlan) -> list[Polygon]:
+    """The outlines of the people on the floor of a plan, world frame."""
+    return [Polygon(s.points) for s in plan.surfaces if s.material is Material.PERSON]
+
+
+def _lay(mover: FurnitureMover, place: BaseGeometry, rng: np.random.Generator) -> bool:
+    """Lay somebody down with the middle in a place; returns whether that was possible."""
+    if place.is_empty:
+        return False
+    x, y = np.array(POSTURES[int(rng.integers(len(POSTURES)))]) / 2
+    body = shapely.box(-x, -y, x, y)
+
+    def draw() -> Polygon:
+        middle = _point_in(place, rng)
+        return translate(rotate(body, rng.uniform(0.0, 180.0)), *middle)
+
+    return mover.put(draw, Material.PERSON)
+
+
+def _point_in(place: BaseGeometry, rng: np.random.Generator) -> Point:
+    """A point of an area, all equally likely."""
+    west, south, east, north = place.bounds
+    while True:
+        x, y = rng.uniform(west, east), rng.uniform(south, north)
+        if shapely.contains_xy(place, x, y):
+            return x, y

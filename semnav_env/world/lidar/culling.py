@@ -1,0 +1,209 @@
+"""Lists, for every place in a floor plan, the few segments that a lidar or a body can reach."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+from weakref import WeakValueDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_env.world.maps.cell_budget import MAX_CELLS
+from semnav_env.world.maps.floor_plan import FloorPlan
+from semnav_features.frames import FloatArray
+from semnav_features.kernels.compiling import kernel
+
+GRID = np.dtype([("x", "f8"), ("y", "f8"), ("cell", "f8"), ("columns", "i8"), ("rows", "i8")])
+"""The lower left corner, the side of a cell in metres, and how many cells: shape (1,)."""
+
+CELL_SIZE = 2.0
+"""Side of a cell, metres; larger where there would be too many cells, or too long lists in them."""
+
+NEAR = 3.5
+"""Segments within this distance of a cell's centre, metres, come first in its list: drawn first,
+they hide many of the others."""
+
+MAX_CULLING_CELLS = 10_000
+"""Largest number of cells: it bounds the time that the lists of a plan take."""
+
+
+@dataclass(frozen=True, eq=False)
+class Culling:
+    """Per cell of a grid, the segments within range of any point in the cell.
+
+    The lists are stored one after the other, coordinates apart, so that the ray caster reads
+    memory in order. One more list after the last cell's holds all segments: for a lidar
+    outside the grid.
+
+    Attributes:
+        grid: shape (1,), dtype `GRID`.
+        starts: where each list begins, shape (columns * rows + 2,), int64.
+        ends: rows x1, y1, x2, y2 of the listed segments in metres, shape (4, m).
+    """
+
+    grid: np.ndarray
+    starts: NDArray[np.int64]
+    ends: FloatArray
+
+    @property
+    def arrays(self) -> tuple[np.ndarray, NDArray[np.int64], FloatArray]:
+        """The attributes, as kernels take them."""
+        return self.grid, self.starts, self.ends
+
+    @classmethod
+    def of(cls, segments: FloatArray, range_max: float) -> Culling:
+        """Lists for these segments, shape (n, 4): x1, y1, x2, y2 in metres.
+
+        Raises:
+            ValueError: segments of another shape, or not finite.
+        """
+        rows = np.ascontiguousarray(segments, dtype=np.float64)
+        if rows.ndim != 2 or rows.shape[1] != 4 or not np.isfinite(rows).all():
+            raise ValueError(
+                f"segments of shape {rows.shape} must be finite and of shape (n, 4): x1, y1, x2, y2"
+            )
+        grid = _grid(rows)
+        starts = _list_starts(rows, grid, range_max)
+        while starts[-1] > MAX_CELLS and len(starts) > 3:  # more than one cell
+            grid = _grid(rows, 2.0 * float(grid["cell"][0]))
+            starts = _list_starts(rows, grid, range_max)
+        return cls(grid, starts, _listed_ends(rows, grid, range_max, starts))
+
+
+Cullings: TypeAlias = WeakValueDictionary[tuple[bool, float], Culling]
+"""Those of a floor plan by whether they hold glass, and by their range, while one uses them: they
+take megabytes."""
+
+
+def shared_culling(floor_plan: FloorPlan, range_max: float, glass: bool) -> Culling:
+    """The lists of a floor plan, one and the same for all who ask.
+
+    Args:
+        floor_plan: whose segments are listed.
+        range_max: how far one reaches, metres.
+        glass: whether glass is listed, too: it stops bodies, and no beams.
+    """
+    known = floor_plan.derived(_cullings)
+    culling = known.get((glass, range_max))
+    if culling is None:
+        segments = floor_plan.segments if glass else floor_plan.opaque_segments
+        known[glass, range_max] = culling = Culling.of(segments, range_max)
+    return culling
+
+
+def _cullings(floor_plan: FloorPlan) -> Cullings:
+    """None yet."""
+    return WeakValueDictionary()
+
+
+def _grid(segments: FloatArray, least_cell: float = CELL_SIZE) -> np.ndarray:
+    if len(segments) == 0:
+        return np.array([(0.0, 0.0, CELL_SIZE, 1, 1)], GRID)
+    points = segments.reshape(-1, 2)
+    low, extent = points.min(axis=0), np.ptp(points, axis=0)
+    cell = max(
+        least_cell,
+        math.sqrt(float(extent.prod()) / MAX_CULLING_CELLS),
+        float(extent.max()) / MAX_CULLING_CELLS,
+    )
+    columns, rows = (extent // cell).astype(np.int64) + 1
+    return np.array([(*low, cell, columns, rows)], GRID)
+
+
+@kernel
+def cell_of(grid: np.ndarray, x: float, y: float) -> Any:
+    """Which list (int) a lidar at (x, y) needs: its cell's, or the last one outside the grid."""
+    g = grid[0]
+    column, row = (x - g.x) // g.cell, (y - g.y) // g.cell
+    if 0 <= column < g.columns and 0 <= row < g.rows:
+        return int(row) * g.columns + int(column)
+    return g.columns * g.rows
+
+
+@kernel
+def _centre(g: Any, cell: int) -> tuple[float, float]:
+    return g.x + (cell % g.columns + 0.5) * g.cell, g.y + (cell // g.columns + 0.5) * g.cell
+
+
+@kernel
+def _reach(g: Any, range_max: float) -> Any:
+    """How far from a cell's centre a segment may be, with a margin for rounding."""
+    return range_max + g.cell * math.sqrt(0.5) + 1e-9
+
+
+@kernel
+def _reaches(segment: FloatArray, x: float, y: float, reach: float) -> Any:
+    """Whether the segment comes within `reach` of a point."""
+    dx, dy = segment[2] - segment[0], segment[3] - segment[1]
+    to_x, to_y = x - segment[0], y - segment[1]
+    squared = dx * dx + dy * dy
+    along = (to_x * dx + to_y * dy) / squared if squared > 0.0 else 0.0
+    along = min(max(along, 0.0), 1.0)
+    off_x, off_y = to_x - along * dx, to_y - along * dy
+    return off_x * off_x + off_y * off_y <= reach * reach
+
+
+@kernel
+def _cells_near(segment: FloatArray, g: Any, reach: float) -> tuple[int, int, int, int]:
+    """The columns and rows (first and one behind the last) whose centres may be within reach."""
+    west, east = min(segment[0], segment[2]) - g.x, max(segment[0], segment[2]) - g.x
+    south, north = min(segment[1], segment[3]) - g.y, max(segment[1], segment[3]) - g.y
+    return (
+        max(math.floor((west - reach) / g.cell), 0),
+        min(math.ceil((east + reach) / g.cell), g.columns),
+        max(math.floor((south - reach) / g.cell), 0),
+        min(math.ceil((north + reach) / g.cell), g.rows),
+    )
+
+
+@kernel(counts_references=True)
+def _list_starts(segments: FloatArray, grid: np.ndarray, range_max: float) -> NDArray[np.int64]:
+    g = grid[0]
+    reach = _reach(g, range_max)
+    starts = np.zeros(g.columns * g.rows + 2, np.int64)
+    for k in range(len(segments)):
+        segment = segments[k]
+        first, last, low, high = _cells_near(segment, g, reach)
+        for row in range(low, high):
+            for cell in range(row * g.columns + first, row * g.columns + last):
+                x, y = _centre(g, cell)
+                starts[cell + 1] += _reaches(segment, x, y, reach)
+    for i in range(g.columns * g.rows):
+        starts[i + 1] += starts[i]
+    starts[-1] = starts[-2] + len(segments)
+    return starts
+
+
+@kernel(counts_references=True)
+def _listed_ends(
+    segments: FloatArray, grid: np.ndarray, range_max: float, starts: NDArray[np.int64]
+) -> FloatArray:
+    g = grid[0]
+    reach = _reach(g, range_max)
+    ends, used = np.empty((4, starts[-1])), np.zeros(len(starts) - 1, np.int64)
+    everything = len(starts) - 2
+    for turn in range(2):  # first those that are near a cell
+        for k in range(len(segments)):
+            segment = segments[k]
+            if turn == 0:
+                _list(segment, ends, starts, used, everything)
+            first, last, low, high = _cells_near(segment, g, reach)
+            for row in range(low, high):
+                for cell in range(row * g.columns + first, row * g.columns + last):
+                    x, y = _centre(g, cell)
+                    is_near = _reaches(segment, x, y, NEAR)
+                    if is_near == (turn == 0) and _reaches(segment, x, y, reach):
+                        _list(segment, ends, starts, used, cell)
+    return ends
+
+
+@kernel
+def _list(
+    segment: FloatArray, ends: FloatArray, starts: Any, used: NDArray[np.int64], cell: int
+) -> None:
+    """Append a segment to the list of a cell."""
+    for i in range(4):
+        ends[i, starts[cell] + used[cell]] = segment[i]
+    used[cell] += 1

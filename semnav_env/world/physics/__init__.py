@@ -1,0 +1,7 @@
+"""The physical world: a robot that is driven through a floor plan and stopped by what is solid."""
+
+from semnav_env.world.physics.bodies import GRAVITY, GRIP
+from semnav_env.world.physics.contacts import Contacts
+from semnav_env.world.physics.world import World
+
+__all__ = ["GRAVITY", "GRIP", "Contacts", "World"]

@@ -1,0 +1,68 @@
+"""People and leaves as bodies of the physics: solid, and moved by nothing but themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pymunk
+
+if TYPE_CHECKING:
+    from semnav_env.world.dynamics.moving import Moving
+
+
+class Movers:
+    """Kinematic bodies that follow what `Moving` says.
+
+    Args:
+        space: in which they are put.
+        moving: where they are.
+        seconds: between two of its steps.
+    """
+
+    def __init__(self, space: pymunk.Space, moving: Moving, seconds: float) -> None:
+        self._moving, self._seconds = moving, seconds
+        self._people = [_kinematic(space) for _ in moving.discs]
+        for body, (_, _, radius) in zip(self._people, moving.discs.tolist(), strict=True):
+            _add(space, pymunk.Circle(body, radius))
+        self._leaves = [_kinematic(space) for _ in moving.doors.leaves]
+        for body, leaf in zip(self._leaves, moving.doors.leaves, strict=True):
+            body.position = leaf.hinge
+            _add(space, pymunk.Segment(body, (0.0, 0.0), (leaf.length, 0.0), 0.0))
+        self._angles = np.full(len(self._leaves), np.nan)
+        self.arrive()
+
+    def go(self) -> None:
+        """Give every body the velocity that leads to its new place."""
+        seconds = self._seconds
+        for body, (x, y, _) in zip(self._people, self._moving.discs.tolist(), strict=True):
+            here = body.position
+            body.velocity = (x - here.x) / seconds, (y - here.y) / seconds
+        for body, angle in self._turning():
+            body.angular_velocity = (angle - body.angle) / seconds
+
+    def arrive(self) -> None:
+        """Put every body where it is, without the rounding of many substeps, and at rest."""
+        for body, (x, y, _) in zip(self._people, self._moving.discs.tolist(), strict=True):
+            body.position, body.velocity = (x, y), (0.0, 0.0)
+        for body, angle in self._turning():
+            body.angle, body.angular_velocity = angle, 0.0
+        self._angles = self._moving.doors.angles.copy()
+
+    def _turning(self) -> Iterator[tuple[pymunk.Body, float]]:
+        """The leaves that are not where they were, and where they point now."""
+        doors = self._moving.doors
+        for i in np.flatnonzero(doors.angles != self._angles).tolist():
+            yield self._leaves[i], doors.leaves[i].closed + float(doors.angles[i])
+
+
+def _kinematic(space: pymunk.Space) -> pymunk.Body:
+    body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
+    space.add(body)
+    return body
+
+
+def _add(space: pymunk.Space, shape: pymunk.Shape) -> None:
+    shape.friction = 1.0
+    space.add(shape)

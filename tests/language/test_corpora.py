@@ -1,0 +1,145 @@
+"""The measure of how much is understood, and the development sets that it is applied to."""
+
+import hashlib
+import json
+from pathlib import Path
+
+import pytest
+
+from semnav_agents.translating.interpreter import understand
+from semnav_env.language import parse
+from semnav_env.language.corpora import (
+    ParseOutcome,
+    development_corpora,
+    held_out_corpora,
+    judge,
+    load_sentences,
+    verdicts,
+)
+from semnav_env.language.corpora.meanings import meaning_of, normal
+from semnav_env.language.corpora.notation import read_meaning
+from semnav_env.language.corpora.sentences import Sentence
+from semnav_scripts.main import main
+
+FROZEN = {
+    "english": "c6715a0370b6e6dec67ecacbe6edee88a9997e0dc590327c044b2aa12eaa3c81",
+    "german": "12132d91284b2455446fdde016a53c2e97c7e6b7baeba1ceab6e9e11400cd26d",
+    "second_english": "0782ba75a720d58a4f01ac989d689380cde9373281f64f0e4ac611edee776507",
+    "second_german": "1654cfef85a8fc453b9a31402a5af4f0438aed32bf1808664d79a2146f62d4f1",
+    "third_english": "1b00c91f6d6462157902e5950e404103e278150a729d71a3316cf6e57b8d93e1",
+    "third_german": "8318723764e1701ae464d5c9d220dab74d005358f2367a51bb7ff2c0b65e214e",
+    "fourth_english": "e0b9b3d74e611426020d854372e3025f0616dd8e63189ffb086862471d6645f9",
+    "fifth_english": "5aab194480ea1e28e15293e1ef81331cf0abcd811873259c3c44e51c3931089f",
+    "fifth_german": "82f83f92bb88660650fcf7737e88334f9aa43388178c69e47fd322529287f699",
+    "sixth_english": "8b1f945cc49e571d23df188317a18f6bf1b95944e9da48cf59bec239b61528e9",
+    "sixth_german": "67e531f257647241facc5de894b3e02b2b6c74d9ec2ef4694da94b7cc33aa782",
+    "fourth_german": "96fb2dba7245273765d5899874a746eaf16057085c5207441a22009c87ac8be2",
+    "seventh_english": "fcdf631c632d264b02ac7a5bcb8185c52630ecd7a000315c9bc7c0ec90a580cd",
+    "seventh_german": "9fe59f0da5e876889f1f1dbf9f157d267d01bfde8ef4ea1f39f6d6469f5cdd56",
+    "eighth_english": "dec64768b3ad131d7badb370f7e881eaefdf18c189710203d9b3b070b7948840",
+    "eighth_german": "9b362e7f4d5dcefbe146bcb8b270903c3277b0d6f8cb1f5baa6260fcd9017db1",
+}
+SIZES = dict.fromkeys(FROZEN, 170) | {"english": 330, "german": 330}
+
+EQUAL = """
+past intersection, door = through door(1,after intersection) = hallway past intersection; through door(1)
+counting on = through door(3,left) = hallway past door(2,left); through door(1,left)
+until, then turn = turn left at corner = hallway until corner; turn left
+until a door, then in = through door(2,right) = hallway until door(2,right); through door(1,right)
+back to = back to intersection = turn around; hallway until intersection
+cross = cross = hallway until end
+the wall ahead = hallway until wall = hallway until end
+closed is none = if closed door(1,left): stop end = if no door(1,left): stop end
+stop at the end = through door(1); stop = through door(1)
+passed places add up = hallway past intersection; hallway past intersection = hallway past intersection#2
+a door that is reached = hallway until door(2); stop = to door(2)
+a stop before a wait = stop; wait 5 = wait 5
+what is done otherwise, too = if no corner: stop else: turn left end = if corner: turn left at corner else: stop end
+a turn that depends on a place = if corner: turn left end = if corner: turn left at corner end
+a room is open at its door = if open room(lab): room(lab) end = to room(lab); if door(1): through door(1) end
+the first open one = if closed door(1): through door(2) else: through door(1) end = through door(1)
+"""  # noqa: E501
+
+
+@pytest.mark.parametrize(
+    "path", [*development_corpora(), *held_out_corpora()], ids=lambda path: path.stem
+)
+def test_the_sets_are_as_they_were_written(path: Path) -> None:
+    assert hashlib.sha256(path.read_bytes()).hexdigest() == FROZEN[path.stem]
+    assert len(load_sentences(path)) == SIZES[path.stem]
+
+
+@pytest.mark.parametrize("line", EQUAL.strip().splitlines())
+def test_what_means_the_same_is_written_in_one_form(line: str) -> None:
+    _, one, other = line.split(" = ")
+    assert normal(read_meaning(one)) == normal(read_meaning(other))
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("turn left", "turn right"),
+        ("through door(2,left)", "through door(2)"),
+        ("to door(1)", "through door(1)"),
+        ("turn left; hallway", "hallway; turn left"),
+        ("hallway past door(1); through door(1,left)", "through door(2,left)"),
+        ("if door(1): stop end", "if no door(1): stop end"),
+    ],
+)
+def test_what_means_something_else_differs(one: str, other: str) -> None:
+    assert normal(read_meaning(one)) != normal(read_meaning(other))
+
+
+def test_a_wrong_reading_is_misread_and_an_infeasible_text_is_refused() -> None:
+    def sentence(text: str, kind: str, *meant: str) -> Sentence:
+        return Sentence("x", text, kind, tuple(map(read_meaning, meant)), "", "test")
+
+    assert (
+        judge(sentence("turn left", "feasible", "turn left"), ()).outcome is ParseOutcome.UNDERSTOOD
+    )
+    assert (
+        judge(sentence("turn left", "feasible", "turn right"), ()).outcome is ParseOutcome.MISREAD
+    )
+    assert judge(sentence("turn left", "infeasible"), ()).outcome is ParseOutcome.MISREAD
+    assert judge(sentence("fly", "infeasible"), ()).outcome is ParseOutcome.REFUSED
+    asked = sentence("turn 90 degrees", "feasible", "turn left 90")
+    assert judge(asked, ()).outcome is ParseOutcome.ASKED
+
+
+@pytest.mark.parametrize("path", development_corpora(), ids=lambda path: path.stem)
+def test_most_of_the_development_sets_is_understood_or_asked(path: Path) -> None:
+    """With the learned second opinion, as `semnav evaluate language` counts."""
+    found = list(verdicts(load_sentences(path), understand=understand))
+    feasible = [v.outcome for v in found if v.sentence.kind == "feasible"]
+    right = [outcome in (ParseOutcome.UNDERSTOOD, ParseOutcome.ASKED) for outcome in feasible]
+    assert sum(right) >= 0.85 * len(feasible)
+    assert feasible.count(ParseOutcome.MISREAD) <= 0.01 * len(feasible)
+    refused = [v.outcome is ParseOutcome.REFUSED for v in found if v.sentence.kind == "infeasible"]
+    assert sum(refused) >= 0.97 * len(refused)
+
+
+def test_a_command_is_written_in_the_notation() -> None:
+    command = parse("if you see the second door on the left, stop, otherwise turn left")
+    steps = meaning_of(command)
+    assert steps == read_meaning("if door(2,left): stop else: turn left end")
+
+
+def test_the_command_line_counts_a_corpus(tmp_path, capsys) -> None:
+    corpus = tmp_path / "corpus.jsonl"
+    row = {"id": "a", "text": "turn left", "kind": "feasible", "meaning": ["turn left"]}
+    corpus.write_text(json.dumps(row) + "\n")
+    plain = tmp_path / "plain.txt"
+    plain.write_text("turn right\nfly away\n")
+    assert main(["evaluate", "language", str(corpus), str(plain), "--json"]) == 0
+    counts = json.loads(capsys.readouterr().out)["counts"]
+    assert [(row["corpus"], row["understood"], row["refused"]) for row in counts] == [
+        ("corpus", 1, 0),
+        ("plain", 1, 1),
+    ]
+
+
+def test_a_meaning_that_is_none_is_refused_with_its_line(tmp_path, capsys) -> None:
+    corpus = tmp_path / "corpus.jsonl"
+    corpus.write_text('{"text": "x", "kind": "feasible", "meaning": ["jump"]}\n')
+    assert main(["evaluate", "language", str(corpus)]) == 2
+    assert "line 1: 'jump' is no step" in capsys.readouterr().err

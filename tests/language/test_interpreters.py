@@ -1,0 +1,201 @@
+"""Other ways to understand a text: the same programs, the same refusals."""
+
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from semnav_env.judge.verifier import plan_goals
+from semnav_env.language import (
+    Command,
+    CommandError,
+    DoorReference,
+    GoToDoor,
+    GoToRoom,
+    GrammarInterpreter,
+    Interpreter,
+    ModelInterpreter,
+    Side,
+    TemplateInterpreter,
+    from_program,
+    parse,
+    to_program,
+)
+from semnav_env.language.command import reference_of
+from semnav_env.mind.grounding import GroundingError, PassGoal
+from semnav_env.world.maps import load_floor_plan
+from tests.support.command_strategies import commands
+
+SECOND_RIGHT = Command((GoToDoor(DoorReference(2, Side.RIGHT)),))
+TEXT = "please would you bring yourself through that second one"
+
+
+def stub(answer: object) -> ModelInterpreter:
+    """A model that always gives the same answer."""
+    return ModelInterpreter(lambda text: answer)
+
+
+@given(commands)
+def test_a_program_comes_back_from_plain_values(command: Command) -> None:
+    assert from_program(to_program(command)) == command
+    assert from_program(json.loads(json.dumps(to_program(command)))) == command
+
+
+@pytest.mark.parametrize(
+    "answer", [SECOND_RIGHT, to_program(SECOND_RIGHT), json.dumps(to_program(SECOND_RIGHT))]
+)
+def test_a_model_answers_with_a_program(answer: object) -> None:
+    understood = stub(answer).interpret(TEXT)
+    assert understood.command == SECOND_RIGHT
+    assert understood.by == "model"
+    assert understood.echo == "go through the second door on the right"
+
+
+@pytest.mark.parametrize(
+    ("answer", "reason"),
+    [
+        ("go through the second door", "no program"),
+        ("", "no program"),
+        (None, "a list of clauses, not NoneType"),
+        ({"kind": "Stop"}, "a list of clauses, not dict"),
+        ([], "1 to 8 clauses, not 0"),
+        ([{"kind": "Stop"}] * 9, "1 to 8 clauses, not 9"),
+        ([{"kind": "Jump"}], "the kind of clause 0 is one of Follow, Turn"),
+        ([["Stop"]], "clause 0 is a dictionary"),
+        ([{"kind": "Stop", "minutes": 3}], "clause 0, a Stop, has no 'minutes'"),
+        ([{"kind": "Stop", "seconds": "3"}], "seconds of clause 0 cannot be '3'"),
+        ([{"kind": "Stop", "seconds": True}], "seconds of clause 0 cannot be True"),
+        ([{"kind": "Turn"}], "missing 1 required"),
+        ([{"kind": "Turn", "turning": "up"}], "turning of clause 0 is one of 'left', 'right'"),
+        ([{"kind": "Turn", "turning": None}], "turning of clause 0 is one of"),
+        ([{"kind": "Turn", "turning": ["left"]}], "turning of clause 0 is one of"),
+        ([{"kind": "GoToDoor", "door": {"kind": "DoorReference", "ordinal": 21}}], "1 to 20"),
+        ([{"kind": "GoToDoor", "door": {"kind": "Distance", "amount": 2}}], "is one of DoorRef"),
+        ([{"kind": "Follow", "until": {"kind": "Distance", "amount": float("nan")}}], "0.5 to 50"),
+        ([{"kind": "GoToRoom", "name": "../../etc"}], "small letters and digits"),
+    ],
+)
+def test_a_wrong_program_is_refused(answer: object, reason: str) -> None:
+    with pytest.raises(CommandError, match="the model's answer is no program") as caught:
+        stub(answer).interpret(TEXT)
+    assert reason in str(caught.value)
+
+
+@given(
+    st.recursive(
+        st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8),
+        lambda inner: (
+            st.lists(inner, max_size=3)
+            | st.dictionaries(
+                st.sampled_from(("kind", "turning", "door", "until", "ordinal", "x")), inner
+            )
+        ),
+        max_leaves=8,
+    )
+)
+def test_any_answer_is_a_program_or_refused(answer: object) -> None:
+    try:
+        understood = stub(answer).interpret(TEXT)
+    except CommandError:
+        return
+    assert parse(understood.echo) == understood.command
+
+
+def test_a_model_is_not_asked_about_texts_that_hide_something() -> None:
+    asked: list[str] = []
+    model = ModelInterpreter(lambda text: asked.append(text))
+    for text in ("\u202eturn left", "x" * 1_000_000, "turn l\u0435ft", ""):
+        with pytest.raises(CommandError):
+            model.interpret(text)
+    assert asked == []
+
+
+def test_a_model_may_name_only_rooms_that_are_there() -> None:
+    model = ModelInterpreter(lambda text: Command((GoToRoom("attic"),)), rooms=("kitchen",))
+    with pytest.raises(CommandError, match='no room "attic"; there are: kitchen'):
+        model.interpret(TEXT)
+
+
+def test_what_a_model_says_is_resolved_like_every_other_command() -> None:
+    """The second door is there, the ninth is not, whoever asks for it."""
+    plan, start = load_floor_plan("office_cross"), (1.3, 9.1, 0.0)
+    second = stub(SECOND_RIGHT).interpret(TEXT).command
+    (goal,) = plan_goals(plan, second, start)
+    assert isinstance(goal, PassGoal)
+    assert goal.door.name == "west_south_2"
+    ninth = stub(to_program(parse("take the ninth door on the right"))).interpret(TEXT).command
+    with pytest.raises(GroundingError, match="no ninth door on the right: the hallway ended after"):
+        plan_goals(plan, ninth, start)
+
+
+@pytest.mark.parametrize("interpreter", [GrammarInterpreter(), TemplateInterpreter()])
+@given(command=commands)
+def test_all_interpreters_agree_where_the_grammar_understands(
+    interpreter: Interpreter, command: Command
+) -> None:
+    understood = interpreter.interpret(str(command))
+    assert (understood.command, understood.by) == (command, "grammar")
+    assert understood.echo == str(command)
+
+
+def test_the_nearest_template_bridges_words_that_the_grammar_refuses() -> None:
+    understood = TemplateInterpreter().interpret("meditate through the second door on the right")
+    assert understood.by == "template"
+    assert 0.5 <= understood.likeness < 1.0
+    assert SECOND_RIGHT in understood.readings
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "don't wander down the hallway",
+        "wander down the hallway or turn left",
+        "meditate down the hallway and stop",
+        "if the door is open go thruogh the first door",
+        "make me a coffee",
+        "xyzzy",
+        "\u202ewander down the hallway",
+    ],
+)
+def test_the_nearest_template_refuses_what_could_be_lost(text: str) -> None:
+    with pytest.raises(CommandError):
+        TemplateInterpreter().interpret(text)
+
+
+SLIPS = (
+    "go through the second door on the left",
+    "turn right at the third corner",
+    "go down the hallway past the other door straight ahead",
+)
+
+
+@pytest.mark.parametrize("text", SLIPS)
+@pytest.mark.parametrize("slip", ["", "tt"])
+def test_no_slip_leads_to_another_place(text: str, slip: str) -> None:
+    (clause,) = parse(text).clauses
+    for at in range(len(text)):
+        try:
+            found = TemplateInterpreter().interpret(text[:at] + slip + text[at + 1 :]).readings
+        except CommandError:
+            continue
+        assert {reference_of(reading.clauses[0]) for reading in found} == {reference_of(clause)}
+
+
+def test_another_embedding_can_be_given() -> None:
+    asked: list[str] = []
+
+    def lengths(texts: object) -> np.ndarray:
+        asked.extend(texts)  # type: ignore[call-overload]
+        return np.array([[1.0, len(text)] for text in texts])  # type: ignore[attr-defined]
+
+    understood = TemplateInterpreter(embed=lengths).interpret("meditate through the first door")
+    assert understood.by == "template"
+    assert asked
+
+
+def test_an_interpretation_is_shown_without_its_language():
+    shown = repr(GrammarInterpreter().interpret("turn left"))
+    assert "turn" in shown
+    assert len(shown) < 300

@@ -1,0 +1,229 @@
+"""Conditions that a scan decides, corrections, and the language of a command."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+
+from semnav_env.env import SemNavEnv
+from semnav_env.judge.verifier import plan_goals
+from semnav_env.language import (
+    Command,
+    CommandError,
+    DoorReference,
+    Follow,
+    IfThere,
+    Side,
+    Stop,
+    Turn,
+    Turning,
+    correct,
+    encode,
+    parse,
+    token_mask,
+)
+from semnav_env.language.command import Link, links_of, room_of
+from semnav_env.mind.grounding import PassGoal, SeekGoal, StopGoal
+from semnav_env.mind.grounding.follower import Follower
+from semnav_env.world.maps import load_floor_plan
+from semnav_features.frames import Pose
+from semnav_features.scene import Scene
+from tests.support.command_strategies import commands
+from tests.support.hand_made import X_JUNCTION, corridor
+
+START: Pose = (0.0, 0.0, 0.0)
+DOORS = corridor(left=(3.0, 6.0), right=(4.0,))
+PLAN = load_floor_plan("office_cross")
+WEST: Pose = (1.3, 9.1, 0.0)
+
+
+def following(text: str, scene: Scene = DOORS, complete: bool = True) -> Follower:
+    follower = Follower(parse(text), complete=complete)
+    follower.start(scene, START)
+    return follower
+
+
+@pytest.mark.parametrize(
+    ("text", "active", "because"),
+    [
+        ("if there is a door on the left, enter it, otherwise stop", 1, "first door on the left"),
+        ("if you see a third door on the left, enter it, otherwise stop", 2, "stop"),
+        ("if there is no second door on the right, stop", 1, "stop"),
+        ("if there is a corner, turn left, otherwise turn around", 2, "turn around"),
+        ("if you see the last door on the left, enter it, otherwise stop", 1, "last door"),
+        ("if you see the other door on the right, enter it, otherwise stop", 1, "other door"),
+        ("if you see the other door on the left, enter it, otherwise stop", 2, "stop"),
+        ("if you see the end of the hallway, stop, otherwise turn left", 1, "stop"),
+    ],
+)
+def test_a_condition_is_decided_by_what_is_there(text: str, active: int, because: str) -> None:
+    follower = following(text)
+    assert follower.active == active
+    assert because in follower.goal.because
+
+
+def test_a_turn_that_hangs_on_a_place_is_made_there() -> None:
+    follower = following("if there is an intersection, turn left", X_JUNCTION)
+    assert follower.goal.junction is not None
+    assert following("if there is no corner, turn left", X_JUNCTION).goal.junction is None
+
+
+def test_exactly_one_branch_is_carried_out() -> None:
+    """The other branch is skipped; the clause "in any case" follows."""
+    text = "if there is a door on the left, stop, otherwise turn around. In any case turn left"
+    follower = following(text)
+    assert follower.active == 1
+    assert follower.advance(lambda: DOORS, START, 0.0, 1 / 15)
+    assert follower.active == 3
+    assert "left" in follower.goal.because
+
+
+def test_nothing_is_left_to_do_where_a_lone_condition_is_not_met() -> None:
+    assert following("if there is a corner, turn left").done
+
+
+def test_a_condition_is_decided_at_the_end_of_the_corridor() -> None:
+    """The robot looks for what the condition names until then."""
+    text = "if you see a third door on the left, enter it, otherwise stop"
+    follower = following(text, complete=False)
+    assert follower.active == 0
+    assert isinstance(follower.goal, SeekGoal)
+    follower.advance(lambda: DOORS, (14.0, 0.0, 0.0), 0.5, 1 / 15)
+    follower.look(DOORS, (14.0, 0.0, 0.0))
+    assert follower.active == 2
+    assert isinstance(follower.goal, StopGoal)
+
+
+def test_the_plan_decides_in_the_same_way() -> None:
+    text = "if there is a {} door on the right, enter it, otherwise turn around"
+    (entered,) = plan_goals(PLAN, parse(text.format("second")), WEST)
+    assert isinstance(entered, PassGoal)
+    assert entered.door.name == "west_south_2"
+    (turned,) = plan_goals(PLAN, parse(text.format("ninth")), WEST)
+    assert turned.because == "turn around here"
+
+
+@pytest.mark.parametrize(
+    ("text", "x", "met"),
+    [
+        ("if you see a door behind you, stop", 5.0, True),
+        ("if you see a third door behind you, stop", 5.0, False),
+        ("if there is no door behind you, stop", 0.0, True),
+        ("if there is a door opposite, stop", 4.0, True),
+        ("if there is a door opposite, stop", 5.0, False),
+        ("if you see a second door opposite, stop", 4.0, False),
+    ],
+)
+def test_conditions_speak_of_doors_behind_and_opposite(text: str, x: float, met: bool) -> None:
+    follower = Follower(parse(text), complete=True)
+    follower.start(DOORS, (x, 0.0, 0.0))
+    assert follower.impossible is None
+    assert follower.done is not met
+
+
+DOOR = DoorReference(1, Side.LEFT)
+
+
+@pytest.mark.parametrize(
+    "clauses",
+    [
+        (IfThere(DOOR),),
+        (IfThere(DOOR, otherwise=True), Stop()),
+        (IfThere(DOOR), IfThere(DOOR), Stop()),
+        (IfThere(DOOR, otherwise=True), Stop(), IfThere(DOOR)),
+    ],
+)
+def test_a_condition_has_something_that_hangs_on_it(clauses: tuple[IfThere | Stop, ...]) -> None:
+    with pytest.raises(ValueError, match="a condition"):
+        Command(clauses)
+
+
+@given(commands)
+def test_after_what_hangs_on_a_condition_comes_what_does_not(command: Command) -> None:
+    for clause, link in zip(command.clauses, links_of(command.clauses), strict=True):
+        assert isinstance(clause, IfThere) <= (link in (Link.NEXT, Link.IN_ANY_CASE))
+    assert token_mask(encode(command, _rooms(command))).sum() == len(command.clauses)
+
+
+def _rooms(command: Command) -> list[str]:
+    return [name for clause in command.clauses if (name := room_of(clause))]
+
+
+@pytest.mark.parametrize(
+    ("text", "error"),
+    [
+        ("if there is a door on the left, enter it and stop", "does this depend on the condition"),
+        ("otherwise stop", "otherwise than what"),
+        ("if there is a corner, stop, otherwise wait, otherwise stop", "otherwise than what"),
+        ("in any case stop", "there is no condition"),
+        ("if the second door is closed, take the next one", "closed doors look like walls"),
+        ("no, the second one on the left", "say which"),
+        ("stop, no, the second", "the second what"),
+    ],
+)
+def test_clauses_without_what_they_refer_to_are_refused(text: str, error: str) -> None:
+    with pytest.raises(CommandError, match=error):
+        parse(text)
+
+
+@pytest.mark.parametrize(
+    ("said", "correction", "meant"),
+    [
+        (
+            "go through the first door on the left",
+            "no, the right one",
+            "the first door on the right",
+        ),
+        (
+            "go through the first door on the left",
+            "I mean the second",
+            "the second door on the left",
+        ),
+        ("go to the second door on the left", "no, the third one", "the third door on the left"),
+        (
+            "turn left at the first intersection",
+            "no, right",
+            "turn right at the first intersection",
+        ),
+        ("turn left at the first intersection", "sorry, the second", "left at the second"),
+        ("turn left", "no, go to the end of the hallway", "until the end of the hallway"),
+    ],
+)
+def test_the_end_of_a_command_can_be_corrected(said: str, correction: str, meant: str) -> None:
+    corrected = correct(parse(said), correction)
+    assert len(corrected.clauses) == 1
+    assert meant in str(corrected)
+    assert parse(f"stop, {said}, {correction}").clauses == (Stop(), *corrected.clauses)
+
+
+@pytest.mark.parametrize(
+    ("text", "language", "hint"),
+    [
+        ("bieg links ab", "en", "--language german"),
+        ("turn left", "de", "--language english"),
+        ("nonsense", "de", None),
+    ],
+)
+def test_a_command_in_another_language_is_named_as_such(
+    text: str, language: str, hint: str
+) -> None:
+    with pytest.raises(CommandError) as caught:
+        parse(text, language)
+    assert (hint in str(caught.value)) if hint else ("--language" not in str(caught.value))
+
+
+def test_a_language_goes_by_its_code_or_its_name() -> None:
+    expected = Command((Follow(), Turn(Turning.LEFT)))
+    for language in ("de", "german"):
+        assert parse("fahr den Flur entlang und bieg links ab", language) == expected
+    with pytest.raises(ValueError, match=r"en \(english\), de \(german\)"):
+        parse("stop", "fr")
+
+
+def test_an_episode_takes_a_command_in_german() -> None:
+    env = SemNavEnv("spot", PLAN)
+    options = {"command": "nimm die zweite Tür rechts", "language": "german", "pose": WEST}
+    _, info = env.reset(seed=0, options=options)
+    assert info["command"] == "go through the second door on the right"
+    with pytest.raises(CommandError, match="--language german"):
+        env.reset(seed=0, options={**options, "language": "en"})
