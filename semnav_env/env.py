@@ -7,8 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from semnav_env import language
 from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
 from semnav_env.judge import tasks
+from semnav_env.judge.payload import Payload, as_payload
 from semnav_env.judge.verifier import Mission
 from semnav_env.mind.belief import Belief, BeliefTracker
 from semnav_env.mind.observations import (
@@ -18,7 +20,6 @@ from semnav_env.mind.observations import (
     as_observation,
     check_observation,
 )
-from semnav_env.payload import Payload, as_payload
 from semnav_env.rendering.renderer import Renderer
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.robots.actions import Actions
@@ -48,8 +49,9 @@ class SemNavEnv(GymnasiumEnv[Any]):
     and other shapes raise `ValueError`. Accelerations are bounded by the robot.
 
     ## Observation Space
-    A `Dict` of flat arrays, which `semnav_env.mind.observations.layout` declares; lengths in metres,
-    features and goal in the robot frame (x forward, y left, origin at the centre of the footprint).
+    A `Dict` of flat arrays, which `semnav_env.mind.observations.layout` declares; lengths in
+    metres, features and goal in the robot frame (x forward, y left, origin at the centre of the
+    footprint).
     NAME_mask tells which rows count; `observations.table(observation, "walls")` gives those.
 
     - walls, doors, corners, corridors: features of this scan; scan: its ranges, the lidar's range
@@ -261,7 +263,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
         from semnav_env.robot_loop import RobotLoop  # first needed now
 
         self.judge, self.instruction = tasks.EpisodeJudge(mission, self.payload), instruction
-        self.tokens = commands.encode(mission.command, self.floor_plan.room_names)
+        self.tokens = language.encode(mission.command, self.floor_plan.room_names)
         odometry_frame = ORIGIN if self.setup.exact else mission.start
         self.tracker.begin(mission.command, mission.ways_seen_from(odometry_frame))
         self._loop = RobotLoop(self.simulator, self.tracker, self.judge.verifier)

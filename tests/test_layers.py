@@ -167,25 +167,20 @@ def needed(name, seen):
     return seen
 
 
-def env_folders(name):
-    """The folders of `semnav_env` that a module needs, and its modules that lie in none."""
-    return {o.split(".")[1] for o in needed(name, set()) if o.startswith("semnav_env.")}
+ROOMS = {
+    "language": {"language"},
+    "world": {"robots", "world"},
+    "mind": {"language", "mind", "robots", "rules"},
+    "judge": {"judge", "language", "mind", "robots", "rules", "world"},
+}
+"""The rooms of `semnav_env`, and what of it each of them may need, directly or not."""
 
 
-ROBOTS_SIDE = {"belief", "commands", "grounding", "localization", "rules"}
-"""What of `semnav_env` runs on a robot as it is."""
-
-
-def test_the_robots_side_needs_nothing_of_the_simulator():
-    sides = "semnav_env.mind.belief", "semnav_env.mind.localization"
-    for name in [name for name in MODULES if name.startswith(sides)]:
-        assert env_folders(name) <= ROBOTS_SIDE, name
-
-
-def test_the_simulator_knows_nothing_of_commands():
-    for name in [name for name in MODULES if name.startswith("semnav_env.world.simulator")]:
-        unknown = {"commands", "grounding", "belief", "verifier", "tasks"}
-        assert not env_folders(name) & unknown, name
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_needs_only_what_lies_below_it(room):
+    for name in [name for name in MODULES if name.startswith(f"semnav_env.{room}.")]:
+        parts = {o.split(".")[1] for o in needed(name, set()) if o.startswith("semnav_env.")}
+        assert parts <= ROOMS[room], name
 
 
 def test_only_agents_learn():

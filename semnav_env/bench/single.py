@@ -12,7 +12,7 @@ from semnav_env.bench.timing import Part, seconds_per_call
 from semnav_env.env import SemNavEnv
 from semnav_env.mind.belief import BeliefTracker
 from semnav_env.mind.belief.understand import extract_features, understand
-from semnav_env.world.depth import DepthRig
+from semnav_env.robots import DepthRig
 from semnav_env.world.lidar.raster import cast
 from semnav_env.world.simulator.sensing import sense
 from semnav_features import Door

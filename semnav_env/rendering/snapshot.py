@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from semnav_env.judge.payload import Payload, PayloadMarks
 from semnav_env.judge.tasks.judge import EpisodeJudge
 from semnav_env.judge.verifier import Verdict
 from semnav_env.language.command import reference_of
@@ -18,7 +19,6 @@ from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal
 from semnav_env.mind.observations import ObservationType
 from semnav_env.mind.observations.cloud_entry import rig_of
-from semnav_env.payload import Payload, PayloadMarks
 from semnav_env.rendering.depth_layer import cloud_on_the_map, jambs_on_the_map
 from semnav_env.rendering.frame import Frame
 from semnav_env.robots import RobotSpec

@@ -10,8 +10,8 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from semnav_env.robots import SPOT
-from semnav_env.world.depth import DepthRig
+from semnav_env.robots import SPOT, DepthRig
+from semnav_env.world.depth import rig_hits
 from semnav_features import extract
 from semnav_features.clouds import (
     DetectedDoor,
@@ -67,7 +67,7 @@ def spot_on_its_way(scene: CloudScene) -> CloudView:
     """Three clouds of SPOT's stereo pairs, the last one where the others have their one."""
     rng, rig = _rng(scene), DepthRig.spot()
     behind = [compose(scene.pose, (-back, 0.0, 0.0)) for back in BACK]
-    hits = [*(rig.hits(scene.raised, pose, rng) for pose in behind), scene.hits]
+    hits = [*(rig_hits(rig, scene.raised, pose, rng) for pose in behind), scene.hits]
     errors = rng.normal(0.0, STEP_SIGMA, (len(BACK), 2)).tolist()
     odometry = [(-b + dx, dy, 0.0) for b, (dx, dy) in zip(BACK, errors, strict=True)]
     cloud = fused([each.cloud for each in hits], [*odometry, (0.0, 0.0, 0.0)])

@@ -10,8 +10,8 @@ from functools import cached_property
 import numpy as np
 import shapely
 
-from semnav_env.robots import SPOT
-from semnav_env.world.depth import Closet, DepthRig, PlanWindow, RaisedPlan, RigHits, raise_plan
+from semnav_env.robots import SPOT, DepthRig
+from semnav_env.world.depth import Closet, PlanWindow, RaisedPlan, RigHits, raise_plan, rig_hits
 from semnav_env.world.lidar import Lidar
 from semnav_env.world.maps import FloorPlan, Material, PlanDoor, load_floor_plan
 from semnav_env.world.maps.floor_plan import Surface
@@ -86,7 +86,7 @@ class CloudScene:
 
     def look(self, rig: DepthRig) -> RigHits:
         """What the cameras of a rig measure."""
-        return rig.hits(self.raised, self.pose, np.random.default_rng(self.seed))
+        return rig_hits(rig, self.raised, self.pose, np.random.default_rng(self.seed))
 
     def scan(self) -> Scan:
         """What SPOT's lidar measures, lidar frame."""

@@ -28,7 +28,7 @@ ABOUT = {
     "semnav_features/readers": "logs of real robots",
     "semnav_env": "the environment, the rules, and what does not fit below",
     "semnav_env/approach": "poses from which a door can be passed",
-    "semnav_env/mind/belief": "the robot's side: ranges, odometry and bumps to pose, scene and goal",
+    "semnav_env/mind/belief": "from ranges, odometry and bumps to pose, scene and goal",
     "semnav_env/bench": "how fast all this is: `semnav bench`",
     "semnav_env/language": "text to clauses and back",
     "semnav_env/language/corpora": "how much of people's words is understood",
@@ -39,11 +39,14 @@ ABOUT = {
     "semnav_env/mind/grounding": "what a clause refers to in a scene, and where it leads",
     "semnav_env/world/lidar": "the simulated lidar",
     "semnav_env/mind/localization": "where a robot is in a plan that it knows, by its doors",
+    "semnav_env/judge": "whether a command was carried out, and what episodes are about",
+    "semnav_env/mind": "the robot's side: what it believes and is shown",
+    "semnav_env/world": "what there is: plans, physics, sensors, people",
     "semnav_env/world/maps": "floor plans: read, check, find ways",
     "semnav_env/world/maps/generator": "offices drawn from a seed",
     "semnav_env/world/maps/importers": "floor plans from other formats",
     "semnav_env/judge/metrics": "measures of a recorded episode",
-    "semnav_env/mind/observations": "the declared layout of an observation, and its writer and reader",
+    "semnav_env/mind/observations": "the declared layout of an observation, written and read",
     "semnav_env/rendering": "pictures, films, the window",
     "semnav_env/rescue": "searching houses: a person detector, its map of people, coverage",
     "semnav_env/robots": "bodies, and what an action asks of them",
@@ -79,6 +82,12 @@ itself. Paths below begin with the package.
         |                                      |                    (pose, scene, clause, goal)
         +--> true scene --> JUDGE --> reward, end, info
 
+`semnav_env` has four rooms: `language` (text to clauses and back), `world` (what there is, and what
+a lidar measures of it), `mind` (what a robot believes, and where a clause leads it) and `judge`
+(what an episode is about, and whether it was carried out). `language` and `world` know nobody,
+`mind` knows `language`, and `judge` all three; beside them, the environment (`env.py`, `vector`)
+brings them together.
+
 `tests/test_layers.py` checks the imports. `semnav_scripts` may import `semnav_agents`, which may
 import `semnav_env`, which may import `semnav_features`, never the other way round. No module
 imports itself by way of others. `semnav_env/mind/belief` imports nothing of the simulator or the
@@ -88,30 +97,31 @@ judge.
 
 **A scan.** `SemNavEnv.step` (`semnav_env/env.py`) makes one compiled call, `run_period`
 (`semnav_env/robot_loop.py`), which calls three others. `sense`
-(`semnav_env/world/simulator/sensing.py`) drives the body (`semnav_env/world/physics/drive.py`), reckons
-(`semnav_env/world/simulator/odometry.py`) and scans. `understand`
-(`semnav_env/mind/belief/understand.py`) extracts the features (`semnav_features/kernels/chain.py`),
-corrects the drift (`semnav_features/kernels/drift.py`), remembers walls and doors
-(`semnav_features/kernels/memory.py`) and notes how far the clause under way has come
-(`semnav_env/mind/grounding/clause_progress.py`). `judge_motion`
-(`semnav_env/judge/verifier/judge_record.py`) keeps the judge's count. They return events, such as a
-completed clause; only where there is one does `BeliefTracker.think`
+(`semnav_env/world/simulator/sensing.py`) drives the body (`semnav_env/world/physics/drive.py`),
+reckons (`semnav_env/world/simulator/odometry.py`) and scans. `understand`
+(`semnav_env/mind/belief/understand.py`) extracts the features
+(`semnav_features/kernels/chain.py`), corrects the drift (`semnav_features/kernels/drift.py`),
+remembers walls and doors (`semnav_features/kernels/memory.py`) and notes how far the clause under
+way has come (`semnav_env/mind/grounding/clause_progress.py`). `judge_motion`
+(`semnav_env/judge/verifier/judge_record.py`) keeps the judge's count. They return events, such as
+a completed clause; only where there is one does `BeliefTracker.think`
 (`semnav_env/mind/belief/tracker.py`) ground anew. On a real robot `BeliefTracker.update` calls
 `understand` with what was sensed. `EntryObservation.observe`
 (`semnav_env/mind/observations/observer.py`) makes the arrays that an agent gets.
 
 **A command.** `parse` (`semnav_env/language/parser.py`) turns text into a `Command`, a tuple of
-clauses. `MissionMaker` (`semnav_env/judge/tasks/mission_maker.py`) checks on the floor plan that it
-can be carried out. The robot's `Follower` (`semnav_env/mind/grounding/follower.py`) holds the clause
-under way and asks `semnav_env/mind/grounding/ground.py` where it leads, on what is remembered; the
-answer is a goal: seek, reach, pass or stop. The judge's `Verifier`
+clauses. `MissionMaker` (`semnav_env/judge/tasks/mission_maker.py`) checks on the floor plan that
+it can be carried out. The robot's `Follower` (`semnav_env/mind/grounding/follower.py`) holds the
+clause under way and asks `semnav_env/mind/grounding/ground.py` where it leads, on what is
+remembered; the answer is a goal: seek, reach, pass or stop. The judge's `Verifier`
 (`semnav_env/judge/verifier/verifier.py`) runs the same follower on the true scene.
 
-**An action.** `Actions.twist` (`semnav_env/robots/actions.py`) turns the action into a
-velocity. `drive` (`semnav_env/world/physics/drive.py`) bounds its acceleration and lets Chipmunk, the
-engine in Pymunk, move the body (`semnav_env/world/physics/chipmunk.py`). The true `Motion` goes to the
-`EpisodeJudge` (`semnav_env/judge/tasks/judge.py`): crossed doors, reached places, progress.
-`RewardWeights.terms` (`semnav_env/judge/tasks/rewards.py`) says what the step was worth.
+**An action.** `Actions.twist` (`semnav_env/robots/actions.py`) turns the action into a velocity.
+`drive` (`semnav_env/world/physics/drive.py`) bounds its acceleration and lets Chipmunk, the
+engine in Pymunk, move the body (`semnav_env/world/physics/chipmunk.py`). The true `Motion` goes
+to the `EpisodeJudge` (`semnav_env/judge/tasks/judge.py`): crossed doors, reached places,
+progress. `RewardWeights.terms` (`semnav_env/judge/tasks/rewards.py`) says what the step was
+worth.
 
 ## Folders
 

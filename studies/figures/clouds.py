@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.world.depth import DepthRig
+from semnav_env.robots import DepthRig
 from semnav_features.clouds.picture import draw_above, draw_front
 from studies.clouds import detectors
 from studies.clouds.scenes import POSES, CloudScene, draw_scenes

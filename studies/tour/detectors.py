@@ -7,8 +7,8 @@ from functools import cache
 
 import numpy as np
 
-from semnav_env.robots import SPOT
-from semnav_env.world.depth import DepthRig, RaisedPlan, raise_plan
+from semnav_env.robots import SPOT, DepthRig
+from semnav_env.world.depth import RaisedPlan, raise_plan, rig_hits
 from semnav_env.world.simulator import Sensed
 from semnav_features import Scan, extract
 from semnav_features.clouds.detected_door import DetectedDoor
@@ -36,7 +36,7 @@ def raised_villa() -> RaisedPlan:
 
 def _cloud(sensed: Sensed, rng: np.random.Generator) -> PointCloud:
     """What SPOT's stereo pairs see."""
-    return DepthRig.spot().see(raised_villa(), sensed.motion.pose, rng)
+    return rig_hits(DepthRig.spot(), raised_villa(), sensed.motion.pose, rng).cloud
 
 
 def by_finder(sensed: Sensed, rng: np.random.Generator) -> DoorSearch:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from shapely import box
 
-from semnav_env.world.depth import DepthCamera, DepthRig
+from semnav_env.robots import DepthCamera, DepthRig
 from semnav_env.world.maps.floor_plan import FloorPlan, PlanDoor, Surface
 from tests.support.small_plans import plan_of
 

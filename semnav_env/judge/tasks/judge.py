@@ -12,7 +12,7 @@ from semnav_env.language import SearchHouse
 from semnav_env.world.simulator.sensed import Motion
 
 if TYPE_CHECKING:
-    from semnav_env.payload import Payload
+    from semnav_env.judge.payload import Payload
 
 
 class Judgement(NamedTuple):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import semnav_env.language
 from semnav_env.language import Command
 from semnav_env.robots import RobotSpec
 from semnav_env.world.maps.floor_plan import FloorPlan
@@ -106,7 +107,7 @@ class EpisodeRequest:
         if given is None or isinstance(given, Command):
             return given
         if isinstance(given, str):
-            return commands.parse(given, language, rooms)
+            return semnav_env.language.parse(given, language, rooms)
         raise ValueError(f"a command is text or a Command, not {type(given).__name__}")
 
     def checked_pose(self) -> Pose | None:

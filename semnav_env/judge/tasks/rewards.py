@@ -15,7 +15,7 @@ from semnav_env.world.simulator.sensed import Motion
 from semnav_features.checked_fields import Bounds, check_fields
 
 if TYPE_CHECKING:
-    from semnav_env.payload import Payload
+    from semnav_env.judge.payload import Payload
 
 
 class Tick(NamedTuple):

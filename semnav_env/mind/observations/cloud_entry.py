@@ -12,8 +12,7 @@ from semnav_env.mind.observations.layout import FEATURE_BOUND
 from semnav_env.mind.observations.observer import Moment
 
 if TYPE_CHECKING:
-    from semnav_env.robots import RobotSpec
-    from semnav_env.world.depth import DepthRig
+    from semnav_env.robots import DepthRig, RobotSpec
     from semnav_features.lidar_spec import LidarSpec
 
 

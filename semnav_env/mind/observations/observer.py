@@ -30,7 +30,7 @@ from semnav_env.robots import RobotSpec
 from semnav_features.lidar_spec import LidarSpec
 
 if TYPE_CHECKING:
-    from semnav_env.world.depth import DepthRig
+    from semnav_env.robots import DepthRig
     from semnav_features.clouds import PointCloud
 
 Array = NDArray[Any]

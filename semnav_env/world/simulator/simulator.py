@@ -28,7 +28,7 @@ from semnav_features.lidar_spec import TIM561, LidarSpec
 from semnav_features.one_thread import ThreadDoor, for_one_thread
 
 if TYPE_CHECKING:
-    from semnav_env.world.depth import DepthRig
+    from semnav_env.robots import DepthRig
     from semnav_features.clouds import PointCloud
 
 
@@ -192,11 +192,11 @@ class Simulator:
         Args:
             rig: the cameras.
         """
-        from semnav_env.world.depth import raise_plan  # seldom asked for
+        from semnav_env.world.depth import raise_plan, rig_hits  # seldom asked for
 
         raised = self.world.still.derived(raise_plan)
         rng = np.random.default_rng((int(self._record["noise_seed"][0]), self.steps))
-        return rig.see(raised, self.motion.pose, rng, self.world.moving_shapes)
+        return rig_hits(rig, raised, self.motion.pose, rng, self.world.moving_shapes).cloud
 
     def demand(self, twist: Twist) -> None:
         """Say how the robot shall move in the next control period; raises what `step` does."""

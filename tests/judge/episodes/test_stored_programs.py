@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from semnav_env import language
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import (
     SPLITS,
@@ -39,7 +40,7 @@ def test_no_episode_of_any_split_needs_parsing(monkeypatch: pytest.MonkeyPatch) 
     def parsed(*_: object) -> None:
         raise AssertionError("parsed")
 
-    for module in (commands, episode_module):
+    for module in (language, episode_module):
         monkeypatch.setattr(module, "parse", parsed)
     assert not hasattr(frozen_module, "parse")
     for name in SPLITS:

@@ -5,7 +5,7 @@ import pytest
 
 from semnav_env.env import SemNavEnv
 from semnav_env.mind.observations import CloudEntry, EntryObservation, Moment
-from semnav_env.world.depth import DepthRig
+from semnav_env.robots import DepthRig
 
 START = {"command": "go through the first door on the left", "pose": (1.2, 4.3, -1.57)}
 

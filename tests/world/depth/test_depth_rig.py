@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.world.depth import DepthRig, FaceKind, raise_plan
+from semnav_env.robots import DepthRig
+from semnav_env.world.depth import FaceKind, raise_plan, rig_hits
 from semnav_env.world.maps import load_floor_plan
 from semnav_features.frames import compose
 from tests.support.raised_plans import exact_camera, exact_rig, walled_door
@@ -18,8 +19,8 @@ HALL = raise_plan(empty_hall())
 
 def wall_ahead(distance, **camera):
     """Depths measured of a wall that many metres ahead."""
-    hits = exact_rig(up=0.2, **camera).hits(
-        HALL, (10.0 - distance, 3.0, 0.0), np.random.default_rng(1)
+    hits = rig_hits(
+        exact_rig(up=0.2, **camera), HALL, (10.0 - distance, 3.0, 0.0), np.random.default_rng(1)
     )
     return hits.cloud.points_robot[hits.kinds == FaceKind.WALL, 0]
 
@@ -27,7 +28,8 @@ def wall_ahead(distance, **camera):
 def test_the_same_generator_gives_the_same_cloud():
     plan, pose = raise_plan(load_floor_plan("villa_hall")), (1.2, 2.0, -1.0)
     first, again = (
-        DepthRig.spot().see(plan, pose, np.random.default_rng(4)).points_robot for _ in range(2)
+        rig_hits(DepthRig.spot(), plan, pose, np.random.default_rng(4)).cloud.points_robot
+        for _ in range(2)
     )
     assert np.array_equal(first, again)
 
@@ -55,7 +57,8 @@ def test_a_pair_sees_only_what_both_eyes_see():
     """Beside the jamb of a door the second eye does not see all of what lies behind."""
     raised, rng = raise_plan(walled_door()), np.random.default_rng(0)
     one, two = (
-        exact_rig(baseline=b, columns=200).hits(raised, (0.0, 0.0, 0.0), rng) for b in (0.0, 0.2)
+        rig_hits(exact_rig(baseline=b, columns=200), raised, (0.0, 0.0, 0.0), rng)
+        for b in (0.0, 0.2)
     )
     behind = [hits.cloud.points_robot[hits.cloud.points_robot[:, 0] > 4.4] for hits in (one, two)]
     assert 0 < len(behind[1]) < 0.95 * len(behind[0])
@@ -64,7 +67,7 @@ def test_a_pair_sees_only_what_both_eyes_see():
 @given(st.floats(-math.pi, math.pi), st.floats(-2.0, 2.0), st.floats(-1.0, 1.0))
 def test_a_cloud_lies_on_the_walls_from_any_pose(heading, x, y):
     pose = (5.0 + x, 3.0 + y, heading)
-    hits = exact_rig().hits(HALL, pose, np.random.default_rng(0))
+    hits = rig_hits(exact_rig(), HALL, pose, np.random.default_rng(0))
     points = hits.cloud.points_robot[hits.kinds == FaceKind.WALL, :2]
     places = np.array([compose(pose, (*point, 0.0))[:2] for point in points.tolist()])
     gaps = np.abs(
@@ -75,14 +78,16 @@ def test_a_cloud_lies_on_the_walls_from_any_pose(heading, x, y):
 
 def test_people_and_moving_leaves_are_seen():
     moving = np.array([[6.0, 3.0, 0.3]]), np.array([[7.0, 1.0, 7.0, 2.0]])
-    hits = exact_rig().hits(HALL, (5.0, 3.0, 0.0), np.random.default_rng(0), moving)
+    hits = rig_hits(exact_rig(), HALL, (5.0, 3.0, 0.0), np.random.default_rng(0), moving)
     assert {FaceKind.PERSON, FaceKind.LEAF} <= set(hits.kinds.tolist())
     person = hits.cloud.points_robot[hits.kinds == FaceKind.PERSON]
     assert person[:, 0].min() == pytest.approx(0.7, abs=0.05)
 
 
 def test_spot_sees_all_around_but_little_above_a_metre():
-    cloud = DepthRig.spot().see(HALL, (5.0, 3.0, 0.0), np.random.default_rng(0)).points_robot
+    cloud = rig_hits(
+        DepthRig.spot(), HALL, (5.0, 3.0, 0.0), np.random.default_rng(0)
+    ).cloud.points_robot
     near = cloud[np.hypot(cloud[:, 0], cloud[:, 1]) < 1.5]
     assert np.quantile(near[:, 2], 0.999) < 1.2
     directions = np.histogram(np.arctan2(cloud[:, 1], cloud[:, 0]), 24, (-math.pi, math.pi))[0]
@@ -91,7 +96,7 @@ def test_spot_sees_all_around_but_little_above_a_metre():
 
 def test_bad_poses_and_cameras_are_named():
     with pytest.raises(ValueError, match="must be finite"):
-        DepthRig.spot().see(HALL, (math.nan, 0.0, 0.0), np.random.default_rng(0))
+        rig_hits(DepthRig.spot(), HALL, (math.nan, 0.0, 0.0), np.random.default_rng(0))
     for change, named in (
         ({"columns": 0}, "columns and rows"),
         ({"across": 4.0}, "views"),

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.world.depth import Closet, FaceKind, PlanWindow, RaiseSettings, raise_plan
+from semnav_env.world.depth import Closet, FaceKind, PlanWindow, RaiseSettings, raise_plan, rig_hits
 from semnav_env.world.maps import bundled_names, load_floor_plan
 from semnav_env.world.maps.floor_plan import Material, PlanDoor, Surface
 from tests.support.raised_plans import DOOR, exact_rig, walled_door
@@ -14,7 +14,7 @@ HERE = (0.0, 0.0, 0.0)
 
 
 def seen(raised, pose=HERE, **camera):
-    return exact_rig(**camera).hits(raised, pose, np.random.default_rng(0))
+    return rig_hits(exact_rig(**camera), raised, pose, np.random.default_rng(0))
 
 
 def ahead(raised, y, z):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from semnav_env.world.depth.depth_camera import DepthCamera
+from semnav_env.robots.depth_camera import DepthCamera
 
 _TOP = math.radians(25.0)
 """How far above the horizon SPOT's cameras see, radians: up to 1 m at a distance of 1 m."""
