@@ -46,7 +46,7 @@ what was accepted works.
   wrong bit of machine code would raise nothing. `semnav doctor` removes what is damaged, what
   killed writers left behind, and the kernels of sources that nobody has used for a month; what it
   prints belongs into a bug report.
-- **Ctrl-C** ends every command with one line and exit code 130.
+- **Ctrl-C** ends every command with one line and exit code 130, **SIGTERM** with 143.
 
 ## Budgets of the readers
 
