@@ -95,7 +95,8 @@ Grids and tables over a floor plan have one budget of {cells:,} cells
 (`semnav_env/world/maps/cell_budget.py`): ways, what a body reaches, the floor that is seen in a
 search, the walls near a lidar, points on walls. Where a plan needs more, the grid gets coarser,
 for ways up to {ways:g} m and for what a body reaches up to {reach:g} m; a plan for which that is
-too coarse to find doors, of more than {ways_area:,.0f} m2 and {reach_area:,.0f} m2, is refused in one line
+too coarse to find doors, of more than {ways_area:,.0f} m2 and {reach_area:,.0f} m2, is refused in
+one line
 that names its extent. Plans of up to {usual:,.0f} m2 keep their grid of {spacing:g} m.
 Tests hold every use of such plans, among them an episode, below a gigabyte
 (`tests/reliability/test_geometry_budgets.py`). Pictures have a fixed size, an exported map at most
