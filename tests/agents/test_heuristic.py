@@ -10,8 +10,8 @@ from pathlib import Path
 CODE = """
 import math
 import numpy as np
-from semnav_env.agents.planning.collision import obstacle_field
-from semnav_env.agents.planning.heuristic import COARSE_CELL, coarse_cell, seconds_at
+from semnav_agents.planning.collision import obstacle_field
+from semnav_agents.planning.heuristic import COARSE_CELL, coarse_cell, seconds_at
 
 field = obstacle_field(np.array([[0.5, 0.5]]), (0.0, 0.0), 2.0)
 time = np.full((60, 60), math.inf)

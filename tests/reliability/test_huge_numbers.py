@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from semnav_env.belief import BeliefTracker
-from semnav_env.commands import parse
 from semnav_env.env import SemNavEnv
-from semnav_env.features import Scan
-from semnav_env.features.readers import Geometry
-from semnav_env.maps import load_floor_plan
+from semnav_env.language import parse
+from semnav_env.mind.belief import BeliefTracker
+from semnav_env.world.maps import load_floor_plan
+from semnav_features import Scan
+from semnav_features.readers import Geometry
 from tests.reliability.children import outcome_of
 from tests.reliability.long_runs import holes
 
