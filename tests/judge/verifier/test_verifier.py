@@ -194,6 +194,13 @@ def test_a_referent_missing_from_the_plan_is_refused() -> None:
         Verifier(plan_mission(plan, Geodesic(plan), parse(command), start))
 
 
+def test_a_corner_outside_the_building_is_refused() -> None:
+    """Across the hall of the villa its side arm looks like a room that opens to the left."""
+    plan = load_floor_plan("villa_hall")
+    with pytest.raises(GroundingError, match="leads out of villa_hall"):
+        plan_mission(plan, Geodesic(plan), parse("turn left at the corner"), (1.58, 2.02, -2.98))
+
+
 def test_after_a_stop_the_next_clause_begins_where_the_stop_did() -> None:
     """It does not matter where the robot stands."""
     judge = verifier("follow the hallway for 3 metres, stop and turn left")

@@ -62,6 +62,8 @@ def told(name: str, begin: Pose = WEST) -> Way:
         ("Café", "cafe"),
         ("Cafe\u0301", "cafe"),
         ("Sało Ærø", "salo aero"),
+        ("Anna's room", "annas room"),
+        ("parents\u2019 bedroom", "parents bedroom"),
     ],
 )
 def test_names_are_plain_letters_and_digits(name: str, plain: str) -> None:
@@ -96,6 +98,24 @@ def test_a_misspelt_room_is_answered_with_the_nearest_one() -> None:
     with pytest.raises(CommandError, match="corrected: library") as caught:
         parse("go to the libary", rooms=("library", "kitchen"))
     assert caught.value.suggestion == "library"
+
+
+@pytest.mark.parametrize(
+    ("said", "name"),
+    [
+        ("the living room", "living room"),
+        ("the kitchen", "kitchen"),
+        ("the parents' bedroom", "parents bedroom"),
+        ("the parents\u2019 room", "parents bedroom"),
+        ("the daughter's bedroom", "daughters bedroom"),
+        ("the daughter\u2019s room", "daughters bedroom"),
+        ("the daughters bedroom", "daughters bedroom"),
+    ],
+)
+def test_the_rooms_of_the_villa_are_called_as_in_the_thesis(said: str, name: str) -> None:
+    rooms = load_floor_plan("villa_hall").room_names
+    for text in (f"go to {said}", f"go into {said}", f"enter {said}"):
+        assert parse(text, rooms=rooms).clauses == (GoToRoom(name),)
 
 
 def test_room_numbers_may_be_short_where_they_are_unique() -> None:
