@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from semnav_agents.evaluation.attempts import Attempt, read_attempts
 from semnav_env.env import SemNavEnv
 from semnav_env.language import parse
 from semnav_env.mind.belief import BeliefTracker
@@ -24,6 +27,13 @@ DIGITS = ("1" * 30, "1" * 400, "1" * 5000, "1e400", "-1e999", "1e-999", "0." + "
 
 ANGLES = {"angle_min": -1.5, "angle_increment": 0.017}
 RANGES = [2.0] * 181
+
+
+RESULT: dict[str, Any] = {
+    each.name: {"str": "a", "int": 1, "bool": True, "float": 0.5}[str(each.type)]
+    for each in fields(Attempt)
+}
+"""A result of an evaluation."""
 
 
 def tracker() -> BeliefTracker:
@@ -97,5 +107,15 @@ def test_an_episode_of_a_huge_number_is_unknown(digits: str) -> None:
     outcome = outcome_of(
         lambda: SemNavEnv().reset(seed=1, options={"episode": f"val_seen-{digits}"})
     )
+    assert not outcome.fault, outcome
+    assert outcome.message
+
+
+@pytest.mark.parametrize("digits", [*DIGITS[:5], "-0.1", "1.5"], ids=lambda digits: digits[:4])
+def test_a_share_beyond_one_in_results_is_refused(tmp_path: Path, digits: str) -> None:
+    path = tmp_path / "results.jsonl"
+    row = asdict(Attempt(**RESULT)) | {"spl": "@"}
+    path.write_text(json.dumps(row).replace('"@"', digits) + "\n")
+    outcome = outcome_of(lambda: read_attempts(path), path.name)
     assert not outcome.fault, outcome
     assert outcome.message

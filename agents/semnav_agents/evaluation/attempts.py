@@ -10,13 +10,19 @@ from math import isnan, nan
 from pathlib import Path
 from typing import Any
 
+<<<<<<< HEAD:agents/semnav_agents/evaluation/attempts.py
 from semnav_agents.evaluation.provenance import UNKNOWN, Provenance
 from semnav_features.decompression import read_lines
-from semnav_features.validation import clipped, shown
+from semnav_features.validation import clipped, require, shown
 from semnav_features.writing import write_file
 
 NOT_KNOWN = Provenance(UNKNOWN, "", UNKNOWN).row()
 """What results say that were kept before they said by what they were made."""
+=======
+from semnav_features.decompression import read_lines
+from semnav_features.validation import clipped, require, shown
+from semnav_features.writing import write_file
+>>>>>>> h-logs:agents/evaluation/attempts.py
 
 MAX_BYTES = 64_000_000
 """Size of the largest file of results that is read, bytes, also when decompressed."""
@@ -102,6 +108,8 @@ def _attempt(line: str, place: str) -> Attempt:
             hint = "; evaluate anew with --out" if each.name not in row else ""
             raise ValueError(f"{place}: {each.name} is {shown(value)}, not of type {right}{hint}")
         values[each.name] = value
+    spl = values["spl"]
+    require(spl != spl or 0.0 <= spl <= 1.0, f"{place}: spl", spl, "from 0 to 1, or null")
     return Attempt(**values)
 
 
