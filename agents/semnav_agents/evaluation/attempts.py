@@ -10,7 +10,6 @@ from math import isnan, nan
 from pathlib import Path
 from typing import Any
 
-<<<<<<< HEAD:agents/semnav_agents/evaluation/attempts.py
 from semnav_agents.evaluation.provenance import UNKNOWN, Provenance
 from semnav_features.decompression import read_lines
 from semnav_features.validation import clipped, require, shown
@@ -18,11 +17,6 @@ from semnav_features.writing import write_file
 
 NOT_KNOWN = Provenance(UNKNOWN, "", UNKNOWN).row()
 """What results say that were kept before they said by what they were made."""
-=======
-from semnav_features.decompression import read_lines
-from semnav_features.validation import clipped, require, shown
-from semnav_features.writing import write_file
->>>>>>> h-logs:agents/evaluation/attempts.py
 
 MAX_BYTES = 64_000_000
 """Size of the largest file of results that is read, bytes, also when decompressed."""
