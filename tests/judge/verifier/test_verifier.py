@@ -186,10 +186,10 @@ def test_the_verdict_is_that_of_the_deciding_clause() -> None:
 
 
 def test_a_referent_missing_from_the_plan_is_refused() -> None:
-    """From beside the door of a room there is no end of a corridor to be seen on the plan."""
-    plan = load_floor_plan("villa_hall")
-    start: Pose = (1.0426539, 0.685958, -2.890914)
-    command = "turn left at the first corner and go down the hallway until the end of the hallway"
+    """Where there are no walls, there is no end of a corridor to be seen on the plan."""
+    plan = replace(load_floor_plan("villa_hall"), surfaces=(), doors=())
+    start: Pose = (1.0, 2.0, 1.5)
+    command = "go down the hallway until the end of the hallway"
     with pytest.raises(GroundingError, match="the end of the hallway: the floor plan shows none"):
         Verifier(plan_mission(plan, Geodesic(plan), parse(command), start))
 
