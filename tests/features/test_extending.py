@@ -144,20 +144,18 @@ def test_the_files_that_the_page_names_are_there() -> None:
 
 
 def test_the_page_names_every_file_that_all_clauses_stand_in() -> None:
-    """The clauses of the package show where a new one goes."""
+    """The clauses of the package show where a new one goes; its words are the reader's."""
     kinds = ("Turn", "GoToDoor", "Stop", "Leave")
-    texts = {
-        path.relative_to(ROOT / "semnav_env").as_posix(): path.read_text()
-        for folder in ("commands", "grounding", "tasks", "verifier", "observations", "belief")
-        for path in (ROOT / "semnav_env" / folder).glob("*.py")
+    texts = {path: path.read_text() for path in (ROOT / "semnav_env").rglob("*.py")}
+    everywhere = {
+        path.relative_to(ROOT / "semnav_env").as_posix()
+        for path, text in texts.items()
+        if all(re.search(rf"\b{kind}\b", text) for kind in kinds)
     }
-    everywhere = [
-        name
-        for name, text in texts.items()
-        if all(re.search(rf"\b{kind}\(|\b{kind},|\b{kind} \|", text) for kind in kinds)
-    ]
-    assert "grounding/ground.py" in everywhere
-    assert [name for name in everywhere if f"`{name}`" not in PAGE] == []
+    reader = {"language/one_reading.py"}
+    shown = {"language/clauses.py", "language/__init__.py", "mind/grounding/ground.py"}
+    assert everywhere - reader == shown
+    assert [name for name in shown if f"`{name}`" not in PAGE] == []
 
 
 def test_the_page_has_a_row_for_each_part_that_can_be_given() -> None:
