@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, fields, replace
 from enum import Enum, IntEnum
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from numbers import Integral, Real
 from types import NoneType, UnionType
 from typing import (
@@ -84,7 +84,7 @@ class Multiples:
         return round(self.most / self.step)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Form:
     """One way to put a value in words, symbols and numbers; `form` makes it.
 
@@ -109,7 +109,7 @@ class Form:
     given: Mapping[str, Any]
     sampled: bool
 
-    @property
+    @cached_property
     def fixed(self) -> dict[str, Any]:
         """The fields with only one value, and this value."""
         return {name: part for name, part in self.given.items() if not _is_open(part)}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from numbers import Real
 from typing import Any, TypeAlias, TypeVar
 
@@ -80,6 +81,7 @@ def _sum(rows: Iterable[Row]) -> Row:
     return tuple(map(sum, zip(*rows, strict=True)))
 
 
+@cache
 def _head(form: Form) -> Row:
     """What a form says of a token."""
     token: list[Any] = [*form.token, *(0, 0, None)[len(form.token) :]]
