@@ -1,4 +1,4 @@
-"""Draws docs/images/approach.png, and writes the tables of docs/approach.md."""
+"""Draws docs/images/approach.png, and writes the tables of docs/lab/approach.md."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.maps.draw import draw_floor_plan
 from studies.figures import IMAGES
 
-PAGE = IMAGES.parent / "approach.md"
+PAGE = IMAGES.parent / "lab" / "approach.md"
 VILLA = load_floor_plan("villa_hall")
 DOORS = ("parents", "living", "kitchen", "daughter")
 VIEW = (-6.6, 2.8), (-0.5, 5.4)
@@ -56,7 +56,7 @@ def page(old: str) -> str:
 
 
 def main() -> None:
-    """Draw figure 7.1 of Mes 2021 anew, and write both tables into docs/approach.md."""
+    """Draw figure 7.1 of Mes 2021 anew, and write both tables into docs/lab/approach.md."""
     figure = Figure(figsize=(11.0, 8.0), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots(2, 2).flat

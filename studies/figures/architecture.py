@@ -84,14 +84,17 @@ itself. Paths below begin with the package.
 
 `semnav_env` has four rooms: `language` (text to clauses and back), `world` (what there is, and what
 a lidar measures of it), `mind` (what a robot believes, and where a clause leads it) and `judge`
-(what an episode is about, and whether it was carried out). `language` and `world` know nobody,
-`mind` knows `language`, and `judge` all three; beside them, the environment (`env.py`, `vector`)
-brings them together.
+(what an episode is about, and whether it was carried out). `language` and `world` import no other
+room, `mind` imports `language`, and `judge` all three; beside them, the environment (`env.py`,
+`vector`) brings them together.
 
 `tests/test_layers.py` checks the imports. `semnav_scripts` may import `semnav_agents`, which may
 import `semnav_env`, which may import `semnav_features`, never the other way round. No module
 imports itself by way of others. `semnav_env/mind/belief` imports nothing of the simulator or the
 judge.
+
+[Where do I change what?](extending.md#where-do-i-change-what) names the file for the most frequent
+changes: a door, a reward term, a clause, a sensor, a format, an agent, an entry of the observation.
 
 ## Three walks
 

@@ -1,4 +1,4 @@
-"""The tables of docs/features_evaluation.md, from what a study of the features wrote."""
+"""The tables of docs/lab/features_evaluation.md, from what a study of the features wrote."""
 
 import json
 from pathlib import Path
@@ -36,7 +36,7 @@ def at_sigma(rows: list[Row]) -> list[Row]:
 
 
 def main(path: Path) -> None:
-    """Print the tables of features_evaluation.md.
+    """Print the tables of docs/lab/features_evaluation.md.
 
     Args:
         path: the file features.json that `python -m studies features --out` wrote.

@@ -1,4 +1,4 @@
-"""The numbers of docs/language.md: what is understood, and how long parsing takes."""
+"""The numbers of docs/lab/language.md: what is understood, and how long parsing takes."""
 
 from __future__ import annotations
 

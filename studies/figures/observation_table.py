@@ -68,7 +68,7 @@ assert observation["instruction"] == info["instruction"]
 ```
 
 The hallway is surveyed anew for each observation. That costs more than all else: see the
-measurement in [speed](speed.md#observations-that-hear-the-command).
+measurement in [speed](speed.md#in-training).
 """
 
 
@@ -82,7 +82,7 @@ def page() -> str:
         "one range a beam; no return reads as the lidar's range |",
         f"| `command` | {tokens.shape[0]} | 8 clauses of 5 tokens | "
         f"0 to {tokens.nvec.max() - 1} | | the command, see "
-        "[as numbers](language.md#as-numbers) |",
+        "[as numbers](language_reference.md#as-numbers) |",
     ]
     return TITLE + "\n".join([*rows, "", MODES_TITLE, *_mode_rows(), "", TEXT])
 

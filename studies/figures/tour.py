@@ -42,7 +42,7 @@ def draw_tour(ax: Axes, correction: str, periods: list[TourPeriod]) -> None:
 
 
 def table_row(found: dict[str, float]) -> str:
-    """A row of the table of docs/drift.md."""
+    """A row of the table of docs/lab/drift.md."""
     shares = " | ".join(f"{100.0 * found[name]:.0f} %" for name in ("all_rooms", "lost"))
     metres = " | ".join(
         f"{found[name]:.2f} m" if found["corrections"] else ""
@@ -56,7 +56,7 @@ def table_row(found: dict[str, float]) -> str:
 
 
 def main(rows: Path = Path("out/tour.jsonl")) -> None:
-    """Draw the tours of one seed, and print the table of docs/drift.md.
+    """Draw the tours of one seed, and print the table of docs/lab/drift.md.
 
     Args:
         rows: what `python -m studies tour` wrote.

@@ -42,7 +42,12 @@ def test_the_page_for_learners_runs() -> None:
     assert abs(shown["robots"].reset()["goal"]).max() <= shown["robots"].clip_obs
 
 
-def test_the_page_of_the_environment_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_page_of_the_environment_runs() -> None:
+    shown = run("docs/environment.md", {})
+    assert len(shown["believed"]) == len(shown["odometry"]) == 3
+
+
+def test_the_page_of_gymnasiums_tools_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    run("docs/environment.md", {})
+    run("docs/gymnasium_tools.md", {})
     assert (tmp_path / "out" / "random.gif").stat().st_size > 0

@@ -35,6 +35,17 @@ def test_every_page_is_in_the_index() -> None:
     assert len(LISTED) == len(set(LISTED))
 
 
+LONG = {"glossary", "reliability", "capabilities"}
+"""Tables for looking things up, and pages that a script writes."""
+
+
+def test_a_page_for_users_is_short() -> None:
+    """What a measurement was like, and what was tried, belongs to `docs/lab`."""
+    pages = {page for page in PAGES - LONG if "/" not in page}
+    lines = {page: len((DOCS / f"{page}.md").read_text("utf-8").splitlines()) for page in pages}
+    assert {page: count for page, count in lines.items() if count > 150} == {}
+
+
 def test_no_page_has_a_name_that_sphinx_writes_over() -> None:
     assert not PAGES & SPHINX_PAGES
 

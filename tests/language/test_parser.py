@@ -207,7 +207,7 @@ def test_a_language_is_read_once() -> None:
 
 
 def test_every_example_of_the_documentation_means_what_it_says() -> None:
-    page = ROOT / "docs" / "language.md"
+    page = ROOT / "docs" / "wordings.md"
     rows = re.findall(r"^\| `([^`]+)` \| `([^`]+)` \|$", page.read_text("utf-8"), re.MULTILINE)
     assert len(rows) >= 20
     assert [str(parse(text)) for text, _ in rows] == [canonical for _, canonical in rows]

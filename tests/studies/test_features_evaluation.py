@@ -41,7 +41,7 @@ def test_strategies_differ_from_the_default_in_one_choice_each():
 
 
 def test_the_extractor_keeps_its_level_on_a_small_sample():
-    """Far below what docs/features_evaluation.md reports, so that only a break shows."""
+    """Far below what docs/lab/features_evaluation.md reports, so that only a break shows."""
     study = Study({DEFAULT_STRATEGY: ExtractorSettings()})
     plans = [load_floor_plan(name) for name in bundled_names()]
     for _ in study.run(plans, 12, (0.02,), (False, True), seed=7):
