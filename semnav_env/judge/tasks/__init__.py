@@ -3,10 +3,16 @@
 from typing import TYPE_CHECKING
 
 from semnav_env.judge.tasks.episode_source import EpisodeSource
-from semnav_env.judge.tasks.judge import EpisodeJudge, Judgement
 from semnav_env.judge.tasks.mission_maker import MissionMaker
 from semnav_env.judge.tasks.request import EpisodeRequest
-from semnav_env.judge.tasks.rewards import Rewards, RewardTerm, RewardWeights, Tick, as_rewards
+from semnav_env.judge.tasks.rewards import (
+    Rewards,
+    RewardTerm,
+    RewardWeights,
+    Tick,
+    as_rewards,
+    weigh,
+)
 from semnav_env.judge.tasks.task import AdaptiveTask, CommandTask, SampledTask, Task, as_task
 from semnav_features.lazy_names import lazy_names
 
@@ -20,12 +26,10 @@ __all__ = [
     "AddedTerms",
     "CommandTask",
     "Curriculum",
-    "EpisodeJudge",
     "EpisodeRequest",
     "EpisodeSource",
     "Episodes",
     "FrozenEpisodes",
-    "Judgement",
     "MissionMaker",
     "RandomisedRobot",
     "RewardTerm",
@@ -37,6 +41,7 @@ __all__ = [
     "as_rewards",
     "as_task",
     "terms_of",
+    "weigh",
 ]
 
 __getattr__ = lazy_names(
