@@ -6,8 +6,8 @@ rewards, ends and infos, with arrays in place of numbers:
 
 1. `run_period`: the robot drives, senses and understands, and its motion is judged, compiled.
 2. `RobotLoop.think`: belief, payload and judge do what its events call for.
-3. `SemNavEnv.terms`: what the control period is worth; `weigh` for `RewardWeights`.
-4. `ends`: whether the episode is over; then `SemNavEnv.conclude` ends it.
+3. `RobotLoop.terms`: what the control period is worth; of many, `weigh` where it serves.
+4. `ends`: whether the episode is over; `SemNavEnv.conclude` says what is known then.
 5. `info_of`: what is known after each step.
 """
 
@@ -15,21 +15,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from numba import types
 from numba.experimental import structref
+from numpy.typing import ArrayLike
 
-from semnav_env.judge.judge import Judge
 from semnav_env.judge.judge_record import JudgeRecord, judge_motion
-from semnav_env.judge.judge_state import Period
-from semnav_env.mind.belief import BeliefTracker
+from semnav_env.judge.tasks.rewards import Rewards, RewardWeights, Tick, terms_of, weigh
 from semnav_env.mind.belief.understand import Senses, understand
-from semnav_env.world.simulator import Simulator
 from semnav_env.world.simulator.sensing import TOUCHED, SimulatorArrays, sense
 from semnav_features.frames import Twist
 from semnav_features.kernels.compiling import kernel
 
 if TYPE_CHECKING:
+    from semnav_env.judge import Judge, Period
     from semnav_env.judge.payload import Payload
+    from semnav_env.mind.belief import BeliefTracker
+    from semnav_env.world.simulator import Simulator
 
 
 @structref.register
@@ -183,6 +185,19 @@ class RobotLoop:
             self._payload.update(self._simulator.motion, self._tracker)
         if judged:
             self._judge.think(judged)
+
+    def terms(self, rewards: Rewards, period: Period, action: ArrayLike) -> dict[str, float]:
+        """What a control period is worth, by name; the reward is the sum.
+
+        Args:
+            rewards: say what it is worth.
+            period: the last one.
+            action: that the agent gave, as it gave it.
+        """
+        if type(rewards) is RewardWeights:  # the usual ones need no belief
+            return weigh(rewards.each, *period.judged, period.in_contact)
+        sensed = self._simulator.motion, self._tracker.belief, np.asarray(action)
+        return terms_of(rewards, Tick(*period.judged, *sensed, self._payload))
 
 
 def ends(period: Period, max_steps: Any) -> tuple[Any, Any]:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from semnav_env import language
 from semnav_env.control_period import RobotLoop, ends, info_of
 from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
-from semnav_env.judge import Judge, Mission, Period, tasks
+from semnav_env.judge import Judge, Mission, tasks
 from semnav_env.judge.payload import Payload, as_payload
 from semnav_env.mind.belief import Belief, BeliefTracker
 from semnav_env.mind.observations import (
@@ -169,20 +169,12 @@ class SemNavEnv(GymnasiumEnv[Any]):
         """
         self._require_reset("step")
         period = self.loop.drive(self._actions.twist(action))
-        terms = self.terms(period, action)
+        terms = self.loop.terms(self.rewards, period, action)
         terminated, truncated = ends(period, self.max_steps)
         ended = self.conclude(truncated) if terminated or truncated else {}
         info = info_of(period, self.judge.verdicts) | {"reward_terms": terms, **ended}
         self.renderer.note(self, period.pose)
         return self.observe(), sum(terms.values()), terminated, truncated, info
-
-    def terms(self, period: Period, action: ArrayLike) -> dict[str, float]:
-        """What a control period is worth, by name; the reward is the sum."""
-        rewards = self.rewards
-        if type(rewards) is tasks.RewardWeights:  # the usual ones need no belief
-            return tasks.weigh(rewards.each, *period.judged, period.in_contact)
-        sensed = self.simulator.motion, self.belief, np.asarray(action)
-        return tasks.terms_of(rewards, tasks.Tick(*period.judged, *sensed, self.payload))
 
     def observe(self) -> Any:
         """A fresh observation from where the robot is now.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
 from semnav_env.judge import Period
-from semnav_env.judge.tasks import RewardWeights, weigh
+from semnav_env.judge.tasks.rewards import RewardWeights, weigh
 from semnav_features.frames import FloatArray
 
 Mask = NDArray[np.bool_]
@@ -33,7 +33,7 @@ class TeamRewards:
         self._weights = np.array(each, float).T if len(each) == len(envs) else None
 
     def terms(self, period: Period, actions: NDArray[Any], driven: Mask) -> Terms:
-        """The terms by name, as `SemNavEnv.terms`; their sum is the reward.
+        """The terms by name, as `RobotLoop.terms`; their sum is the reward.
 
         Args:
             period: of all robots.
@@ -51,6 +51,7 @@ class TeamRewards:
         terms: Terms = {}
         for k in np.flatnonzero(driven).tolist():
             env = self._envs[k]
-            for name, value in env.terms(env.judge.period, actions[k]).items():
+            own = env.loop.terms(env.rewards, env.judge.period, actions[k])
+            for name, value in own.items():
                 terms.setdefault(name, np.ma.masked_all(len(self._envs)))[k] = value
         return terms

@@ -11,13 +11,14 @@ from semnav_env.judge.tasks.rewards import (
     RewardWeights,
     Tick,
     as_rewards,
+    terms_of,
     weigh,
 )
 from semnav_env.judge.tasks.task import AdaptiveTask, CommandTask, SampledTask, Task, as_task
 from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from semnav_env.judge.tasks.added_terms import AddedTerms, terms_of
+    from semnav_env.judge.tasks.added_terms import AddedTerms
     from semnav_env.judge.tasks.frozen import Episodes, FrozenEpisodes
     from semnav_env.judge.tasks.wrapping import Curriculum, RandomisedRobot
 
@@ -47,7 +48,7 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
-        ".added_terms": ("AddedTerms", "terms_of"),
+        ".added_terms": ("AddedTerms",),
         ".frozen": ("Episodes", "FrozenEpisodes"),
         ".wrapping": ("Curriculum", "RandomisedRobot"),
     },

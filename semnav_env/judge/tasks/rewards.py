@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import astuple, dataclass, fields
 from functools import cached_property
+from numbers import Real
 from operator import mul
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
@@ -121,6 +123,15 @@ def weigh(
     amounts = progress, clause, success, failure, in_contact, driven
     weighed = map(mul, weights, amounts)
     return dict(zip(TERMS, weighed, strict=True))
+
+
+def terms_of(rewards: Rewards, tick: Tick) -> dict[str, float]:
+    """The terms of a step, of rewards that may give anything; a `ValueError` names no number."""
+    terms = rewards.terms(tick)
+    for name, value in terms.items():
+        if not isinstance(value, Real | np.bool_) or not math.isfinite(value):
+            raise ValueError(f"reward term {name!r} is {value!r:.80}; it must be a finite number")
+    return terms
 
 
 def as_rewards(value: object) -> Rewards:
