@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from semnav_env.mind.belief import BeliefTracker
     from semnav_env.world.simulator import Simulator
 
+    _Parts = tuple[Simulator, BeliefTracker, Judge, Payload | None]
+
 
 @structref.register
 class RobotArraysType(types.StructRef):
@@ -140,10 +142,10 @@ class RobotLoop:
     ) -> None:
         self.__setstate__((simulator, tracker, judge, payload))
 
-    def __getstate__(self) -> Any:
+    def __getstate__(self) -> _Parts:
         return self._simulator, self._tracker, self._judge, self._payload
 
-    def __setstate__(self, state: Any) -> None:
+    def __setstate__(self, state: _Parts) -> None:
         simulator, tracker, judge, self._payload = state
         self._simulator, self._tracker, self._judge = simulator, tracker, judge
         self._seconds = 1.0 / simulator.setup.control_hz

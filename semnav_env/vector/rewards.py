@@ -45,7 +45,8 @@ class TeamRewards:
         amounts = *period.judged, period.in_contact
         if driven.all():
             return weigh(self._weights, *amounts)
-        return weigh(self._weights, *(np.where(driven, each, 0.0) for each in amounts), driven)
+        done = [np.where(driven, each, 0.0) for each in amounts]
+        return weigh(self._weights, *done, driven=driven)
 
     def _one_by_one(self, actions: NDArray[Any], driven: Mask) -> Terms:
         terms: Terms = {}
