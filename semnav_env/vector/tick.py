@@ -13,7 +13,7 @@ import numpy as np
 from numba.experimental import structref
 from numpy.typing import NDArray
 
-from semnav_env.control_period import run_period
+from semnav_env.control_period import RobotArrays, run_period
 from semnav_env.mind.belief.understand import Workbench
 from semnav_env.mind.observations.memory_row import write_command_row
 from semnav_env.mind.observations.row import write_row
@@ -118,7 +118,7 @@ def tick(
             robot.senses.workbench = workbench
             events = run_period(robot, True, twist[0], twist[1], twist[2], seconds)
             team.events[k, 0], team.events[k, 1] = events
-            team.periods[k] = robot.judge.state[0].period
+            _keep_period(robot, team.periods, k)
             robot.senses.workbench = own
             team.written[k] = rows.shape[1] > 0 and not _thinks(team, k)
             if team.written[k]:
@@ -173,6 +173,12 @@ def write_command_rows(team: TeamArrays, first: int, last: int, rows: NDArray[np
     """Write what some robots observe, remember and were told, see `write_command_row`."""
     for k in range(first, last):
         write_command_row(rows[k], team.robots[k].senses)
+
+
+@kernel(borrows=True)
+def _keep_period(robot: RobotArrays, periods: np.ndarray, k: int) -> None:
+    """Write what became of a robot in its row, beside the other robots'."""
+    periods[k] = robot.judge.state[0].period
 
 
 @kernel

@@ -107,6 +107,7 @@ def weigh(
     success: Any,
     failure: Any,
     in_contact: Any,
+    *,
     driven: Any = 1,
 ) -> dict[str, Any]:
     """The terms by name: each weight times what it is the weight of, see `RewardWeights`.
