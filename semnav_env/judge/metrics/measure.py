@@ -119,5 +119,5 @@ def stood_there(goal: StopGoal, recording: Recording, standstill_speed: float) -
     return steps > 0 and steps * recording.period >= goal.wait
 
 
-def _settled(verdict: Verdict) -> bool:
+def _settled(verdict: str) -> bool:
     return verdict in (Verdict.DONE, Verdict.SKIPPED)
