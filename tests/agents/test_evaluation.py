@@ -21,6 +21,7 @@ from semnav_agents.evaluation.suites import Trial
 from semnav_agents.hearing.agent import HearingAgent
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
+from semnav_env.judge import plan_goals
 from semnav_env.judge.episodes import (
     Expected,
     StaleEpisodeError,
@@ -30,7 +31,6 @@ from semnav_env.judge.episodes import (
 )
 from semnav_env.judge.metrics import METRIC_NAMES, Metrics
 from semnav_env.judge.metrics.final_belief import FinalBelief
-from semnav_env.judge.verifier import plan_goals
 from semnav_env.language import parse
 from semnav_env.robots import ROBOTS, RobotSpec
 from semnav_env.world.maps import load_floor_plan

@@ -79,7 +79,7 @@ def test_a_copy_of_the_sources_has_their_fingerprint(packages: Path) -> None:
             "import annotations, division",
         ),
         (
-            "semnav_env/judge/verifier/verifier.py",
+            "semnav_env/judge/judge.py",
             "import annotations",
             "import annotations, division",
         ),

@@ -29,6 +29,7 @@ from semnav_features.readers import LogReader, LogRecord
 from semnav_features.scan import Scan
 from tests.support.paths import ROOT, source
 
+MIND = ("mind/belief", "mind/grounding", "mind/observations")
 PAGE = (ROOT / "docs" / "extending.md").read_text()
 POSE = (-2.5, -0.3, 0.24)
 
@@ -85,7 +86,7 @@ def test_an_own_clause_is_carried_out_and_judged() -> None:
         verdicts = env.step(np.array([0.3, 0.0]))[4]["verdicts"]
     assert verdicts[0] == "done"
     assert env.belief.clause == 1
-    assert isinstance(env.judge.verifier.mission.command.clauses[1], GoToDoor)
+    assert isinstance(env.judge.mission.command.clauses[1], GoToDoor)
 
 
 def test_an_own_clause_has_the_token_of_its_stand_in() -> None:

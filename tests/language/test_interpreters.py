@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.judge.verifier import plan_goals
+from semnav_env.judge import plan_goals
 from semnav_env.language import (
     Command,
     CommandError,

@@ -22,13 +22,13 @@ UNKNOWN = "unknown, before 0.2"
 """Version and rules of results that were kept before results said theirs."""
 
 DECIDING = (
-    *("semnav_env/rules.py", "semnav_env/env.py", "semnav_env/robot_loop.py"),
+    *("semnav_env/rules.py", "semnav_env/env.py", "semnav_env/control_period.py"),
     *("semnav_env/robots", "semnav_env/world/physics", "semnav_env/world/simulator"),
     "semnav_env/world/lidar",
     *("semnav_features", "semnav_features/kernels"),
     *("semnav_env/mind/belief", "semnav_env/mind/grounding", "semnav_env/mind/observations"),
     *("semnav_env/language", "semnav_env/language/speech"),
-    *("semnav_env/judge/routes", "semnav_env/judge/tasks", "semnav_env/judge/verifier"),
+    *("semnav_env/judge/routes", "semnav_env/judge/tasks", "semnav_env/judge"),
     *(f"semnav_env/judge/metrics/{name}.py" for name in ("measure", "motion", "paths")),
 )
 """Modules, and folders without their subfolders, that decide how episodes go.

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 
 from semnav_env.env import SemNavEnv
-from semnav_env.judge.verifier import plan_goals
+from semnav_env.judge import plan_goals
 from semnav_env.language import (
     Command,
     CommandError,

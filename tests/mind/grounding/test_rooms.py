@@ -13,8 +13,8 @@ from shapely import Point
 
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
+from semnav_env.judge import Judge, Motion, Verdict, plan_goals, plan_mission
 from semnav_env.judge.routes.room_guide import RoomGuide
-from semnav_env.judge.verifier import Motion, Verdict, Verifier, plan_goals, plan_mission
 from semnav_env.language import (
     Command,
     CommandError,
@@ -217,8 +217,8 @@ def test_without_a_way_a_room_is_refused() -> None:
         ground(clause, DOORS, (0.0, 0.0, 0.0))
 
 
-def judged(command: str, *walk: tuple[float, float], start: Pose = WEST) -> Verifier:
-    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(command, rooms=PLAN.room_names), start))
+def judged(command: str, *walk: tuple[float, float], start: Pose = WEST) -> Judge:
+    judge = Judge(plan_mission(PLAN, GEODESIC, parse(command, rooms=PLAN.room_names), start))
     x, y = start[:2]
     for bx, by in walk:
         for share in np.linspace(0.0, 1.0, max(2, int(math.dist((x, y), (bx, by)) / 0.1)))[1:]:
@@ -259,7 +259,7 @@ def test_after_coming_back_counting_begins_as_at_the_start() -> None:
 
 @pytest.mark.parametrize("seconds", [1, 12, 40])
 def test_waiting_takes_its_time_and_is_not_stopping_short(seconds: int) -> None:
-    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(f"wait for {seconds} seconds"), WEST))
+    judge = Judge(plan_mission(PLAN, GEODESIC, parse(f"wait for {seconds} seconds"), WEST))
     steps = 0
     while not judge.over:
         judge.update(Motion(WEST, 0.0, 0.0, in_contact=False, seconds=1 / 15))
