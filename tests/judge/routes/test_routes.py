@@ -17,7 +17,7 @@ from semnav_env.judge.routes.describe import UndescribableError, describe
 from semnav_env.judge.routes.follow import follows
 from semnav_env.judge.routes.route import HEADING_STEP, POSE_SPACING, Route, RouteError
 from semnav_env.judge.routes.route_to import comfortable, route_to
-from semnav_env.language import Approach, Command, DoorReference, parse, sample_clause
+from semnav_env.language import Approach, Command, DoorReference, Side, parse, sample_clause
 from semnav_env.language.command import reference_of
 from semnav_env.mind.grounding import GroundingError, PassGoal
 from semnav_env.mind.grounding.goal import door_of
@@ -144,10 +144,16 @@ def test_rooms_and_places_are_described_as_well(goal: str | tuple[float, float],
 
 
 def leaves_open(command: Command) -> bool:
-    """Whether a listener could count doors on one side or on both, and come to another one."""
+    """Whether a listener could come to another door, or is told of what lies behind.
+
+    Doors may be counted on one side or on both; and a route is told by what lies ahead.
+    """
     named = [reference_of(clause) for clause in command.clauses]
     doors = [reference for reference in named if isinstance(reference, DoorReference)]
-    return any(door.side is None and door.ordinal not in (1, -1) for door in doors)
+    return any(
+        door.side is Side.BEHIND or (door.side is None and door.ordinal not in (1, -1))
+        for door in doors
+    )
 
 
 def length(command: Command) -> tuple[int, int]:
