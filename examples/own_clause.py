@@ -12,6 +12,7 @@ from semnav_agents import make_agent
 from semnav_agents.base import steps
 from semnav_env.env import SemNavEnv
 from semnav_env.language import Clause, Command, Follow, GrammarInterpreter, Interpretation
+from semnav_env.language.declarations import Form, Multiples, form
 from semnav_env.language.languages import english
 from semnav_env.mind.grounding import Goal, GroundedClause, ReachGoal, Situation
 from semnav_features.frames import compose
@@ -23,10 +24,16 @@ class BackUp(GroundedClause):
 
     metres: int
     stand_in: ClassVar[Clause] = Follow()  # the token that a learner sees
-
-    def say(self, language: object) -> str:
-        """In words, whatever the language."""
-        return f"back up {self.metres} metre{'s' * (self.metres > 1)}"
+    forms: ClassVar[tuple[Form, ...]] = (
+        form(
+            {
+                "en": "back up {metres} metres",
+                "en:one": "back up {metres} metre",
+                "de": "fahr {metres} Meter zurück",
+            },
+            metres=Multiples(1, 9),
+        ),
+    )
 
     def goal(self, situation: Situation) -> Goal:
         """A place behind where the clause began; the heading stays as it is."""

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from semnav_env import language
+from semnav_env.control_period import RobotLoop, ends, info_of
 from semnav_env.gym_env import GymnasiumEnv, takes_plain_settings
-from semnav_env.judge import tasks
+from semnav_env.judge import Judge, Mission, tasks
 from semnav_env.judge.payload import Payload, as_payload
-from semnav_env.judge.verifier import Mission
 from semnav_env.mind.belief import Belief, BeliefTracker
 from semnav_env.mind.observations import (
     EntryObservation,
@@ -40,7 +40,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
     A wheelchair or a SPOT robot is told where to go ("go down the hallway, turn left at the
     intersection and go in the first door on the right"). It has a 2D lidar and drifting odometry.
     Walls, doors, corners and corridors are found in each scan and remembered, and the command is
-    grounded on what was seen, never on the map. A verifier, which knows the map, says clause by
+    grounded on what was seen, never on the map. A judge, which knows the map, says clause by
     clause whether the command was carried out.
 
     ## Action Space
@@ -150,7 +150,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
         sensed = self.simulator.reset(mission.start, self.np_random)
         info = mission.info | setup.info | request.info
         self._begin(mission, info["instruction"])
-        self.tracker.think(self._loop.look())
+        self.loop.look()
         if self.payload is not None:
             self.payload.begin(self.floor_plan, self.setup, mission.start, self.np_random)
             self.payload.update(sensed.motion, self.tracker)
@@ -168,34 +168,13 @@ class SemNavEnv(GymnasiumEnv[Any]):
             RuntimeError: before the first `reset`, or while another thread is in one of both.
         """
         self._require_reset("step")
-        understood, judged = self._loop.drive(self._actions.twist(action))
-        self.understand(understood)
-        judgement, outcome = self.judge.think(judged), self.judge.outcome
-        terms = self._terms(judgement, outcome.in_contact != 0, action)
-        terminated = self.judge.verifier.over and not self.judge.truncated
-        truncated = not terminated and self.simulator.steps >= self.max_steps
+        period = self.loop.drive(self._actions.twist(action))
+        terms = self.loop.terms(self.rewards, period, action)
+        terminated, truncated = ends(period, self.max_steps)
         ended = self.conclude(truncated) if terminated or truncated else {}
-        info = self.judge.info_of(outcome)
-        self.renderer.note(self, info["pose"])
-        info |= {"reward_terms": terms, **ended}
+        info = info_of(period, self.judge.verdicts) | {"reward_terms": terms, **ended}
+        self.renderer.note(self, period.pose)
         return self.observe(), sum(terms.values()), terminated, truncated, info
-
-    def understand(self, events: int) -> None:
-        """Do what the events of `understand` call for, and let the payload see."""
-        if events:
-            self.tracker.think(events)
-        if self.payload is not None:
-            self.payload.update(self.simulator.motion, self.tracker)
-
-    def _terms(
-        self, judgement: tasks.Judgement, in_contact: bool, action: ArrayLike
-    ) -> dict[str, float]:
-        """The terms of the reward."""
-        rewards = self.rewards
-        if type(rewards) is tasks.RewardWeights:  # the usual ones need no belief
-            return rewards.weigh(*judgement, in_contact)
-        sensed = self.simulator.motion, self.belief, np.asarray(action)
-        return tasks.terms_of(rewards, tasks.Tick(*judgement, *sensed, self.payload))
 
     def observe(self) -> Any:
         """A fresh observation from where the robot is now.
@@ -260,11 +239,9 @@ class SemNavEnv(GymnasiumEnv[Any]):
 
     def _begin(self, mission: Mission, instruction: str) -> None:
         """Give a mission to the judge, and its command to the robot."""
-        from semnav_env.robot_loop import RobotLoop  # first needed now
-
-        self.judge, self.instruction = tasks.EpisodeJudge(mission, self.payload), instruction
+        self.judge, self.instruction = Judge(mission, self.payload), instruction
         self.tokens = language.encode(mission.command, self.floor_plan.room_names)
         odometry_frame = ORIGIN if self.setup.exact else mission.start
         self.tracker.begin(mission.command, mission.ways_seen_from(odometry_frame))
-        self._loop = RobotLoop(self.simulator, self.tracker, self.judge.verifier)
+        self.loop = RobotLoop(self.simulator, self.tracker, self.judge, self.payload)
         self.renderer.begin(mission.start)

@@ -7,6 +7,7 @@ import tomllib
 from collections import defaultdict
 from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -105,6 +106,13 @@ def test_no_two_classes_have_one_name():
             if isinstance(node, ast.ClassDef) and node.name != "Arguments":
                 places[node.name].append(module.place)
     assert {name: where for name, where in places.items() if len(where) > 1} == {}
+
+
+@pytest.mark.parametrize("package", ["semnav_features", "semnav_env", "semnav_agents"])
+def test_every_exported_name_is_there(package):
+    """They are loaded when they are asked for, so that nobody misses one before."""
+    module = import_module(package)
+    assert all(hasattr(module, name) for name in module.__all__)
 
 
 def test_there_is_something_to_look_at():

@@ -91,13 +91,13 @@ def demonstrate(
 
 def _info(env: SemNavEnv, step: Step | None, expert: Expert | None) -> dict[str, Any]:
     """What is known of the state that an environment is in, in plain numbers."""
-    record = env.judge.outcome
+    period = env.judge.period
     known = {
         "pose": np.array(env.world.pose),
         "goal": true_goal(env).values,
-        "clause": env.judge.verifier.follower.active,
-        "collisions": record.collisions,
-        "path_length": record.path_length,
+        "clause": env.judge.follower.active,
+        "collisions": period.collisions,
+        "path_length": period.path_length,
         "in_contact": bool(step.info["in_contact"]) if step else False,
         "reward_terms": step.info["reward_terms"] if step else {},
     }

@@ -59,7 +59,7 @@ class Expert:
 def true_goal(env: SemNavEnv) -> SeenGoal:
     """Where the clause under way truly leads, on the floor plan, seen from the robot."""
     pose = env.world.pose
-    goal = env.judge.verifier.follower.target(pose)
+    goal = env.judge.follower.target(pose)
     door = door_of(goal)
     jambs = None if door is None else (to_local(pose, door.start), to_local(pose, door.end))
     return SeenGoal(goal.kind, relative(pose, goal.pose), jambs)

@@ -18,14 +18,13 @@ from numpy.typing import NDArray
 from semnav_features.frames import FloatArray, Point, Pose, to_local, to_parent, wrap_angle
 from semnav_features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND, first_gap
 from semnav_features.kernels.corridor_survey import (
-    MAX_OPENINGS,
-    OPENING,
     PROBE_COUNT,
     axis_along,
     axis_heading,
     stands_in,
     write_survey,
 )
+from semnav_features.kernels.side_openings import MAX_OPENINGS, OPENING
 from semnav_features.scene import Door, Scene, StillScene, known_ends, which_are_named
 
 MIN_CONTINUATION = 1.2

@@ -13,11 +13,13 @@ from semnav_features.kernels.lanes import WIDTH
 from semnav_features.kernels.layout import COUNTS_SIZE, DOOR, DOORS, WALL, WALLS
 from semnav_features.kernels.memory import (
     COUNTERS,
+    MEMORY_STATE,
     how_many_count,
     remember,
     what_counts,
 )
 from semnav_features.kernels.remembered import WALL_ROWS
+from semnav_features.rules import DoorRules
 from semnav_features.scene import PlainWalls, RememberedDoors, Scene, ends_of
 
 if TYPE_CHECKING:
@@ -34,33 +36,39 @@ class SceneMemory:
 
     A wall counts from its second sighting until scans pass through it (`kernels.pass_through`). A
     door counts while its sightings, by their confidence, outweigh the scans that looked at its
-    opening and found no door there, or found it filled (`kernels.door_memory`). Of two doors in
-    one place only the likelier one counts.
+    opening and found no door there, or found it filled (`kernels.door_memory`), and while its
+    jambs, fused from all sightings, are a door's width apart. Of two doors in one place only the
+    likelier one counts.
+
+    Args:
+        door_rules: how wide a door is.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, door_rules: DoorRules = DoorRules()) -> None:
         self._walls = np.zeros((WALL_ROWS, MAX_WALLS))
         self._doors = np.zeros(MAX_DOORS, dtype=REMEMBERED_DOOR)
-        self._counters = np.zeros(1, dtype=COUNTERS)
+        self._state = np.zeros(1, dtype=MEMORY_STATE)
+        self._state["narrowest"], self._state["widest"] = door_rules.narrowest, door_rules.widest
 
     @property
     def arrays(self) -> tuple[FloatArray, NDArray[np.void], NDArray[np.void]]:
         """(walls, doors, counters) for a kernel that updates them in place.
 
         The walls have the rows that `kernels.remembered` names, shape (`WALL_ROWS`, room); the
-        dtypes of the others are `REMEMBERED_DOOR` and `COUNTERS`.
+        dtypes of the others are `REMEMBERED_DOOR` and `MEMORY_STATE`.
         """
-        return self._walls, self._doors, self._counters
+        return self._walls, self._doors, self._state
 
     def clear(self) -> None:
         """Forget everything."""
-        self._counters[:] = 0
+        for name in COUNTERS:
+            self._state[name] = 0
 
     def copy(self) -> SceneMemory:
         """What is remembered now, to be read; it has no room for more."""
         copy = object.__new__(SceneMemory)
-        copy._counters = self._counters.copy()
-        walls, doors, _ = self._counters[0].tolist()
+        copy._state = self._state.copy()
+        walls, doors = (int(self._state[name][0]) for name in ("walls", "doors"))
         room = walls + -walls % WIDTH
         copy._walls, copy._doors = self._walls[:, :room].copy(), self._doors[:doors].copy()
         return copy
@@ -119,7 +127,7 @@ class SceneMemory:
         from semnav_features.kernels.scene_drift import without_drift
 
         walls = ends_of(scene.placed(lidar_pose).walls)
-        return without_drift(walls, self._walls, self._counters["walls"][0], lidar_pose)
+        return without_drift(walls, self._walls, self._state["walls"][0], lidar_pose)
 
     @property
     def size(self) -> tuple[int, int]:

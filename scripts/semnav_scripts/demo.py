@@ -117,10 +117,10 @@ class Arguments:
             info = step.info
             if self._filmed:
                 film.note("is_success" in info)
-        verifier = env.judge.verifier
+        judge = env.judge
         if told.infeasible:
-            info["is_success"] = recognised_impossible(verifier, info["impossible"])
-        echo = verifier.mission.command.say(told.spoken)
+            info["is_success"] = recognised_impossible(judge, info["impossible"])
+        echo = judge.mission.command.say(told.spoken)
         env.close()
         self._save(film)
         self._report(start, echo, info, env.seconds, for_json(env.world.social()))

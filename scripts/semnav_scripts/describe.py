@@ -11,9 +11,9 @@ from typing import Annotated, Literal
 import numpy as np
 from tyro.conf import arg
 
+from semnav_env.judge import plan_goals
 from semnav_env.judge.routes.describe import describe
 from semnav_env.judge.routes.route_to import route_to
-from semnav_env.judge.verifier import plan_goals
 from semnav_env.language import Approach, paraphrases, to_program
 from semnav_env.language.languages import language_of
 from semnav_env.mind.grounding.goal import door_of

@@ -47,8 +47,8 @@ class Arguments:
     and the failures.
 
     Attributes:
-        suite: heidelberg, office_cross, or "all" of these; a split (`semnav episodes list`); or a
-            file of episodes.
+        suite: heidelberg, office_cross, villa_hall, or "all" of these; a split
+            (`semnav episodes list`); or a file of episodes.
         agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
             folder of a trained agent, or package.module:Class.
         robot: wheelchair or spot.

@@ -17,12 +17,13 @@ from semnav_env.language.corpora import (
     Count,
     ParseOutcome,
     SentenceVerdict,
-    development_corpora,
-    held_out_corpora,
     load_sentences,
     verdicts,
 )
 from semnav_env.language.corpora.measure import Understand
+
+CORPORA = Path("studies/corpora")
+"""Folder of the sets of sentences, from the root of a checkout."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,7 @@ class Arguments:
 
     Attributes:
         corpora: files of sentences with their meanings (.jsonl, see docs/meanings.md), or of plain
-            sentences, one a line; by default the development and the held-out sets of the
-            package.
+            sentences, one a line; by default those in `studies/corpora`, in a checkout.
         language: force a language; by default each text is recognised.
         grammar: judge the grammar alone, without the learned second opinion.
         show: print the sentences with this outcome.
@@ -49,7 +49,7 @@ class Arguments:
         """Judge every sentence, and print the counts."""
         found = [
             verdict
-            for path in self.corpora or (*development_corpora(), *held_out_corpora())
+            for path in self._files()
             for verdict in verdicts(load_sentences(path), self.language, self._understand())
         ]
         counts: defaultdict[tuple[str, str], Count] = defaultdict(Count)
@@ -63,6 +63,14 @@ class Arguments:
         else:
             _print(counts, shown)
         return 0
+
+    def _files(self) -> Sequence[Path]:
+        found = self.corpora or sorted(CORPORA.glob("*.jsonl"))
+        if not found:
+            raise ValueError(
+                f"name files of sentences; there are none in {CORPORA}, as in a checkout"
+            )
+        return found
 
     def _understand(self) -> Understand:
         return parse if self.grammar else understand

@@ -8,7 +8,7 @@ from typing import Any
 
 from tyro.conf import Positional
 
-from semnav_env.judge.verifier.goals import goals_in_turn
+from semnav_env.judge.goals import goals_in_turn
 from semnav_env.language import (
     AmbiguousCommandError,
     Clause,

@@ -12,13 +12,13 @@ from semnav_env.language.clauses import (
     GoToRoom,
     IfThere,
     Leave,
-    OwnClause,
     SearchHouse,
     Stop,
     Turn,
     Turning,
 )
 from semnav_env.language.command import MAX_CLAUSES, Command
+from semnav_env.language.own_clause import OwnClause
 from semnav_env.language.references import (
     LAST,
     MAX_FROM_END,
@@ -36,15 +36,13 @@ from semnav_env.language.tokens import CLAUSE_FEATURES, token_mask, token_space
 from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from semnav_env.language.decoding import decode
-    from semnav_env.language.encoding import encode
+    from semnav_env.language.encoding import decode, encode
     from semnav_env.language.errors import AmbiguousCommandError, CommandError
     from semnav_env.language.interpreters import (
         GrammarInterpreter,
         Interpretation,
         Interpreter,
         ModelInterpreter,
-        TemplateInterpreter,
     )
     from semnav_env.language.parser import correct, parse, readings
     from semnav_env.language.program import from_program, to_program
@@ -83,7 +81,6 @@ __all__ = [
     "SearchHouse",
     "Side",
     "Stop",
-    "TemplateInterpreter",
     "Turn",
     "Turning",
     "Unit",
@@ -104,15 +101,13 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
-        ".decoding": ("decode",),
-        ".encoding": ("encode",),
+        ".encoding": ("decode", "encode"),
         ".errors": ("AmbiguousCommandError", "CommandError"),
         ".interpreters": (
             "GrammarInterpreter",
             "Interpretation",
             "Interpreter",
             "ModelInterpreter",
-            "TemplateInterpreter",
         ),
         ".parser": ("correct", "parse", "readings"),
         ".program": ("from_program", "to_program"),

@@ -5,11 +5,20 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import TYPE_CHECKING, TypeAlias
+from typing import ClassVar
 
+from semnav_env.language.declarations import (
+    DEGREES,
+    ROOM,
+    SECONDS,
+    Form,
+    Multiples,
+    Spoken,
+    TokenVerb,
+    form,
+)
 from semnav_env.language.references import (
     Distance,
     DoorReference,
@@ -17,13 +26,9 @@ from semnav_env.language.references import (
     PlaceReference,
     RoomReference,
     Side,
-    Spoken,
     check_room_name,
 )
 from semnav_features.validation import shown
-
-if TYPE_CHECKING:
-    from semnav_env.language.language import Language
 
 MAX_DEGREES, DEGREE_STEP = 360, 5
 """The largest turn by degrees, a full one, and the step of such turns, degrees."""
@@ -48,8 +53,21 @@ class Approach(StrEnum):
     IN = "in"
 
 
+LANDMARK = (PlaceReference, DoorReference, RoomReference)
+"""What one goes to or past along a hallway, or faces."""
+
+SIDEWAYS = (Turning.LEFT, Turning.RIGHT)
+"""The directions of a turn that lead to a side."""
+
+
+class Clause(Spoken):
+    """Base of all clauses: what a robot is to do, as a frozen dataclass with its `forms`."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
-class Follow(Spoken):
+class Follow(Clause):
     """Follow the hallway: "go down the hallway until the next intersection".
 
     Attributes:
@@ -59,23 +77,33 @@ class Follow(Spoken):
 
     until: PlaceReference | DoorReference | RoomReference | Distance | None = None
     past: bool = False
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("follow", "follow", "hallway", (TokenVerb.FOLLOW,)),
+        form(
+            "follow_for", "for {until}", "hallway for {until}", (TokenVerb.FOLLOW,), until=Distance
+        ),
+        form(
+            "follow_until",
+            "until {until}",
+            "hallway until {until}",
+            (TokenVerb.FOLLOW,),
+            until=LANDMARK,
+        ),
+        form(
+            *("follow_past", "past {until}", "hallway past {until}", (TokenVerb.PASS,)),
+            until=LANDMARK,
+            past=True,
+        ),
+    )
 
     def __post_init__(self) -> None:
         at_end = isinstance(self.until, PlaceReference) and self.until.place is Place.END
         if self.past and (self.until is None or at_end or isinstance(self.until, Distance)):
             raise ValueError(f"one can go past a door or a junction, not {self.until}")
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        if self.until is None:
-            return language.say("follow")
-        distance = isinstance(self.until, Distance)
-        relation = "past" if self.past else "for" if distance else "until"
-        return language.say(f"follow_{relation}", referent=self.until)
-
 
 @dataclass(frozen=True, slots=True)
-class Turn(Spoken):
+class Turn(Clause):
     """Change direction: "turn left at the second intersection".
 
     Attributes:
@@ -88,6 +116,28 @@ class Turn(Spoken):
     turning: Turning
     at: PlaceReference | None = None
     degrees: int | None = None
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("turn", "turn {turning}", "turn {turning}", (TokenVerb.TURN,), turning=SIDEWAYS),
+        form(
+            "turn:around", "turn_around", "turn around", (TokenVerb.TURN, 3), turning=Turning.AROUND
+        ),
+        form(
+            *("turn_at", "turn {turning} {at}", "turn {turning} at {at}", (TokenVerb.TURN,)),
+            turning=SIDEWAYS,
+            at=PlaceReference,
+        ),
+        form(
+            *("turn_at:around", "turn_around {at}", "turn around at {at}", (TokenVerb.TURN, 3)),
+            turning=Turning.AROUND,
+            at=PlaceReference,
+        ),
+        form(
+            *("turn_by", "turn_by {turning} {degrees}", "turn {turning} {degrees}"),
+            (TokenVerb.TURN, 0, DEGREES),
+            turning=SIDEWAYS,
+            degrees=Multiples(DEGREE_STEP, MAX_DEGREES),
+        ),
+    )
 
     def __post_init__(self) -> None:
         if self.degrees is None:
@@ -98,19 +148,9 @@ class Turn(Spoken):
             limits = f"{DEGREE_STEP} to {MAX_DEGREES} degrees in steps of {DEGREE_STEP}"
             raise ValueError(f"a turn is by {limits}, not {shown(self.degrees)}")
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        turning = language.say(self.turning)
-        form = "around" if self.turning is Turning.AROUND else ""
-        if self.degrees is not None:
-            return language.say("turn_by", turning=turning, degrees=str(self.degrees))
-        if self.at is not None:
-            return language.say("turn_at", form, turning=turning, place=self.at)
-        return language.say("turn", form, turning=turning)
-
 
 @dataclass(frozen=True, slots=True)
-class GoToDoor(Spoken):
+class GoToDoor(Clause):
     """Go to a door or through it: "go through the second door on the right".
 
     Attributes:
@@ -122,14 +162,22 @@ class GoToDoor(Spoken):
     door: DoorReference
     approach: Approach = Approach.THROUGH
     by_default: bool = field(default=False, compare=False, repr=False)
-
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        return language.say(self.approach, door=self.door)
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("through", "through {door}", "through {door}", (TokenVerb.GO_THROUGH,)),
+        form("to", "to {door}", "to {door}", (TokenVerb.GO_TO,), approach=Approach.TO),
+        form(
+            "in",
+            "in {door}",
+            "in {door}",
+            (TokenVerb.GO_TO, 1),
+            approach=Approach.IN,
+            sampled=False,
+        ),
+    )
 
 
 @dataclass(frozen=True, slots=True)
-class GoToRoom(Spoken):
+class GoToRoom(Clause):
     """Go into a room by its name in the floor plan: "go to the kitchen", "go to room 3.508".
 
     Attributes:
@@ -140,47 +188,49 @@ class GoToRoom(Spoken):
 
     name: str
     approach: Approach = Approach.THROUGH
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("room", "through {name}", "room({name})", (TokenVerb.GO_TO_ROOM, 0, ROOM)),
+        form(
+            *("room_front", "to {name}", "to room({name})", (TokenVerb.GO_TO_ROOM, 1, ROOM)),
+            approach=Approach.TO,
+        ),
+    )
 
     def __post_init__(self) -> None:
         check_room_name(self.name)
         if self.approach is Approach.IN:
             raise ValueError("one stops in front of a room or goes in, not in its doorway")
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        phrase = "room" if self.approach is Approach.THROUGH else "room_front"
-        return language.say(phrase, name=self.name)
-
 
 @dataclass(frozen=True, slots=True)
-class Leave(Spoken):
+class Leave(Clause):
     """Leave the room in which the robot is: "leave the room"."""
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        return language.say("leave")
+    forms: ClassVar[tuple[Form, ...]] = (form("leave", "leave", "leave", (TokenVerb.LEAVE,)),)
 
 
 @dataclass(frozen=True, slots=True)
-class GoBack(Spoken):
+class GoBack(Clause):
     """Go back to the pose at which the command began: "go back to the start"."""
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        return language.say("back")
+    forms: ClassVar[tuple[Form, ...]] = (form("back", "back", "back", (TokenVerb.GO_BACK,)),)
 
 
 @dataclass(frozen=True, slots=True)
-class SearchHouse(Spoken):
-    """Look into every room and report every person that is found: "search the house"."""
+class SearchHouse(Clause):
+    """Look into every room and report every person that is found: "search the house".
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        return language.say("search")
+    Its token is "go to room" with the number 0: it needs no verb of its own, so agents that were
+    trained before keep their observations.
+    """
+
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("search", "search", "", (TokenVerb.GO_TO_ROOM, 0, ROOM), sampled=False),
+    )
 
 
 @dataclass(frozen=True, slots=True)
-class Stop(Spoken):
+class Stop(Clause):
     """Stand still: "stop", "wait for 5 seconds".
 
     Attributes:
@@ -188,20 +238,21 @@ class Stop(Spoken):
     """
 
     seconds: int = 0
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("stop", "stop", "stop", (TokenVerb.STOP,)),
+        form(
+            *("wait", "wait {seconds}", "wait {seconds}", (TokenVerb.STOP, 0, SECONDS)),
+            seconds=Multiples(1, MAX_SECONDS),
+        ),
+    )
 
     def __post_init__(self) -> None:
         if not isinstance(self.seconds, int) or not 0 <= self.seconds <= MAX_SECONDS:
             raise ValueError(f"a wait is of 1 to {MAX_SECONDS} seconds, not {shown(self.seconds)}")
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        if self.seconds:
-            return language.say("wait", seconds=str(self.seconds))
-        return language.say("stop")
-
 
 @dataclass(frozen=True, slots=True)
-class Face(Spoken):
+class Face(Clause):
     """Turn on the spot until something is ahead: "face the second door on the left".
 
     Attributes:
@@ -209,20 +260,22 @@ class Face(Spoken):
     """
 
     what: DoorReference | PlaceReference | RoomReference | Side
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("face", "face {what}", "face {what}", (TokenVerb.TURN,), what=LANDMARK, sampled=False),
+        form(
+            *("face_wall", "wall {what}", "face wall {what}", (TokenVerb.TURN,)),
+            what=(Side.LEFT, Side.RIGHT),
+            sampled=False,
+        ),
+    )
 
     def __post_init__(self) -> None:
         if isinstance(self.what, Side) and self.what not in (Side.LEFT, Side.RIGHT):
             raise ValueError(f"a wall is on the left or on the right, not {self.what}")
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        if isinstance(self.what, Side):
-            return language.say("face_wall", side=language.say(self.what))
-        return language.say("face", referent=self.what)
-
 
 @dataclass(frozen=True, slots=True)
-class IfThere(Spoken):
+class IfThere(Clause):
     """Carry out the next clause only if something is there: "if there is a door on the left, ...".
 
     Attributes:
@@ -234,45 +287,26 @@ class IfThere(Spoken):
     what: DoorReference | PlaceReference
     absent: bool = False
     otherwise: bool = False
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("if", "if {what}", "if {what}", (TokenVerb.IF_THERE, 0)),
+        form("if", "if {what} else", "if {what}", (TokenVerb.IF_THERE, 1), otherwise=True),
+        form("if_not", "if_not {what}", "if no {what}", (TokenVerb.IF_THERE, 2), absent=True),
+        form(
+            *("if_not", "if_not {what} else", "if no {what}", (TokenVerb.IF_THERE, 3)),
+            absent=True,
+            otherwise=True,
+        ),
+    )
 
     def __post_init__(self) -> None:
         if not isinstance(self.what, DoorReference | PlaceReference):
             raise ValueError(f"a condition is on a door or a place ahead, not on {self.what!r}")
 
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        return language.say("if_not" if self.absent else "if", referent=self.what)
 
-
-class OwnClause(Spoken, ABC):
-    """Base of clauses that are defined outside this package, see docs/extending.md.
-
-    `semnav_env.mind.grounding.GroundedClause` derives from it and adds where a clause leads. The
-    grammar has no words for such a clause: a command with it is given as a `Command`.
-    """
-
-    __slots__ = ()
-
-    @abstractmethod
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-
-    @property
-    @abstractmethod
-    def stand_in(self) -> Clause:
-        """The clause of this package that a learner sees in its place, as its token."""
-
-
-Clause: TypeAlias = (
-    Follow
-    | Turn
-    | GoToDoor
-    | GoToRoom
-    | Leave
-    | GoBack
-    | SearchHouse
-    | Stop
-    | Face
-    | IfThere
-    | OwnClause
-)
+CLAUSE_KINDS: dict[str, type[Clause]] = {
+    kind.__name__: kind
+    for kind in (
+        *(Follow, Turn, GoToDoor, GoToRoom, Leave, GoBack, SearchHouse, Stop, Face, IfThere),
+    )
+}
+"""The clauses of this package by their names."""

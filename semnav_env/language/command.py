@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
-from semnav_env.language.clauses import Clause, Face, Follow, GoToDoor, GoToRoom, IfThere, Turn
+from semnav_env.language.clauses import CLAUSE_KINDS, Clause, Follow, GoToRoom, IfThere
+from semnav_env.language.declarations import field_names
 from semnav_env.language.references import DoorReference, PlaceReference, RoomReference
 
 if TYPE_CHECKING:
@@ -16,8 +17,6 @@ if TYPE_CHECKING:
 
 MAX_CLAUSES = 8
 """The most clauses of a command; it fixes the shape of its tokens."""
-
-_KINDS = get_args(Clause)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,9 +42,9 @@ class Command:
                 f"a command holds a tuple of clauses, not {kind}; text goes to parse()"
             )
         for clause in self.clauses:
-            if not isinstance(clause, _KINDS):
-                kinds = ", ".join(kind.__name__ for kind in _KINDS)
-                raise ValueError(f"a clause is one of {kinds}, not {clause!r}")
+            if not isinstance(clause, Clause):
+                kinds = ", ".join(CLAUSE_KINDS)
+                raise ValueError(f"a clause is one of {kinds}, OwnClause, not {clause!r}")
         if not 1 <= len(self.clauses) <= MAX_CLAUSES:
             raise ValueError(f"a command has 1 to {MAX_CLAUSES} clauses, not {len(self.clauses)}")
         links_of(self.clauses)
@@ -113,26 +112,19 @@ def links_of(clauses: Sequence[Clause]) -> list[Link]:
 
 def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
     """The door or place to which a clause refers; None if there is none."""
-    match clause:
-        case Follow(DoorReference() | PlaceReference() as until):
-            return until
-        case Turn(_, at):
-            return at
-        case GoToDoor(door):
-            return door
-        case IfThere(what) | Face(DoorReference() | PlaceReference() as what):
-            return what
-        case _:
-            return None
+    for name in field_names(type(clause)):
+        value = getattr(clause, name)
+        if isinstance(value, DoorReference | PlaceReference):
+            return value
+    return None
 
 
 def room_of(clause: Clause) -> str | None:
     """The plain name of the room that a clause names; None if it names none."""
-    match clause:
-        case GoToRoom(name) | Follow(RoomReference(name)) | Face(RoomReference(name)):
-            return name
-        case _:
-            return None
+    if isinstance(clause, GoToRoom):
+        return clause.name
+    values = (getattr(clause, name) for name in field_names(type(clause)))
+    return next((value.name for value in values if isinstance(value, RoomReference)), None)
 
 
 def may_count_on(before: Clause, clause: Clause) -> bool:

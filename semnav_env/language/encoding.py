@@ -1,56 +1,46 @@
-"""Encodes commands as tokens."""
+"""Encodes commands as tokens, and decodes them, by what clauses declare."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
+from numbers import Real
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from semnav_env.language.clauses import (
-    DEGREE_STEP,
-    Approach,
-    Clause,
-    Face,
-    Follow,
-    GoBack,
-    GoToDoor,
-    GoToRoom,
-    IfThere,
-    Leave,
-    OwnClause,
-    SearchHouse,
-    Stop,
-    Turn,
-)
+from semnav_env.language.clauses import CLAUSE_KINDS, Clause, Turning
 from semnav_env.language.command import MAX_CLAUSES, Command
-from semnav_env.language.references import (
-    AMOUNT_STEP,
-    OTHER,
-    Distance,
-    DoorReference,
-    PlaceReference,
-    RoomReference,
-    Side,
+from semnav_env.language.declarations import (
+    Form,
+    Multiples,
+    Option,
+    Spoken,
+    field_names,
+    form_of,
+    is_ordinal,
+    open_fields,
 )
+from semnav_env.language.own_clause import OwnClause
+from semnav_env.language.references import OTHER, Place, Side
 from semnav_env.language.rooms import plain_name
 from semnav_env.language.tokens import (
     CLAUSE_FEATURES,
-    CONDITION_CASES,
-    DEGREES,
-    DOOR,
-    EVERY_ROOM,
+    COLUMN_SIZES,
     LAST_TOKEN,
     MAX_NUMBER,
     OTHER_TOKEN,
-    ROOM,
-    SECONDS,
     TOKEN_REFERENTS,
     TOKEN_SIDES,
     TOKEN_TURNINGS,
     Row,
-    TokenVerb,
 )
+
+S = TypeVar("S", bound=Spoken)
+Options: TypeAlias = tuple[Option, ...]
+
+_NOTHING: Row = (0, 0, 0, 0, 0)
 
 
 def encode(command: Command, rooms: Sequence[str] = ()) -> NDArray[np.int64]:
@@ -71,54 +61,52 @@ def encode(command: Command, rooms: Sequence[str] = ()) -> NDArray[np.int64]:
     return tokens
 
 
-def row_of(clause: Clause, rooms: Sequence[str]) -> Row:
-    """The token of a clause; `rooms` as for `encode`."""
-    match clause:
-        case Follow(until, past):
-            return (TokenVerb.PASS if past else TokenVerb.FOLLOW, 0, *_reference_row(until, rooms))
-        case Face(Side() as side):
-            return (TokenVerb.TURN, 0, 0, 0, TOKEN_SIDES.index(side))
-        case Face(DoorReference() | PlaceReference() | RoomReference() as what):
-            return (TokenVerb.TURN, 0, *_reference_row(what, rooms))
-        case Turn(turning, at, None):
-            return (TokenVerb.TURN, TOKEN_TURNINGS.index(turning), *_reference_row(at))
-        case Turn(turning, _, int(degrees)):
-            number = degrees // DEGREE_STEP
-            return (
-                TokenVerb.TURN,
-                TOKEN_TURNINGS.index(turning),
-                TOKEN_REFERENTS.index(DEGREES),
-                number,
-                0,
-            )
-        case GoToDoor(door, approach):
-            verb = TokenVerb.GO_THROUGH if approach is Approach.THROUGH else TokenVerb.GO_TO
-            return (verb, int(approach is Approach.IN), *_reference_row(door))
-        case GoToRoom(name, approach):
-            return (
-                TokenVerb.GO_TO_ROOM,
-                int(approach is Approach.TO),
-                TOKEN_REFERENTS.index(ROOM),
-                _room_number(name, rooms),
-                0,
-            )
-        case SearchHouse():
-            return (TokenVerb.GO_TO_ROOM, 0, TOKEN_REFERENTS.index(ROOM), EVERY_ROOM, 0)
-        case Leave():
-            return (TokenVerb.LEAVE, 0, 0, 0, 0)
-        case GoBack():
-            return (TokenVerb.GO_BACK, 0, 0, 0, 0)
-        case IfThere(what, absent, otherwise):
-            return (
-                TokenVerb.IF_THERE,
-                CONDITION_CASES.index((absent, otherwise)),
-                *_reference_row(what),
-            )
-        case Stop(seconds):
-            return (TokenVerb.STOP, 0, TOKEN_REFERENTS.index(SECONDS) if seconds else 0, seconds, 0)
-        case OwnClause(stand_in=known):
-            return row_of(known, rooms)
-    raise TypeError(f"{clause!r} is no clause")
+def row_of(value: Spoken, rooms: Sequence[str]) -> Row:
+    """The token of a clause, or the share that a part of one has in it; `rooms` as for `encode`.
+
+    It is the sum of what its form and its open fields say.
+    """
+    if isinstance(value, OwnClause) and not any(form.token for form in value.forms):
+        return row_of(value.stand_in, rooms)
+    form = form_of(value)
+    parts = [
+        _share(getattr(value, name), form.given.get(name), rooms)
+        for name in field_names(type(value))
+        if name not in form.fixed
+    ]
+    return _sum([_head(form), *parts])
+
+
+def _sum(rows: Iterable[Row]) -> Row:
+    return tuple(map(sum, zip(*rows, strict=True)))
+
+
+@cache
+def _head(form: Form) -> Row:
+    """What a form says of a token."""
+    token: list[Any] = [*form.token, *(0, 0, None)[len(form.token) :]]
+    verb, turning, referent = token
+    return (int(verb or 0), turning, TOKEN_REFERENTS.index(referent), 0, 0)
+
+
+def _share(value: object, given: object, rooms: Sequence[str]) -> Row:
+    """What the value of a field says of a token."""
+    match value:
+        case Spoken():
+            return row_of(value, rooms)
+        case Turning():
+            return (0, TOKEN_TURNINGS.index(value), 0, 0, 0)
+        case Place():
+            return (0, 0, TOKEN_REFERENTS.index(value), 0, 0)
+        case Side():
+            return (0, 0, 0, 0, TOKEN_SIDES.index(value))
+        case str():
+            return (0, 0, 0, _room_number(value, rooms), 0)
+        case Real() if isinstance(given, Multiples):
+            return (0, 0, 0, round(float(value) / given.step), 0)
+        case int() if is_ordinal(value):
+            return (0, 0, 0, _ordinal_token(value), 0)
+    return _NOTHING
 
 
 def _room_number(name: str, rooms: Sequence[str]) -> int:
@@ -129,24 +117,109 @@ def _room_number(name: str, rooms: Sequence[str]) -> int:
     return 1 + names.index(name)
 
 
-def _reference_row(
-    reference: PlaceReference | DoorReference | RoomReference | Distance | None,
-    rooms: Sequence[str] = (),
-) -> Row:
-    match reference:
-        case RoomReference(name):
-            return (TOKEN_REFERENTS.index(ROOM), _room_number(name, rooms), 0)
-        case None:
-            return (0, 0, 0)
-        case DoorReference(ordinal, side):
-            return (TOKEN_REFERENTS.index(DOOR), _ordinal_token(ordinal), TOKEN_SIDES.index(side))
-        case PlaceReference(place, ordinal):
-            return (TOKEN_REFERENTS.index(place), _ordinal_token(ordinal), 0)
-        case Distance(amount, unit):
-            return (TOKEN_REFERENTS.index(unit), round(amount / AMOUNT_STEP[unit]), 0)
-
-
 def _ordinal_token(ordinal: int) -> int:
     if ordinal == OTHER:
         return OTHER_TOKEN
     return ordinal if ordinal > 0 else LAST_TOKEN - ordinal - 1
+
+
+def decode(
+    tokens: ArrayLike,
+    rooms: Sequence[str] = (),
+    kinds: Sequence[type[Clause]] | None = None,
+) -> Command:
+    """The command of an array that `encode` made.
+
+    Args:
+        tokens: shape (`MAX_CLAUSES`, `CLAUSE_FEATURES`), of integers.
+        rooms: the same names that `encode` was given.
+        kinds: the classes of the clauses that there may be; by default those of this package.
+
+    Raises:
+        ValueError: the array has another shape or type, or a row that is no clause.
+    """
+    array = np.asarray(tokens)
+    if array.shape != (MAX_CLAUSES, CLAUSE_FEATURES) or array.dtype.kind not in "iu":
+        wanted = f"integers of shape {(MAX_CLAUSES, CLAUSE_FEATURES)}"
+        raise ValueError(f"tokens are {wanted}, not {array.dtype} of shape {array.shape}")
+    rows = [tuple(row) for row in array.tolist()]
+    while rows and not any(rows[-1]):
+        rows.pop()
+    known = tuple(CLAUSE_KINDS.values()) if kinds is None else kinds
+    return Command(tuple(_clause(number, row, rooms, known) for number, row in enumerate(rows)))
+
+
+def _clause(number: int, row: Row, rooms: Sequence[str], kinds: Sequence[type[Clause]]) -> Clause:
+    """The clause of a row; a row is valid only if encoding its clause gives it again."""
+    problem = f"row {number} of the tokens, {row}, is no clause"
+    if not all(0 <= token < count for token, count in zip(row, COLUMN_SIZES, strict=True)):
+        raise ValueError(f"{problem}: its columns go up to {tuple(n - 1 for n in COLUMN_SIZES)}")
+    reasons = []
+    for kind in kinds:
+        for form, options in open_fields(kind):
+            try:
+                for clause in _filled(kind, form, options, row, rooms):
+                    if row_of(clause, rooms) == row:
+                        return clause
+            except ValueError as error:
+                reasons.append(f": {error}")
+    raise ValueError("".join([problem, *reasons[:1]]))
+
+
+def _filled(
+    kind: type[S], form: Form, options: Mapping[str, Options], row: Row, rooms: Sequence[str]
+) -> Iterator[S]:
+    """The values of a form that a row may stand for.
+
+    Raises:
+        ValueError: the row has this form, but a number that cannot be.
+    """
+    if form.token[:1] in ((), (None,), (row[0],)) and _fits(_head(form), row):
+        for values in _values(list(options.values()), row, rooms):
+            yield kind(**form.fixed, **dict(zip(options, values, strict=True)))
+
+
+def _values(
+    fields: Sequence[Options], row: Row, rooms: Sequence[str]
+) -> Iterator[tuple[object, ...]]:
+    """What fields may be, the first one first; if that cannot be, the others are not looked at."""
+    if not fields:
+        yield ()
+    for first in _chosen(fields[0], row, rooms) if fields else ():
+        for others in _values(fields[1:], row, rooms):
+            yield (first, *others)
+
+
+def _chosen(options: Options, row: Row, rooms: Sequence[str]) -> Iterator[Any]:
+    """The values of a field that a row may stand for."""
+    for option in options:
+        if isinstance(option, Multiples):
+            yield option.step * row[3]
+        elif option is int:
+            yield _ordinal(row[3])
+        elif option is str:
+            yield _room(row[3], rooms)
+        elif isinstance(option, type):
+            for form, inner in open_fields(option):
+                yield from _filled(option, form, inner, row, rooms)
+        elif _fits(_share(option, None, rooms), row):
+            yield option
+
+
+def _fits(part: Row, row: Row) -> bool:
+    """Whether a row has all that a part of it says."""
+    return all(token in (0, whole) for token, whole in zip(part, row, strict=True))
+
+
+def _ordinal(token: int) -> int:
+    if token == OTHER_TOKEN:
+        return OTHER
+    if not 1 <= token < OTHER_TOKEN:
+        raise ValueError(f"{token} is the number of no ordinal")
+    return token if token < LAST_TOKEN else LAST_TOKEN - token - 1
+
+
+def _room(number: int, rooms: Sequence[str]) -> str:
+    if not 1 <= number <= len(rooms):
+        raise ValueError(f"there are {len(rooms)} rooms")
+    return plain_name(rooms[number - 1])

@@ -67,6 +67,10 @@ class CommandError(ValueError):
         return f"{self.summary}\n{with_caret(self.text, self.position, self.length)}"
 
 
+MOST_SHOWN = 8
+"""The most readings that a question shows."""
+
+
 class AmbiguousCommandError(CommandError):
     """A text that can mean several commands, or one that is doubtful.
 
@@ -88,7 +92,10 @@ class AmbiguousCommandError(CommandError):
         unread: str = "",
         later: bool = False,
     ) -> None:
-        ways = " or ".join(_quoted(("... " if later else "") + each) for each in differences)
+        shown = differences[:MOST_SHOWN]
+        ways = " or ".join(_quoted(("... " if later else "") + each) for each in shown)
+        if len(shown) < len(differences):
+            ways += f" or one of {len(differences) - len(shown)} others"
         if suggestion:
             super().__init__(f"did you mean {ways}?", text, hint=f"corrected: {suggestion}")
         elif unread:

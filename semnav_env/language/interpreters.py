@@ -1,4 +1,4 @@
-"""Interpreters of a text: the grammar, the nearest template, or a model of the user's own.
+"""Interpreters of a text: the grammar, or a model of the user's own.
 
 Each gives commands of the same type. So what it understood is grounded by the same rules, is
 refused for the same reasons, and can be said in canonical words for a person to check.
@@ -19,7 +19,6 @@ from semnav_env.language.languages import language_of
 from semnav_env.language.normalise import normalise
 from semnav_env.language.parser import check_rooms, differences, readings
 from semnav_env.language.program import from_program
-from semnav_env.language.templates import Embedding, Templates, trigrams
 
 
 @dataclass(frozen=True)
@@ -30,7 +29,7 @@ class Interpretation:
         text: as it was given.
         readings: every command that it can mean, at least one.
         language: its language.
-        by: the interpreter: "grammar", "template" or "model".
+        by: the interpreter: "grammar" or "model".
         likeness: similarity to a text that the grammar understands, 0 to 1; 1 for the grammar.
     """
 
@@ -88,46 +87,6 @@ class GrammarInterpreter:
         """Every reading of a text; see `semnav_env.language.readings`."""
         found = readings(text, self.language, self.rooms)
         return Interpretation(text, found, language_of(self.language), "grammar")
-
-
-@dataclass(frozen=True)
-class TemplateInterpreter:
-    """Takes a text that the grammar refuses for the clause with the most similar wording.
-
-    The decisive words (numbers, sides, kinds of places and doors) must be the same; only the other
-    words may differ. A text with a word of negation, choice or condition is refused. If several
-    templates are about equally near, all of them are readings.
-
-    Attributes:
-        language: code, or a loaded language.
-        rooms: names of the rooms of the floor plan; none if they are not known.
-        embed: from texts to vectors, shape (n, d); by default counts of letter trigrams.
-        enough: least cosine similarity of the words that are not decisive.
-        margin: templates whose similarity is less by no more than this are readings, too.
-    """
-
-    language: str | Language = "en"
-    rooms: Sequence[str] = ()
-    embed: Embedding = trigrams
-    enough: float = 0.5
-    margin: float = 0.05
-
-    def interpret(self, text: str) -> Interpretation:
-        """Every reading of a text; those of the grammar if it understands the text.
-
-        Raises:
-            CommandError: no template is near enough; it is the error of the grammar.
-        """
-        spoken = language_of(self.language)
-        try:
-            return GrammarInterpreter(spoken, self.rooms).interpret(text)
-        except CommandError as error:
-            plain = normalise(text, spoken).text
-            near = Templates.of(spoken).nearest(plain, self.embed, self.enough, self.margin)
-            if near is None:
-                raise error from None
-            commands, likeness = near
-            return Interpretation(text, commands, spoken, "template", likeness)
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
+from numbers import Real
 from typing import Any
 
 from semnav_env.language.words import fold
@@ -18,11 +20,10 @@ class Language:
     Attributes:
         name: stem of its file, such as "english".
         code: its ISO 639-1 code, such as "en".
-        terminals: words that decide what is meant, by what they name; see `templates`.
         ordinals: for 1, 2, ... in order its words, the usual one first.
         from_end: for the last, the second to last, ... in order its words, the usual one first.
+        other: its word for the only other one.
         numbers: the value of each number word.
-        counts: the ordinal of each word of `ordinals` and, negative, of `from_end`.
         decimal: the decimal sign.
         punctuation: characters that part clauses or end a command.
         same_as: characters that are read as others.
@@ -34,11 +35,10 @@ class Language:
 
     name: str
     code: str
-    terminals: dict[str, tuple[str, ...]]
     ordinals: tuple[tuple[str, ...], ...]
     from_end: tuple[tuple[str, ...], ...]
+    other: str
     numbers: dict[str, float]
-    counts: dict[str, int]
     decimal: str
     punctuation: str
     same_as: dict[str, str]
@@ -50,11 +50,6 @@ class Language:
         """Words in the spelling that the grammar reads."""
         return fold(words, self.same_as)
 
-    def number(self, words: str) -> float:
-        """The value of a number word or of a number in digits."""
-        known = self.numbers.get(words)
-        return float(words.replace(self.decimal, ".")) if known is None else known
-
     def number_text(self, amount: float) -> str:
         """A number in digits, with the decimal sign of the language."""
         return f"{amount:g}".replace(".", self.decimal)
@@ -62,13 +57,8 @@ class Language:
     def ordinal(self, number: int) -> str:
         """The usual word for an ordinal: positive, `OTHER` (0), or negative from the end."""
         if number == 0:
-            return self.terminals["OTHER"][0]
+            return self.other
         return self.ordinals[number - 1][0] if number > 0 else self.from_end[-number - 1][0]
-
-    def vocabulary(self, terminal: str) -> tuple[str, ...]:
-        """The single words of a terminal's phrases, as they are written."""
-        phrases = self.terminals.get(terminal, ())
-        return tuple(word for phrase in phrases for word in phrase.replace("-", " ").split())
 
     def hint(self, word: str) -> str | None:
         """Advice for a word that was not understood; None if there is none."""
@@ -94,7 +84,11 @@ class _SpokenPart:
         self._language = language
 
     def __format__(self, form: str) -> str:
+        if isinstance(self._value, StrEnum):
+            return self._language.say(self._value)
         if isinstance(self._value, str):
             return self._value
+        if isinstance(self._value, Real):
+            return self._language.number_text(float(self._value))
         said: str = self._value.say(self._language, form)
         return said

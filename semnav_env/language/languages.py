@@ -16,21 +16,14 @@ def load(name: str) -> Language:
     table = json.loads((folder / f"{name}.json").read_text("utf-8"))
     same_as = table["same_as"]
     ordinals, from_end = (tuple(map(tuple, table[key])) for key in ("ordinals", "from_end"))
-    terminals = {key: tuple(words) for key, words in table["terminals"].items()}
-    terminals["NTH"] = tuple(word for words in ordinals for word in words)
-    terminals["FROM_END"] = tuple(word for words in from_end for word in words)
-    terminals["NUMBER"] = tuple(table["numbers"])
     numbers = {_plain(words, same_as): value for words, value in table["numbers"].items()}
-    counts = {_plain(w, same_as): n for n, words in enumerate(ordinals, 1) for w in words}
-    counts |= {_plain(w, same_as): -n for n, words in enumerate(from_end, 1) for w in words}
     return Language(
         name=name,
         code=table["code"],
-        terminals=terminals,
         ordinals=ordinals,
         from_end=from_end,
+        other=table["other"],
         numbers=numbers,
-        counts=counts,
         decimal=table["decimal"],
         punctuation=table["punctuation"],
         same_as=same_as,

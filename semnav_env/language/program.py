@@ -3,27 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import Field, fields
 from enum import Enum
-from typing import Any, get_args
+from types import NoneType
+from typing import Any
 
-from semnav_env.language.clauses import Approach, Clause, OwnClause, Turning
+from semnav_env.language.clauses import CLAUSE_KINDS
 from semnav_env.language.command import Command
-from semnav_env.language.references import (
-    DoorReference,
-    Place,
-    PlaceReference,
-    Reference,
-    RoomReference,
-    Side,
-    Unit,
-)
+from semnav_env.language.declarations import Spoken, field_names, field_types
+from semnav_env.language.own_clause import own_clause_kinds
 from semnav_features.validation import shown
-
-CLAUSE_KINDS: dict[str, Any] = {
-    kind.__name__: kind for kind in get_args(Clause) if kind is not OwnClause
-}
-REFERENCE_KINDS: dict[str, Any] = {kind.__name__: kind for kind in get_args(Reference)}
 
 
 def to_program(command: Command) -> list[dict[str, Any]]:
@@ -45,23 +33,20 @@ def from_program(program: object) -> Command:
     """
     if not isinstance(program, list | tuple):
         raise ValueError(f"a program is a list of clauses, not {type(program).__name__}")
-    return Command(
-        tuple(_value(each, CLAUSE_KINDS, f"clause {n}") for n, each in enumerate(program))
-    )
+    return Command(tuple(_clause(each, f"clause {n}") for n, each in enumerate(program)))
 
 
-def _plain(value: Any) -> dict[str, Any]:
+def _plain(value: Spoken) -> dict[str, Any]:
     plain: dict[str, Any] = {"kind": type(value).__name__}
-    for field in _compared(value):
-        part = getattr(value, field.name)
-        referring = isinstance(part, tuple(REFERENCE_KINDS.values()))
-        plain[field.name] = _plain(part) if referring else getattr(part, "value", part)
+    for name in field_names(type(value)):
+        part = getattr(value, name)
+        plain[name] = _plain(part) if isinstance(part, Spoken) else getattr(part, "value", part)
     return plain
 
 
-def _compared(value: Any) -> list[Field[Any]]:
-    """The fields that say what is to be done, and not how that was found out."""
-    return [field for field in fields(value) if field.compare]
+def _clause(plain: object, where: str) -> Any:
+    is_known = isinstance(plain, Mapping) and plain.get("kind") in CLAUSE_KINDS
+    return _value(plain, CLAUSE_KINDS if is_known else CLAUSE_KINDS | own_clause_kinds(), where)
 
 
 def _value(plain: object, kinds: Mapping[str, Any], where: str) -> Any:
@@ -72,57 +57,38 @@ def _value(plain: object, kinds: Mapping[str, Any], where: str) -> Any:
     kind = kinds.get(str(given.pop("kind", None)))
     if kind is None:
         raise ValueError(f"the kind of {where} is one of {', '.join(kinds)}: {shown(plain)}")
-    known = {field.name for field in _compared(kind)}
-    if not set(given) <= known:
-        strange = ", ".join(map(repr, sorted(set(map(str, given)) - known)))
+    types = field_types(kind)
+    if not set(given) <= set(types):
+        strange = ", ".join(map(repr, sorted(set(map(str, given)) - set(types))))
         raise ValueError(f"{where}, a {kind.__name__}, has no {strange}")
     try:
-        return kind(**{name: _read(name, part, where) for name, part in given.items()})
+        return kind(**{n: _read(types[n], p, f"{n} of {where}") for n, p in given.items()})
     except TypeError as error:
         raise ValueError(f"{where}, a {kind.__name__}: {error}") from None
 
 
-def _read(name: str, part: object, where: str) -> Any:
-    """The value of a field."""
-    inside = f"{name} of {where}"
-    if part is None and name in ("until", "at", "side", "degrees"):
+def _read(types: tuple[Any, ...], part: object, where: str) -> Any:
+    """The value of a field that may be of some classes."""
+    if part is None and NoneType in types:
         return None
-    if name == "what" and part in (Side.LEFT.value, Side.RIGHT.value):
-        return Side(part)
-    if name in _REFERENCE_FIELDS:
-        return _value(part, _REFERENCE_FIELDS[name], inside)
-    if name in _ENUM_FIELDS:
-        members = [member.value for member in _ENUM_FIELDS[name]]
-        if part not in members:
-            known = ", ".join(map(repr, members))
-            raise ValueError(f"{inside} is one of {known}, not {shown(part)}")
-        return _ENUM_FIELDS[name](part)
-    check = _FIELD_CHECKS[name]
-    if not check(part):
-        raise ValueError(f"{inside} cannot be {shown(part)}")
+    members = [each for kind in types if issubclass(kind, Enum) for each in kind]
+    for member in members:
+        if part == member.value:
+            return member
+    spoken = {kind.__name__: kind for kind in types if issubclass(kind, Spoken)}
+    if spoken:
+        return _value(part, spoken, where)
+    if members:
+        right = ", ".join(repr(member.value) for member in members)
+        raise ValueError(f"{where} is one of {right}, not {shown(part)}")
+    if not any(_PLAIN_CHECKS[kind](part) for kind in types if kind in _PLAIN_CHECKS):
+        raise ValueError(f"{where} cannot be {shown(part)}")
     return part
 
 
-_ENUM_FIELDS: dict[str, type[Enum]] = {
-    "turning": Turning,
-    "approach": Approach,
-    "side": Side,
-    "place": Place,
-    "unit": Unit,
-}
-_REFERENCE_FIELDS: dict[str, dict[str, Any]] = {
-    "until": REFERENCE_KINDS,
-    "at": {"PlaceReference": PlaceReference},
-    "door": {"DoorReference": DoorReference},
-    "what": {kind.__name__: kind for kind in (DoorReference, PlaceReference, RoomReference)},
-}
-_FIELD_CHECKS: dict[str, Callable[[object], bool]] = {
-    "past": lambda part: isinstance(part, bool),
-    "absent": lambda part: isinstance(part, bool),
-    "otherwise": lambda part: isinstance(part, bool),
-    "name": lambda part: isinstance(part, str),
-    "amount": lambda part: isinstance(part, int | float) and not isinstance(part, bool),
-    "ordinal": lambda part: isinstance(part, int) and not isinstance(part, bool),
-    "degrees": lambda part: isinstance(part, int) and not isinstance(part, bool),
-    "seconds": lambda part: isinstance(part, int) and not isinstance(part, bool),
+_PLAIN_CHECKS: dict[type, Callable[[object], bool]] = {
+    bool: lambda part: isinstance(part, bool),
+    str: lambda part: isinstance(part, str),
+    int: lambda part: isinstance(part, int) and not isinstance(part, bool),
+    float: lambda part: isinstance(part, int | float) and not isinstance(part, bool),
 }

@@ -5,14 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import lru_cache
 from numbers import Integral
-from typing import TYPE_CHECKING, TypeAlias
+from typing import ClassVar, TypeAlias
 
+from semnav_env.language.declarations import DOOR, ROOM, Form, Multiples, Spoken, form
 from semnav_features.validation import shown
-
-if TYPE_CHECKING:
-    from semnav_env.language.language import Language
 
 MAX_NAME = 40
 """The longest plain name of a room, characters."""
@@ -77,40 +74,8 @@ STEP_LENGTH = 0.7
 """Length of a person's step, metres."""
 
 
-class Spoken:
-    """Base of clauses and references: they can be put in the words of a language.
-
-    It is no `ABC`, whose instances take several times as long to tell apart.
-    """
-
-    __slots__ = ()
-
-    def say(self, language: Language) -> str:
-        """In the words of a language."""
-        raise NotImplementedError
-
-    def __str__(self) -> str:
-        from semnav_env.language.languages import english  # read when first spoken
-
-        return self.say(english())
-
-
-class OrdinalReference(Spoken):
-    """Base of references that count; there are few, so what was said of them is kept."""
-
-    __slots__ = ()
-
-    def __str__(self) -> str:
-        return _said_in_english(self)
-
-
-@lru_cache(maxsize=1024)
-def _said_in_english(reference: Spoken) -> str:
-    return Spoken.__str__(reference)
-
-
 @dataclass(frozen=True, slots=True)
-class DoorReference(OrdinalReference):
+class DoorReference(Spoken):
     """A door by its ordinal and side: "the second door on the right".
 
     Attributes:
@@ -121,19 +86,24 @@ class DoorReference(OrdinalReference):
 
     ordinal: int = 1
     side: Side | None = None
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("door", "door {ordinal}", "door({ordinal})", (None, 0, DOOR)),
+        form(
+            "door_{side}",
+            "door {ordinal} {side}",
+            "door({ordinal},{side})",
+            (None, 0, DOOR),
+            side=Side,
+        ),
+    )
 
     def __post_init__(self) -> None:
         if self.ordinal != OTHER or isinstance(self.ordinal, float):
             _check_ordinal("door", self.ordinal)
 
-    def say(self, language: Language, form: str = "") -> str:
-        """In the words of a language, in the grammatical form (case) that a phrase asks for."""
-        phrase = "door" if self.side is None else f"door_{self.side}"
-        return language.say(phrase, form, ordinal=language.ordinal(self.ordinal))
-
 
 @dataclass(frozen=True, slots=True)
-class PlaceReference(OrdinalReference):
+class PlaceReference(Spoken):
     """A place by its ordinal: "the second intersection", "the corner", "the end of the hallway".
 
     Attributes:
@@ -144,15 +114,12 @@ class PlaceReference(OrdinalReference):
 
     place: Place
     ordinal: int = 1
+    forms: ClassVar[tuple[Form, ...]] = (form("{place}", "{place} {ordinal}", "{place}#{ordinal}"),)
 
     def __post_init__(self) -> None:
         _check_ordinal(self.place, self.ordinal)
         if self.place == Place.END and self.ordinal != 1:
             raise ValueError(f"a hallway has one end ahead: its ordinal is 1, not {self.ordinal!r}")
-
-    def say(self, language: Language, form: str = "") -> str:
-        """In the words of a language, in the grammatical form (case) that a phrase asks for."""
-        return language.say(self.place, form, ordinal=language.ordinal(self.ordinal))
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,6 +133,17 @@ class Distance(Spoken):
 
     amount: float
     unit: Unit = Unit.METRES
+    forms: ClassVar[tuple[Form, ...]] = tuple(
+        form(
+            unit,
+            f"{{amount}} {unit}",
+            f"{{amount}} {short}",
+            (None, 0, unit),
+            amount=Multiples(AMOUNT_STEP[unit], MAX_AMOUNT[unit]),
+            unit=unit,
+        )
+        for unit, short in ((Unit.METRES, "m"), (Unit.STEPS, "steps"))
+    )
 
     def __post_init__(self) -> None:
         quantum, most = AMOUNT_STEP[self.unit], MAX_AMOUNT[self.unit]
@@ -178,11 +156,6 @@ class Distance(Spoken):
         """The distance in metres."""
         return self.amount * (1.0 if self.unit is Unit.METRES else STEP_LENGTH)
 
-    def say(self, language: Language, form: str = "") -> str:
-        """In the words of a language."""
-        unit = f"{self.unit}_one" if self.amount == 1 else str(self.unit)
-        return language.say(unit, form, amount=language.number_text(self.amount))
-
 
 @dataclass(frozen=True, slots=True)
 class RoomReference(Spoken):
@@ -193,13 +166,12 @@ class RoomReference(Spoken):
     """
 
     name: str
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("named_room", "{name}", "room({name})", (None, 0, ROOM)),
+    )
 
     def __post_init__(self) -> None:
         check_room_name(self.name)
-
-    def say(self, language: Language, form: str = "") -> str:
-        """In the words of a language, in the grammatical form (case) that a phrase asks for."""
-        return language.say("named_room", form, name=self.name)
 
 
 Reference: TypeAlias = DoorReference | PlaceReference | RoomReference | Distance

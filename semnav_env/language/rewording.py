@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from semnav_env.language.clauses import Turn
 from semnav_env.language.command import Command, Link, links_of
+from semnav_env.language.declarations import field_names
 from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
@@ -96,7 +97,7 @@ def paraphrases(
     if n < 0:
         raise ValueError(f"n is {n}; it must be 0 or more")
     spoken = language_of(language)
-    values = {field.name: getattr(spoken, field.name) for field in fields(spoken)}
+    values = {name: getattr(spoken, name) for name in field_names(type(spoken))}
     varied, usual = _VariedLanguage(**values, rng=rng), command.say(spoken)
     found: dict[str, None] = {}
     for _ in range(TEXTS_PER_PARAPHRASE * n):

@@ -15,11 +15,14 @@ GERMAN_LETTERS = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"}
 _LETTERS_WITHOUT_PARTS = {"ł": "l", "ø": "o", "đ": "d", "ð": "d", "þ": "th", "æ": "ae", "œ": "oe"}
 """Latin letters that Unicode does not take apart."""
 
+_APOSTROPHE = re.compile("(?<=[^\\W\\d_])['\u2019](?=[^\\W\\d_])")
+"""An apostrophe within a word."""
+
 _NUMBERED = re.compile(r"(?:room|[a-z]*)[ _-]?(\d+)[ ._-](\d+[a-z]?)")
 
 
 def plain_name(name: str) -> str:
-    """The plain name of a room: "Küche 2" becomes "kueche 2", and "Café" becomes "cafe".
+    """The plain name of a room: "Küche 2" becomes "kueche 2", and "Anna's café" "annas cafe".
 
     A name without a Latin letter or a digit becomes "". A plain name has small letters a to z and
     digits, parted by single spaces, dots, hyphens or underscores.
@@ -27,7 +30,8 @@ def plain_name(name: str) -> str:
     folded = "".join(
         GERMAN_LETTERS.get(c, c) for c in unicodedata.normalize("NFKC", name).casefold()
     )
-    kept = re.sub(r"[^a-z0-9._-]+", " ", without_accents(folded))
+    joined = _APOSTROPHE.sub("", without_accents(folded))
+    kept = re.sub(r"[^a-z0-9._-]+", " ", joined)
     single = re.sub(r"([ ._-])[ ._-]*", r"\1", kept)
     return single[:MAX_NAME].strip(" ._-")
 

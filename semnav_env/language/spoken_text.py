@@ -45,7 +45,7 @@ def readings_of_text(
     spoken = language or recognised(words)
     lexicon = lexicon_of(spoken) if language else lexicon_for(words, spoken)
     names = name_phrases(rooms)
-    said = with_room_names(spoken_pieces(found, lexicon), lexicon, names)
+    said = with_room_names(spoken_pieces(found, lexicon, names), lexicon, names)
     if not said:
         raise empty_command(lexicon.language)
     understood = _understood(said, lexicon, names)

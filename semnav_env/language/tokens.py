@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import IntEnum
 from typing import TypeAlias
 
 import numpy as np
@@ -11,32 +10,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from semnav_env.language.clauses import Turning
 from semnav_env.language.command import MAX_CLAUSES
+from semnav_env.language.declarations import DEGREES, DOOR, ROOM, SECONDS, TokenVerb
 from semnav_env.language.references import MAX_FROM_END, MAX_ORDINAL, Place, Side, Unit
 
 Row: TypeAlias = tuple[int, ...]
 """The token of one clause: a value for each column."""
 
 
-class TokenVerb(IntEnum):
-    """What a clause asks for: the first column.
-
-    A condition asks for nothing itself; its second column gives the case (`CONDITION_CASES`).
-    """
-
-    IF_THERE = 0
-    FOLLOW = 1
-    TURN = 2
-    GO_TO = 3
-    GO_THROUGH = 4
-    STOP = 5
-    PASS = 6
-    GO_TO_ROOM = 7
-    LEAVE = 8
-    GO_BACK = 9
-
-
 TOKEN_TURNINGS = (None, Turning.LEFT, Turning.RIGHT, Turning.AROUND)
-"""The second column is an index into these; a turn without one is to face its referent.
+"""The first column is a `TokenVerb`, the second one an index into these; a turn without one is to
+face its referent.
 
 For `GO_TO` 1 means in the doorway, and for `GO_TO_ROOM` in front of the room."""
 
@@ -44,7 +27,6 @@ CONDITION_CASES = ((False, False), (False, True), (True, False), (True, True))
 """The second column of a condition is an index into these pairs: whether it asks for something
 absent, and whether it has an otherwise."""
 
-DOOR, DEGREES, SECONDS, ROOM = "door", "degrees", "seconds", "room"
 TOKEN_REFERENTS = (
     *(None, DOOR, Place.INTERSECTION, Place.CORNER, Place.END, Place.T_JUNCTION, Place.TURNING),
     *(Unit.METRES, Unit.STEPS, DEGREES, SECONDS, ROOM),
@@ -57,12 +39,8 @@ MAX_NUMBER = 100
 It is the ordinal of a door or place: 1 to `MAX_ORDINAL`, then from `LAST_TOKEN` on the last, the
 second to last and so on, then `OTHER_TOKEN` for the other one. For a distance it is the number of
 half metres or of steps, for a turn the number of `DEGREE_STEP`, for a wait the number of seconds,
-and for a room its place among the names, from 1; `EVERY_ROOM` stands for all of them.
+and for a room its place among the names, from 1; 0 stands for all of them.
 """
-
-EVERY_ROOM = 0
-"""The number with which "go to room" means "search the house": it needs no verb of its own, so
-agents that were trained before keep their observations."""
 
 LAST_TOKEN = MAX_ORDINAL + 1
 """The number of "the last"; the nth from the end is n - 1 more."""

@@ -8,9 +8,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from semnav_env.judge import Judge, Verdict
 from semnav_env.judge.payload import Payload, PayloadMarks
-from semnav_env.judge.tasks.judge import EpisodeJudge
-from semnav_env.judge.verifier import Verdict
 from semnav_env.language.command import reference_of
 from semnav_env.language.references import DoorReference
 from semnav_env.mind.belief import Belief, BeliefTracker
@@ -38,7 +37,7 @@ class RenderedEnvironment(Protocol):
 
     render_mode: str | None
     tracker: BeliefTracker
-    judge: EpisodeJudge
+    judge: Judge
     simulator: Simulator
     observation_type: ObservationType
     metadata: dict[str, Any]
@@ -59,7 +58,7 @@ class RenderedEnvironment(Protocol):
 
 def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
     """This moment of the episode, world frame."""
-    tracker, verifier, pose = env.tracker, env.judge.verifier, env.world.pose
+    tracker, judge, pose = env.tracker, env.judge, env.world.pose
     odometry_frame = compose(pose, relative(env.belief.pose, ORIGIN))
     lidar = compose(pose, tracker.mount)
     remembered = tracker.scene()
@@ -78,10 +77,10 @@ def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
         door_numbers=door_numbers(remembered, tracker.follower),
         goal=_moved(tracker.follower.goal, odometry_frame),
         trail=np.array(trail),
-        route=verifier.mission.route,
-        command=tuple(str(clause) for clause in verifier.mission.command.clauses),
-        active_clause=verifier.follower.active,
-        skipped=verifier.follower.skipped,
+        route=judge.mission.route,
+        command=tuple(str(clause) for clause in judge.mission.command.clauses),
+        active_clause=judge.follower.active,
+        skipped=judge.follower.skipped,
         status=(*_status(env.seconds, env.judge), *filter(None, (marks.status,))),
         looked=marks.floor,
         flags=marks.flags,
@@ -90,7 +89,7 @@ def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
         cloud=cloud_on_the_map(cloud, pose),
         jambs=jambs_on_the_map(cloud, tracker, pose),
         in_contact=env.world.in_contact,
-        failed=verifier.failure is not None,
+        failed=judge.failure is not None,
     )
 
 
@@ -121,10 +120,10 @@ def _moved(goal: Goal, frame: Pose) -> Goal:
 _SETTLED = (Verdict.DONE, Verdict.SKIPPED, Verdict.PENDING)
 
 
-def _status(seconds: float, judge: EpisodeJudge) -> tuple[str, ...]:
-    current = [v for v in judge.verifier.verdicts if v not in _SETTLED]
+def _status(seconds: float, judge: Judge) -> tuple[str, ...]:
+    current = [v for v in judge.verdicts if v not in _SETTLED]
     verdict = str(current[0]) if current else "done"
     return (
         f"t = {seconds:.1f} s   {verdict}",
-        f"collisions: {judge.outcome.collisions}",
+        f"collisions: {judge.period.collisions}",
     )

@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.vector.judgements import Judgements, Mask
-from semnav_env.vector.rewards import Terms
+from semnav_env.vector.rewards import Mask, Terms
 from semnav_features.frames import FloatArray
 
 
@@ -34,8 +33,14 @@ class HeldAction:
         self.terminated, self.truncated = np.zeros((2, len(driven)), dtype=bool)
         self.ends: dict[int, dict[str, Any]] = {}
 
-    def add(self, judged: Judgements, terms: Terms) -> None:
-        """Count a control period."""
+    def add(self, terms: Terms, terminated: Mask, truncated: Mask) -> None:
+        """Count a control period.
+
+        Args:
+            terms: of the rewards of the robots that were driven.
+            terminated: whose episode is over by now.
+            truncated: whose time is over by now.
+        """
         total = np.zeros(len(self.rewards))
         for amount in terms.values():
             total += amount.filled(0.0) if isinstance(amount, np.ma.MaskedArray) else amount
@@ -46,8 +51,8 @@ class HeldAction:
                 for name, amount in terms.items()
             }
         self.terms = terms
-        self.terminated |= judged.terminated
-        self.truncated |= judged.truncated
+        self.terminated |= terminated
+        self.truncated |= truncated
         self.going = self.going & ~self.over
 
     @property

@@ -14,23 +14,18 @@ from numpy.typing import NDArray
 Infos = dict[str, Any]
 
 
-def step_infos(
-    verdicts: NDArray[Any], periods: np.ndarray, terms: dict[str, Any], driven: NDArray[np.bool_]
-) -> Infos:
+def step_infos(known: Infos, terms: dict[str, Any], driven: NDArray[np.bool_]) -> Infos:
     """What is known after each control period of the robots that were driven.
 
     Args:
-        verdicts: of each robot.
-        periods: dtype `PERIOD`, shape (n,).
+        known: of all robots, see `control_period.info_of`.
         terms: of the rewards.
         driven: which robots were driven.
     """
-    names = ("collisions", "path_length", "in_contact", "pose")
-    entries: Infos = {"verdicts": verdicts} | {name: periods[name] for name in names}
     all_driven = np.count_nonzero(driven) == len(driven)
     entries = {
         name: values.copy() if all_driven else _where(driven, values)
-        for name, values in entries.items()
+        for name, values in known.items()
     }
     return masked(entries | {"reward_terms": masked(terms, driven)}, driven)
 
@@ -46,7 +41,7 @@ def masked(entries: Infos, mask: NDArray[np.bool_]) -> Infos:
     return found
 
 
-def info_of(infos: Infos, index: int) -> Infos:
+def plain_info(infos: Infos, index: int) -> Infos:
     """The info of one robot, in plain values."""
     return {
         name: _plain(value, index)
@@ -75,7 +70,7 @@ def _where(mask: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[Any]:
 
 def _plain(value: Any, index: int) -> Any:
     if isinstance(value, dict):
-        return info_of(value, index)
+        return plain_info(value, index)
     item = value[index]
     if isinstance(item, np.ndarray):
         return tuple(item.tolist())

@@ -3,62 +3,56 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
-from semnav_env.judge.tasks import RewardWeights, Tick, terms_of
-from semnav_env.vector.judgements import Judgements
+from semnav_env.judge import Period
+from semnav_env.judge.tasks.rewards import RewardWeights, weigh
 from semnav_features.frames import FloatArray
 
+Mask = NDArray[np.bool_]
+
 Terms = dict[str, FloatArray]
-"""Reward terms by name, each of shape (n,); 0 for robots that were not driven. A masked array where
-some robots have no such term."""
+"""Reward terms by name, each of shape (n,); 0 for robots that were not driven. A masked array
+where some robots have no such term."""
 
 
-class TeamRewards(Protocol):
-    """Says what a control period is worth to each robot."""
+class TeamRewards:
+    """Says what a control period is worth to each robot.
 
-    def terms(self, judged: Judgements, actions: NDArray[Any]) -> Terms:
-        """The terms by name; their sum is the reward."""
-        ...
-
-
-class WeightedTerms:
-    """The terms of `RewardWeights`, computed over all robots."""
-
-    def __init__(self, weights: Sequence[RewardWeights]) -> None:
-        self._names = [field.name for field in fields(RewardWeights)]
-        self._weights = np.array(
-            [[float(getattr(each, name)) for each in weights] for name in self._names]
-        )
-
-    def terms(self, judged: Judgements, actions: NDArray[Any]) -> Terms:
-        """As `RewardWeights.terms`."""
-        return dict(zip(self._names, self._weights * judged.amounts, strict=True))
-
-
-class EachTerms:
-    """Terms of any rewards, asked for robot by robot."""
+    Args:
+        envs: of the robots, with their rewards.
+    """
 
     def __init__(self, envs: Sequence[SemNavEnv]) -> None:
         self._envs = envs
+        each = [env.rewards.each for env in envs if type(env.rewards) is RewardWeights]
+        self._weights = np.array(each, float).T if len(each) == len(envs) else None
 
-    def terms(self, judged: Judgements, actions: NDArray[Any]) -> Terms:
-        """What the rewards of each robot say."""
+    def terms(self, period: Period, actions: NDArray[Any], driven: Mask) -> Terms:
+        """The terms by name, as `RobotLoop.terms`; their sum is the reward.
+
+        Args:
+            period: of all robots.
+            actions: of all robots.
+            driven: which robots were driven.
+        """
+        if self._weights is None:
+            return self._one_by_one(actions, driven)
+        amounts = *period.judged, period.in_contact
+        if driven.all():
+            return weigh(self._weights, *amounts)
+        done = [np.where(driven, each, 0.0) for each in amounts]
+        return weigh(self._weights, *done, driven=driven)
+
+    def _one_by_one(self, actions: NDArray[Any], driven: Mask) -> Terms:
         terms: Terms = {}
-        for k in np.flatnonzero(judged.driven).tolist():
-            env, action = self._envs[k], np.asarray(actions[k])
-            tick = Tick(*judged.judgement(k), env.simulator.motion, env.belief, action, env.payload)
-            for name, value in terms_of(env.rewards, tick).items():
+        for k in np.flatnonzero(driven).tolist():
+            env = self._envs[k]
+            own = env.loop.terms(env.rewards, env.judge.period, actions[k])
+            for name, value in own.items():
                 terms.setdefault(name, np.ma.masked_all(len(self._envs)))[k] = value
         return terms
-
-
-def team_rewards(envs: Sequence[SemNavEnv]) -> TeamRewards:
-    """The fast way where it serves."""
-    weights = [env.rewards for env in envs if type(env.rewards) is RewardWeights]
-    return WeightedTerms(weights) if len(weights) == len(envs) else EachTerms(envs)

@@ -6,7 +6,7 @@ from typing import Any
 
 from numba.typed.typedlist import List
 
-from semnav_env.robot_loop import RobotArrays
+from semnav_env.control_period import RobotArrays
 from semnav_features.kernels.compiling import kernel
 
 

@@ -12,13 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
-from semnav_env.judge.tasks.judge import Judgement
+from semnav_env.judge.judge_state import PERIOD, Period
 from semnav_env.mind.belief.tracker import BeliefTracker
 from semnav_env.mind.belief.understand import Workbench, workbench_with
-from semnav_env.robot_loop import RobotArrays, join_robot
 from semnav_env.vector.robot_list import list_of, put
 from semnav_env.vector.tick import (
-    PERIOD,
     begin_period,
     join_team,
     report,
@@ -54,7 +52,9 @@ class Team:
         threads: in which to run; as many as there are cores if not given.
 
     Attributes:
-        periods: what became of each robot in the last control period, dtype `PERIOD`, shape (n,).
+        periods: what became of each robot in the last control period that it was driven in, dtype
+            `PERIOD`, shape (n,).
+        period: the same as a `Period` of arrays, which are views.
     """
 
     def __init__(self, envs: Sequence[SemNavEnv], threads: int | None = None) -> None:
@@ -66,7 +66,8 @@ class Team:
         self._parts = list(pairwise(ends))
         self._pool: ThreadPoolExecutor | None = None
         self._pool_process = 0
-        self.periods = np.zeros(count, PERIOD)
+        self.periods, events = np.zeros(count, PERIOD), np.zeros((count, 2), np.int64)
+        self.period = Period(*(self.periods[name] for name in Period._fields))
         self._thoughtful, self._written, reported = np.zeros((3, count), dtype=bool)
         self._log = np.zeros((LOG_LENGTH, count, 3))
         self._logged = np.zeros((LOG_LENGTH, count), dtype=bool)
@@ -74,10 +75,11 @@ class Team:
         self._beams, self._workbenches = 0, list[Workbench]()
         self._need_python = np.zeros(count, dtype=bool)
         self._asked = set[BeliefTracker]()
-        self._robots, self._who = list_of(_arrays(envs[0]), count), np.zeros((count, 3), np.int64)
+        self._robots = list_of(envs[0].loop.arrays, count)
+        self._who = np.zeros((count, 3), np.int64)
         taken, done = np.zeros((2, count), np.int64)
         flags = self._thoughtful, taken, done, reported, self._written
-        self._arrays = join_team(self._robots, self.periods, *flags)
+        self._arrays = join_team(self._robots, self.periods, events, *flags)
         self._rows = NO_ROWS
         for k in range(count):
             self.renew(k)
@@ -91,12 +93,11 @@ class Team:
         self._asked.add(env.tracker)  # it may have been asked before it joined
         self._thoughtful[index] = env.payload is not None or env.world.needs_python
         self._written[index] = False
-        put(self._robots, index, _arrays(env))
-        self.periods[index] = np.zeros(1, PERIOD)[0]
-        self.periods["pose"][index] = env.world.pose
+        put(self._robots, index, env.loop.arrays)
+        self.periods[index] = env.judge.row[0]
         self._logged[:, index] = False
 
-    def drive(self, twists: FloatArray, driven: NDArray[np.bool_]) -> dict[int, Judgement]:
+    def drive(self, twists: FloatArray, driven: NDArray[np.bool_]) -> list[int]:
         """Drive robots for one control period, let them understand, judge them, let them think.
 
         Args:
@@ -104,7 +105,7 @@ class Team:
             driven: which robots take part, shape (n,).
 
         Returns:
-            What became of the robots whose judge thought, by their number.
+            Numbers of the robots whose judge thought.
         """
         for tracker in tuple(self._asked):
             tracker.let_go()
@@ -161,7 +162,7 @@ class Team:
         self._log[self._log_length], self._logged[self._log_length] = twists, driven
         self._log_length += 1
 
-    def _tick(self, twists: FloatArray, seconds: float) -> dict[int, Judgement]:
+    def _tick(self, twists: FloatArray, seconds: float) -> list[int]:
         """Drive the robots that are ready, in all threads, and think meanwhile."""
         work = twists, seconds, self._rows
         benches = self._workbenches
@@ -169,26 +170,27 @@ class Team:
             self._submit(tick, bench, last - 1, -1, self._count, *work)
             for bench, (_, last) in zip(benches[1:], self._parts[1:], strict=True)
         ]
-        judgements: dict[int, Judgement] = {}
+        thought: list[int] = []
         most = AT_A_TIME if waiting else self._count
         try:
             while tick(self._arrays, benches[0], 0, 1, most, *work):
-                self._think(judgements)
+                self._think(thought)
         finally:
             _wait_for(waiting)
-        self._think(judgements)
-        return judgements
+        self._think(thought)
+        return thought
 
-    def _think(self, judgements: dict[int, Judgement]) -> None:
-        """Let the robots think that are done and have not yet; note what became of them."""
+    def _think(self, thought: list[int]) -> None:
+        """Let the robots think that are done and have not yet; note whose judge did."""
         count = report(self._arrays, self._rows, self._who)
         for k, understood, judged in self._who[:count].tolist():
             env = self._envs[k]
             if self._need_python[k]:
                 env.world.arrive()
-            env.understand(understood)
+            env.loop.think(understood, judged)
             if judged:
-                judgements[k] = env.judge.think(judged)
+                self.periods[k] = env.judge.row[0]
+                thought.append(k)
 
     def _submit(self, call: Callable[..., Any], *arguments: Any) -> Future[Any]:
         return self._threads().submit(call, self._arrays, *arguments)
@@ -204,7 +206,3 @@ class Team:
 def _wait_for(futures: list[Future[Any]]) -> None:
     for each in futures:
         each.result()
-
-
-def _arrays(env: SemNavEnv) -> RobotArrays:
-    return join_robot(env.simulator.arrays, env.tracker.senses, env.judge.verifier.record)

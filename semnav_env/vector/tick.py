@@ -13,10 +13,10 @@ import numpy as np
 from numba.experimental import structref
 from numpy.typing import NDArray
 
+from semnav_env.control_period import RobotArrays, run_period
 from semnav_env.mind.belief.understand import Workbench
 from semnav_env.mind.observations.memory_row import write_command_row
 from semnav_env.mind.observations.row import write_row
-from semnav_env.robot_loop import RobotArrays, run_period
 from semnav_env.vector.marks import Marks, is_set, set_mark
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
@@ -24,17 +24,6 @@ from semnav_features.kernels.rows import put_row
 from semnav_features.kernels.structures import ArraysType
 
 Flags = NDArray[np.bool_]
-
-PERIOD = np.dtype(
-    [(name, "i8") for name in ("understood", "judged", "steps", "collisions")]
-    + [("pose", "f8", 3), ("path_length", "f8"), ("progress", "f8"), ("in_contact", "?")]
-)
-"""What became of one robot in one control period.
-
-The events of `understand` and `judge_motion`; control periods since the reset; contacts
-begun since then; the true pose, world frame; metres driven since the reset; metres by which the
-way to the goal got shorter; whether the body touches anything.
-"""
 
 
 @structref.register
@@ -48,6 +37,7 @@ class TeamArrays(structref.StructRefProxy):
     Attributes:
         robots: list of `RobotArrays`.
         periods: what became of each robot, dtype `PERIOD`, shape (n,).
+        events: of `understand` and of `judge_motion` for each robot, shape (n, 2).
         thoughtful: whose minds think in every control period, shape (n,).
         taken: which robots a thread has taken, or are not driven in this control period; `Marks`.
         done: which robots are done with it; `Marks`.
@@ -57,6 +47,7 @@ class TeamArrays(structref.StructRefProxy):
 
     robots: Any
     periods: np.ndarray
+    events: NDArray[np.int64]
     thoughtful: Flags
     taken: Marks
     done: Marks
@@ -71,6 +62,7 @@ structref.define_proxy(TeamArrays, TeamArraysType, list(TeamArrays.__annotations
 def join_team(
     robots: Any,
     periods: np.ndarray,
+    events: NDArray[np.int64],
     thoughtful: Flags,
     taken: Marks,
     done: Marks,
@@ -78,7 +70,7 @@ def join_team(
     written: Flags,
 ) -> TeamArrays:
     """The arrays as one structure; they are shared, not copied."""
-    return TeamArrays(robots, periods, thoughtful, taken, done, reported, written)
+    return TeamArrays(robots, periods, events, thoughtful, taken, done, reported, written)
 
 
 @kernel(counts_references=True)
@@ -121,10 +113,12 @@ def tick(
     count, taken, k = len(team.robots), 0, first
     for _ in range(count):
         if taken < most and set_mark(team.taken, k):
-            robot, period = team.robots[k], team.periods[k]
+            robot, twist = team.robots[k], twists[k]
             own = robot.senses.workbench
             robot.senses.workbench = workbench
-            _tick_robot(robot, twists[k], seconds, period)
+            events = run_period(robot, True, twist[0], twist[1], twist[2], seconds)
+            team.events[k, 0], team.events[k, 1] = events
+            _keep_period(robot, team.periods, k)
             robot.senses.workbench = own
             team.written[k] = rows.shape[1] > 0 and not _thinks(team, k)
             if team.written[k]:
@@ -155,7 +149,7 @@ def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) 
         elif not team.reported[k] and is_set(team.done, k):
             team.reported[k] = True
             if _thinks(team, k):
-                put_row(who, count, (k, team.periods[k].understood, team.periods[k].judged))
+                put_row(who, count, (k, team.events[k, 0], team.events[k, 1]))
                 count += 1
     return count
 
@@ -163,8 +157,7 @@ def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) 
 @kernel(borrows=True)
 def _thinks(team: TeamArrays, k: int) -> bool:
     """Whether something calls for thinking."""
-    period = team.periods[k]
-    return bool(team.thoughtful[k] or (period.understood | period.judged) != 0)
+    return bool(team.thoughtful[k] or (team.events[k, 0] | team.events[k, 1]) != 0)
 
 
 @kernel(counts_references=True)
@@ -183,14 +176,9 @@ def write_command_rows(team: TeamArrays, first: int, last: int, rows: NDArray[np
 
 
 @kernel(borrows=True)
-def _tick_robot(robot: RobotArrays, twist: FloatArray, seconds: float, period: Any) -> None:
-    events = run_period(robot, True, twist[0], twist[1], twist[2], seconds)
-    period.understood, period.judged = events
-    motion, judged = robot.simulator.sensing[0], robot.judge.state[0]
-    period.pose[0], period.pose[1], period.pose[2] = judged.x, judged.y, judged.heading
-    period.steps, period.in_contact = motion.step, judged.in_contact != 0
-    period.collisions, period.path_length = judged.collisions, judged.path_length
-    period.progress = judged.progress
+def _keep_period(robot: RobotArrays, periods: np.ndarray, k: int) -> None:
+    """Write what became of a robot in its row, beside the other robots'."""
+    periods[k] = robot.judge.state[0].period
 
 
 @kernel
@@ -209,19 +197,3 @@ def write_twists(shares: FloatArray, speeds: FloatArray, twists: FloatArray) -> 
                 return False
             twists[k, step * i] = min(max(shares[k, i], -1.0), 1.0) * speeds[k, step * i]
     return True
-
-
-@kernel
-def count_periods(
-    periods: np.ndarray,
-    driven: Flags,
-    latest: NDArray[np.int64],
-    amounts: FloatArray,
-    truncated: Flags,
-) -> None:
-    """Write what robots did of which no judge has thought; see `judgements.judge`."""
-    for k in range(len(driven)):
-        if driven[k]:
-            period = periods[k]
-            amounts[0, k], amounts[4, k] = period.progress, 1.0 if period.in_contact else 0.0
-            amounts[5, k], truncated[k] = 1.0, period.steps >= latest[k]

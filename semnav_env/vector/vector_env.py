@@ -11,14 +11,14 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
+from semnav_env.control_period import ends, info_of
 from semnav_env.vector.actions import TeamActions
 from semnav_env.vector.arguments import joined, made, naming_robot, one_each, one_seed_each
 from semnav_env.vector.held_action import HeldAction
-from semnav_env.vector.infos import Infos, info_of, step_infos, without
-from semnav_env.vector.judgements import Mask, judge
+from semnav_env.vector.infos import Infos, plain_info, step_infos, without
 from semnav_env.vector.member import TeamMember
 from semnav_env.vector.observations import TeamObservations, team_observations
-from semnav_env.vector.rewards import team_rewards
+from semnav_env.vector.rewards import Mask, TeamRewards
 from semnav_env.vector.team import Team
 from semnav_features.one_thread import ThreadDoor, for_one_thread
 from semnav_features.validation import check_count
@@ -155,7 +155,8 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         if self.autoreset_mode is AutoresetMode.DISABLED and not driven.all():
             raise RuntimeError(f"robots {np.flatnonzero(self._over)} must be reset first")
         held = self._hold(actions, driven)
-        infos = step_infos(self._verdicts, self._team.periods, held.terms, driven)
+        known = info_of(self._team.period, self._verdicts)
+        infos = step_infos(known, held.terms, driven)
         for k, end in held.ends.items():
             infos = self._add_info(infos, end, k)
         begin, self._over = self._over, held.over
@@ -190,7 +191,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
 
     def read_settings(self) -> None:
         """Read anew what was set of the single environments: their rewards and time limits."""
-        self._rewards = team_rewards(self.envs)
+        self._rewards = TeamRewards(self.envs)
         self._latest = np.array([env.max_steps for env in self.envs])
 
     def close_extras(self, **_: Any) -> None:
@@ -231,13 +232,14 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
                 break
             if period == self._repeat - 1:
                 self._observations.prepare(team)
-            judgements = team.drive(twists, going)
-            judged = judge(self.envs, team.periods, going, judgements, self._latest)
-            held.add(judged, self._rewards.terms(judged, actions))
-            over = judged.terminated | judged.truncated
-            for k in _indices(over):
-                held.ends[k] = self.envs[k].conclude(bool(judged.truncated[k]))
-            for k in _indices(judged.thought | over):
+            thought = team.drive(twists, going)
+            terms = self._rewards.terms(team.period, actions, going)
+            terminated, truncated = (each & going for each in ends(team.period, self._latest))
+            held.add(terms, terminated, truncated)
+            over = _indices(terminated | truncated)
+            for k in over:
+                held.ends[k] = self.envs[k].conclude(bool(truncated[k]))
+            for k in (*thought, *over):
                 self._verdicts[k] = self.envs[k].judge.verdicts
             if self.render_mode is not None:
                 self._show(going)
@@ -266,7 +268,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
 
     def _final(self, infos: Infos, over: Mask) -> Infos:
         """Infos in which what is known of episodes that are over is said to be final."""
-        finals = {k: info_of(infos, k) for k in _indices(over)}
+        finals = {k: plain_info(infos, k) for k in _indices(over)}
         infos = without(infos, over) if finals else infos
         for k, info in finals.items():
             final = {"final_obs": self.envs[k].observe(), "final_info": info}

@@ -12,8 +12,8 @@ from shapely import Point
 from semnav_agents.evaluation.drive import drive
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
+from semnav_env.judge import Verdict
 from semnav_env.judge.episodes import Episode
-from semnav_env.judge.verifier import Verdict
 from semnav_env.world.maps import FloorPlan
 from semnav_env.world.simulator import odometry_settings
 from semnav_features.frames import Pose, compose
@@ -72,11 +72,11 @@ def endings(condition: Condition, episodes: list[Episode]) -> Iterator[Ending]:
     )
     for episode in episodes:
         driven = drive(env, agent, episode.number, {"episode": episode})
-        true, start = env.world.pose, driven.verifier.mission.start
+        true, start = env.world.pose, driven.judge.mission.start
         believed = compose(start, env.belief.pose)
         error = math.dist(true[:2], believed[:2])
         elsewhere = _room(env.floor_plan, true) != _room(env.floor_plan, believed)
-        wrong_door = driven.verifier.verdict is Verdict.WRONG_DOOR
+        wrong_door = driven.judge.verdict is Verdict.WRONG_DOOR
         yield Ending(driven.metrics.success, wrong_door, elsewhere and error > DOORWAY, error)
 
 

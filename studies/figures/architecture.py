@@ -39,7 +39,7 @@ ABOUT = {
     "semnav_env/mind/grounding": "what a clause refers to in a scene, and where it leads",
     "semnav_env/world/lidar": "the simulated lidar",
     "semnav_env/mind/localization": "where a robot is in a plan that it knows, by its doors",
-    "semnav_env/judge": "whether a command was carried out, and what episodes are about",
+    "semnav_env/judge": "the judge: whether a command was carried out",
     "semnav_env/mind": "the robot's side: what it believes and is shown",
     "semnav_env/world": "what there is: plans, physics, sensors, people",
     "semnav_env/world/maps": "floor plans: read, check, find ways",
@@ -54,7 +54,6 @@ ABOUT = {
     "semnav_env/world/simulator": "world, lidar and odometry behind `step(twist) -> Sensed`",
     "semnav_env/judge/tasks": "what episodes are about, and what a step is worth",
     "semnav_env/vector": "many robots in one environment",
-    "semnav_env/judge/verifier": "the judge",
     "semnav_env/world/physics": "the physics; the only folder that imports Pymunk",
     "semnav_agents": "scripted, oracle and learned agents, and floors, behind one protocol",
     "semnav_agents/evaluation": "suites of episodes, driven and judged",
@@ -98,17 +97,22 @@ changes: a door, a reward term, a clause, a sensor, a format, an agent, an entry
 
 ## Three walks
 
-**A scan.** `SemNavEnv.step` (`semnav_env/env.py`) makes one compiled call, `run_period`
-(`semnav_env/robot_loop.py`), which calls three others. `sense`
+**A scan.** `SemNavEnv.step` (`semnav_env/env.py`) is one control period, which stands in
+`semnav_env/control_period.py` from top to bottom: drive, sense, understand, judge, reward, end,
+info. The first four are one compiled call, `run_period`, which calls three others. `sense`
 (`semnav_env/world/simulator/sensing.py`) drives the body (`semnav_env/world/physics/drive.py`),
 reckons (`semnav_env/world/simulator/odometry.py`) and scans. `understand`
 (`semnav_env/mind/belief/understand.py`) extracts the features
 (`semnav_features/kernels/chain.py`), corrects the drift (`semnav_features/kernels/drift.py`),
 remembers walls and doors (`semnav_features/kernels/memory.py`) and notes how far the clause under
 way has come (`semnav_env/mind/grounding/clause_progress.py`). `judge_motion`
-(`semnav_env/judge/verifier/judge_record.py`) keeps the judge's count. They return events, such as
-a completed clause; only where there is one does `BeliefTracker.think`
-(`semnav_env/mind/belief/tracker.py`) ground anew. On a real robot `BeliefTracker.update` calls
+(`semnav_env/judge/judge_record.py`) keeps the judge's count, and writes the `Period`: what became
+of the robot. They return events, such as a completed clause; only where there is one does
+`RobotLoop.think` let `BeliefTracker.think` (`semnav_env/mind/belief/tracker.py`) ground anew and
+`Judge.think` complete the `Period`. Rewards, ends and infos are made of it by functions that take
+numbers for one robot and arrays for many: `SemNavVectorEnv` (`semnav_env/vector/vector_env.py`)
+is the same control period, with `run_period` in threads (`semnav_env/vector/tick.py`) and the
+functions called once. On a real robot `BeliefTracker.update` calls
 `understand` with what was sensed. `EntryObservation.observe`
 (`semnav_env/mind/observations/observer.py`) makes the arrays that an agent gets.
 
@@ -116,15 +120,15 @@ a completed clause; only where there is one does `BeliefTracker.think`
 clauses. `MissionMaker` (`semnav_env/judge/tasks/mission_maker.py`) checks on the floor plan that
 it can be carried out. The robot's `Follower` (`semnav_env/mind/grounding/follower.py`) holds the
 clause under way and asks `semnav_env/mind/grounding/ground.py` where it leads, on what is
-remembered; the answer is a goal: seek, reach, pass or stop. The judge's `Verifier`
-(`semnav_env/judge/verifier/verifier.py`) runs the same follower on the true scene.
+remembered; the answer is a goal: seek, reach, pass or stop. The `Judge`
+(`semnav_env/judge/judge.py`) runs the same follower on the true scene and says what became of
+each clause, a `Verdict`.
 
 **An action.** `Actions.twist` (`semnav_env/robots/actions.py`) turns the action into a velocity.
 `drive` (`semnav_env/world/physics/drive.py`) bounds its acceleration and lets Chipmunk, the
-engine in Pymunk, move the body (`semnav_env/world/physics/chipmunk.py`). The true `Motion` goes
-to the `EpisodeJudge` (`semnav_env/judge/tasks/judge.py`): crossed doors, reached places,
-progress. `RewardWeights.terms` (`semnav_env/judge/tasks/rewards.py`) says what the step was
-worth.
+engine in Pymunk, move the body (`semnav_env/world/physics/chipmunk.py`). The true motion goes to
+the `JudgeRecord` (`semnav_env/judge/judge_record.py`): crossed doors, reached places, progress.
+`weigh` (`semnav_env/judge/tasks/rewards.py`) says what the step was worth.
 
 ## Folders
 

@@ -10,7 +10,7 @@ import numpy as np
 from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.judge.verifier import plan_goals
+from semnav_env.judge import plan_goals
 from semnav_env.language import Approach, Command, DoorReference, GoToDoor, Side
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.mind.grounding.goal import door_of

@@ -64,7 +64,7 @@ def draw_robot(ax: Axes, pose: Pose) -> None:
 
 
 def draw_goal(ax: Axes, goal: Goal) -> None:
-    """The goal with its tolerances: the verifier's, and within it the robot's own."""
+    """The goal with its tolerances: the judge's, and within it the robot's own."""
     if isinstance(goal, ReachGoal):
         for share in (1.0, 0.5):
             _draw_tolerance(ax, goal, share)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_env.language.corpora import ParseOutcome, development_corpora, load_sentences
+from semnav_env.language.corpora import ParseOutcome, load_sentences
+from studies.corpora import development_corpora
 from studies.speech.robustness import (
     changed_commands,
     outcomes,

@@ -10,7 +10,8 @@ from typing import Literal, get_args
 import numpy as np
 
 from semnav_agents.translating.files import save_translator
-from semnav_env.language.corpora import ParseOutcome, development_corpora, load_sentences
+from semnav_env.language.corpora import ParseOutcome, load_sentences
+from studies.corpora import development_corpora
 from studies.translating.measure import counted, interpreters
 from studies.translating.texts import authored, disturbed, generated
 from studies.translating.training import TranslatorTraining, trained

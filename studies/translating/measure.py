@@ -14,6 +14,7 @@ from semnav_env.language.command import Command
 from semnav_env.language.corpora import ParseOutcome, Sentence
 from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.corpora.measure import rooms_in
+from semnav_env.language.defaults import decided
 from semnav_env.language.errors import AmbiguousCommandError, CommandError
 from semnav_env.language.interpreters import Interpretation, Interpreter
 from semnav_env.language.languages import english
@@ -32,7 +33,8 @@ class RecognisingGrammar:
 
     def interpret(self, text: str) -> Interpretation:
         """What the grammar understands."""
-        return Interpretation(text, readings(text, None, self.rooms), english(), "grammar")
+        found = decided(readings(text, None, self.rooms))
+        return Interpretation(text, found, english(), "grammar")
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from semnav_env.language.clauses import Clause, IfThere, Turn, Turning
 from semnav_env.language.command import MAX_CLAUSES, Command, reference_of, room_of
 from semnav_env.language.corpora import Sentence, load_sentences
 from semnav_env.language.corpora.measure import rooms_in
+from semnav_env.language.declarations import field_names
 from semnav_env.language.references import DoorReference, PlaceReference, Side
 from semnav_env.language.rewording import paraphrases
 from semnav_env.language.sampling import sample_command
@@ -102,7 +103,7 @@ def _revalued_clause(clause: Clause, swaps: bool, rng: np.random.Generator) -> C
     if what is None:
         return clause
     new = _revalued_reference(what, swaps, rng)
-    name = next(key for key in ("until", "at", "door", "what") if getattr(clause, key, 0) is what)
+    name = next(key for key in field_names(type(clause)) if getattr(clause, key) is what)
     return _with(clause, name, new)
 
 
@@ -209,8 +210,8 @@ def _mirrored_command(command: Command) -> Command:
 def _mirrored_clause(clause: Clause) -> Clause:
     if isinstance(clause, Turn):
         return replace(clause, turning=Turning(_SWAPPED.get(clause.turning, clause.turning)))
-    for name in ("door", "until", "what"):
-        value = getattr(clause, name, None)
+    for name in field_names(type(clause)):
+        value = getattr(clause, name)
         if isinstance(value, Side):
             return _with(clause, name, Side(_SWAPPED[value]))
         if isinstance(value, DoorReference) and value.side is not None:

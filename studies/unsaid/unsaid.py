@@ -17,7 +17,7 @@ import numpy as np
 from semnav_agents.base import Agent
 from semnav_agents.evaluation.drive import drive
 from semnav_env.env import SemNavEnv
-from semnav_env.judge.verifier import place, plan_goals
+from semnav_env.judge import place, plan_goals
 from semnav_env.language import Command, DoorReference, GoToDoor, Leave, Side, Turn, Turning
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.robots import RobotSpec
@@ -90,11 +90,11 @@ def follow(
     understood = _leads_there(env, trial)
     if agent is None or not understood:
         return Followed(understood, None if agent is None else False)
-    return Followed(True, drive(env, agent, seed, options).verifier.success)
+    return Followed(True, drive(env, agent, seed, options).judge.success)
 
 
 def _leads_there(env: SemNavEnv, trial: Unsaid) -> bool:
-    found = env.judge.verifier.mission.goals
+    found = env.judge.mission.goals
     meant = plan_goals(env.floor_plan, trial.meant, trial.pose)
     return bool(found) and math.dist(place(found[-1]), place(meant[-1])) < 0.1
 

@@ -19,6 +19,7 @@ from tests.support.episodes import START, fresh
 
 HEIDELBERG = SUITES["heidelberg"]
 SHORT = (HEIDELBERG[0], HEIDELBERG[3])
+VILLA = tuple(trial for trial in SUITES["villa_hall"] if "first door" in trial.command)
 OFFICE = tuple(trial for trial in SUITES["office_cross"] if trial.pose[0] == 26.0)
 
 
@@ -56,6 +57,23 @@ def test_scripted_agent_never_cuts_through_a_neighbouring_room() -> None:
     ]
     [result] = run_suite([trial], "scripted", "spot", seeds=[4])
     assert result.success
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+@pytest.mark.parametrize("trial", VILLA, ids=lambda trial: trial.command)
+def test_in_the_hall_of_the_villa_no_other_door_is_used(robot: str, trial: Trial) -> None:
+    """The hall is as wide as the bodies are long, and behind its doors nothing is seen."""
+    results = run_suite([trial], "scripted", robot, seeds=[0, 1])
+    assert all(result.success for result in results)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_in_the_villa_nineteen_of_twenty_succeed_with_each_command(robot: str) -> None:
+    """`semnav evaluate villa_hall --seeds 20`."""
+    for trial in SUITES["villa_hall"]:
+        results = run_suite([trial], "scripted", robot, seeds=range(20), workers=2)
+        assert sum(result.success for result in results) >= 19, trial.command
 
 
 @pytest.mark.slow

@@ -4,15 +4,19 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from semnav_agents.planning.doorway import barriers_across, target_behind
+from semnav_agents.planning.doorway import barriers_across, room_behind, target_behind
 from semnav_agents.planning.driver import Driver
 from semnav_agents.planning.follower import PathProgress, follow
 from semnav_agents.planning.guard import safe_share
 from semnav_agents.planning.obstacles import points_of_segments
-from semnav_agents.planning.planner import DriveTarget, plan
+from semnav_agents.planning.planner import DriveTarget, is_free, plan
 from semnav_agents.planning.track import PathTrack
 from semnav_env.robots import SPOT, WHEELCHAIR
+from semnav_features.frames import points_to_local, to_parent
+from semnav_features.scene import Door
 from tests.support.kinematics import (
     HALLWAY_STARTS,
     Kinematics,
@@ -145,30 +149,87 @@ GATES = {y: ((3.0, y - 0.5), (3.0, y + 0.5)) for y in (0.0, 4.0)}
 def test_the_way_to_a_gate_leads_through_that_gate():
     points, barrier = wall_with_two_gaps()
     driver, target = Driver(WHEELCHAIR), DriveTarget((6.0, 0.0, 0.0), 0.2, None, gate=GATES[4.0])
-    driver.drive(points, target, (0.0, 0.0, 0.0))
-    assert driver.path.crosses(*GATES[0.0])
-    driver.reset()
-    driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
-    assert driver.path.complete
-    assert driver.path.crosses(*GATES[4.0])
-    assert not driver.path.crosses(*GATES[0.0])
+    for barriers in (NOTHING, barrier):
+        driver.reset()
+        driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barriers)
+        assert driver.path.complete
+        assert driver.path.crosses(*GATES[4.0])
+        assert not driver.path.crosses(*GATES[0.0])
     before = driver.path
     for _ in range(driver.check_every):
         driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
     assert driver.path is before
 
 
-def test_barriers_are_passed_only_for_gates_or_as_a_last_way():
+def test_barriers_are_passed_as_a_last_way_alone():
     points, barrier = wall_with_two_gaps()
     beyond = ((5.0, -1.0), (5.0, 1.0))
     driver, target = Driver(WHEELCHAIR), DriveTarget((6.0, 0.0, 0.0), 0.2, None, gate=beyond)
     driver.drive(points, target, (0.0, 0.0, 0.0), barriers=barrier)
-    assert driver.path.crosses(*GATES[0.0])
+    assert driver.path.crosses(*GATES[4.0])
+    assert not driver.path.crosses(*GATES[0.0])
+    assert driver.path.crosses(*beyond)
     closed = np.vstack((points, points_of_segments(np.array([[3.0, 3.5, 3.0, 4.5]]))))
     driver.reset()
     driver.drive(closed, target, (0.0, 0.0, 0.0), barriers=barrier)
     assert driver.path.complete
     assert driver.path.crosses(*GATES[0.0])
+
+
+HALL_START = (-1.5, 4.35, math.pi)
+"""In the hall of the villa, 1.10 m wide, looking west."""
+
+
+def hall_seen_ahead():
+    """What a lidar sees of the hall's walls from `HALL_START`, and what bars the door at its end.
+
+    Nothing is seen behind the robot, nor of the room behind the door on the right.
+    """
+    seen = [
+        (-6.2, 3.9, -6.2, 3.8),
+        (-6.2, 3.8, -1.6, 3.8),
+        (-1.6, 4.9, -4.35, 4.9),
+        (-5.25, 4.9, -6.2, 4.9),
+        (-6.2, 4.9, -6.2, 4.8),
+    ]
+    at_end = points_of_segments(np.array([(-6.2, 4.8, -6.2, 3.9)]))
+    return points_of_segments(np.array(seen)), at_end
+
+
+@ROBOTS
+def test_a_door_is_entered_by_itself_and_not_through_what_is_unseen(robot):
+    """Neither through the next door, nor through the wall beside, which is not seen behind."""
+    points, at_end = hall_seen_ahead()
+    door = Door((-4.35, 4.9), (-5.25, 4.9))
+    driver = Driver(robot)
+    driver.drive(points, target_behind(door, HALL_START[:2]), HALL_START, barriers=at_end)
+    assert driver.path.complete
+    assert driver.path.crosses(door.start, door.end)
+    assert is_free(at_end, driver.path.poses, robot)
+
+
+def test_a_door_is_entered_where_another_one_was_wrongly_seen_in_the_way():
+    points, _ = hall_seen_ahead()
+    wrong = points_of_segments(np.array([(-3.4, 3.85, -3.4, 4.85)]))
+    door = Door((-4.35, 4.9), (-5.25, 4.9))
+    driver = Driver(WHEELCHAIR)
+    driver.drive(points, target_behind(door, HALL_START[:2]), HALL_START, barriers=wrong)
+    assert driver.path.complete
+    assert driver.path.crosses(door.start, door.end)
+
+
+@given(st.floats(-math.pi, math.pi), st.floats(0.8, 1.2), st.booleans(), st.sampled_from((1, -1)))
+def test_the_room_behind_a_door_is_open_at_the_door_alone(heading, width, swapped, side):
+    """Its points keep off the gap, lie on the target's side of it, and reach both jambs."""
+    frame = (3.0, -2.0, heading)
+    jambs = [to_parent(frame, (0.0, 0.0)), to_parent(frame, (width, 0.0))]
+    target = (*to_parent(frame, (width / 2, side * 1.3)), 0.0)
+    gate = (jambs[1], jambs[0]) if swapped else (jambs[0], jambs[1])
+    x, y = points_to_local(frame, room_behind(gate, target)).T
+    assert ((x < 1e-9) | (x > width - 1e-9) | (side * y > 2.0)).all()
+    assert (side * y > -1e-9).all()
+    for jamb in (0.0, width):
+        assert np.hypot(x - jamb, y).min() < 1e-9
 
 
 def test_a_short_detour_leads_around_a_barrier():

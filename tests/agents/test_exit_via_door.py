@@ -26,7 +26,7 @@ from studies.exits.exit_rules import exit_via_door, lining_up
 
 DOOR = DoorSide((0.45, 0.0), (-0.45, 0.0))
 VILLA = load_floor_plan("villa_hall")
-ROOM, NAME = "room_daughter", "daughter"
+ROOM, NAME = "daughter's bedroom", "daughter"
 HERE = (0.0, -1.0, 0.0)
 NOTHING: FloatArray = np.empty((0, 2))
 SHARE, SLOW_SHARE = 8, 100

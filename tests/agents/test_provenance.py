@@ -39,13 +39,13 @@ def near(text: str = "# no comment") -> bool:
 
 
 @pytest.fixture
-def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A copy of the sources, of which the fingerprint is taken."""
-    copy = tmp_path / "semnav_env"
-    left_out = shutil.ignore_patterns("frozen", "pretrained", "bundled", "__pycache__", "scripts")
-    shutil.copytree(str(files("semnav_env")), copy, ignore=left_out)
-    monkeypatch.setattr(made_by, "files", lambda _: copy)
-    return copy
+def packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with copies of the sources, of which the fingerprint is taken."""
+    left_out = shutil.ignore_patterns("frozen", "pretrained", "bundled", "__pycache__")
+    for name in ("semnav_features", "semnav_env", "semnav_agents"):
+        shutil.copytree(str(files(name)), tmp_path / name, ignore=left_out)
+    monkeypatch.setattr(made_by, "files", lambda name: tmp_path / name)
+    return tmp_path
 
 
 def fingerprint() -> str:
@@ -65,40 +65,48 @@ def test_rewording_a_module_changes_nothing_that_counts() -> None:
     assert made_by.bare(MODULE.replace("# no", "# a")) != made_by.bare(MODULE)
 
 
-def test_a_copy_of_the_sources_has_their_fingerprint(package: Path) -> None:
+def test_a_copy_of_the_sources_has_their_fingerprint(packages: Path) -> None:
     assert fingerprint() == made_by.rules_fingerprint()
 
 
 @pytest.mark.parametrize(
     ("file", "before", "after"),
     [
-        ("rules.py", "stand_off: Length = 0.9", "stand_off: Length = 0.8"),
-        ("grounding/goals.py", "import annotations", "import annotations, division"),
-        ("verifier/verifier.py", "import annotations", "import annotations, division"),
-        ("semnav_features/extraction.py", "import annotations", "import annotations, division"),
-        ("semnav_features/kernels/doors.py", "import annotations", "import annotations, division"),
-        ("commands/english.json", "door", "gate"),
+        ("semnav_env/rules.py", "stand_off: Length = 0.9", "stand_off: Length = 0.8"),
+        (
+            "semnav_env/mind/grounding/goals.py",
+            "import annotations",
+            "import annotations, division",
+        ),
+        (
+            "semnav_env/judge/judge.py",
+            "import annotations",
+            "import annotations, division",
+        ),
+        ("semnav_features/extraction.py", "annotations", "annotations, division"),
+        ("semnav_features/kernels/doors.py", "annotations", "annotations, division"),
+        ("semnav_env/language/english.json", "door", "gate"),
     ],
 )
 def test_what_decides_changes_the_fingerprint(
-    package: Path, file: str, before: str, after: str
+    packages: Path, file: str, before: str, after: str
 ) -> None:
-    edited(package / file, lambda text: text.replace(before, after, 1))
+    edited(packages / file, lambda text: text.replace(before, after, 1))
     assert fingerprint() != made_by.rules_fingerprint()
 
 
-def test_words_and_agents_do_not_change_the_fingerprint(package: Path) -> None:
-    edited(package / "rules.py", lambda text: f"# A remark.\n{text}")
-    edited(package / "agents" / "scripted.py", lambda text: f"{text}\nMORE = 1\n")
+def test_words_and_agents_do_not_change_the_fingerprint(packages: Path) -> None:
+    edited(packages / "semnav_env" / "rules.py", lambda text: f"# A remark.\n{text}")
+    edited(packages / "semnav_agents" / "scripted.py", lambda text: f"{text}\nMORE = 1\n")
     assert fingerprint() == made_by.rules_fingerprint()
 
 
-def test_the_commit_is_that_of_the_checkout_of_the_package(package: Path) -> None:
+def test_the_commit_is_that_of_the_checkout_of_the_package(packages: Path) -> None:
     """A package that lies in somebody's checkout, but is not kept there, has no commit."""
 
     def git(*words: str) -> str:
         named = ("-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "commit.gpgsign=false")
-        command = ["git", "-C", str(package.parent), *named, *words]
+        command = ["git", "-C", str(packages), *named, *words]
         return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 
     git("init")
@@ -107,12 +115,12 @@ def test_the_commit_is_that_of_the_checkout_of_the_package(package: Path) -> Non
     git("add", "semnav_env")
     git("commit", "-m", "the package")
     assert made_by.commit.__wrapped__() == git("rev-parse", "HEAD")
-    edited(package / "rules.py", lambda text: f"{text}\n")
+    edited(packages / "semnav_env" / "rules.py", lambda text: f"{text}\n")
     assert made_by.commit.__wrapped__() == f"{git('rev-parse', 'HEAD')}-dirty"
 
 
-def test_without_git_there_is_no_commit(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PATH", str(package))
+def test_without_git_there_is_no_commit(packages: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(packages))
     assert made_by.commit.__wrapped__() == ""
 
 

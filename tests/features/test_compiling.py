@@ -218,6 +218,15 @@ def test_long_compiling_is_announced_once_and_short_is_not(capsys, monkeypatch):
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
+def test_a_thread_may_wait_while_another_one_compiles(capsys, monkeypatch):
+    monkeypatch.setattr(time, "perf_counter", lambda: 0.0)
+    notice = CompileNotice()
+    with notice.while_compiling(), notice.while_compiling():
+        notice.work_goes_on()
+    notice.work_goes_on()
+    assert capsys.readouterr().err == ""
+
+
 def test_numba_offers_what_the_kernels_use():
     from semnav_features.kernels.compiling import NUMBA_FITS
 

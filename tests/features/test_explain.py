@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -129,7 +130,7 @@ def gap(width: float, recess: float | None = None) -> FloatArray:
     return np.concatenate(walls)
 
 
-def reasons_of_doors(segments: FloatArray, **limits: float) -> list[str]:
+def reasons_of_doors(segments: FloatArray, **limits: Any) -> list[str]:
     scene = explained(segments, ExtractorSettings(**limits))
     assert not scene.doors
     return [rejection.reason for rejection in of_kind(scene, "door")]
@@ -147,7 +148,7 @@ def reasons_of_doors(segments: FloatArray, **limits: float) -> list[str]:
     ],
 )
 def test_a_gap_that_is_no_door_says_which_limit_it_failed(
-    width: float, recess: float | None, limits: dict[str, float], reason: str
+    width: float, recess: float | None, limits: dict[str, Any], reason: str
 ) -> None:
     assert any(reason in found for found in reasons_of_doors(gap(width, recess), **limits))
 

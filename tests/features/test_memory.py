@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from semnav_features.frames import Pose
 from semnav_features.memory import SceneMemory
+from semnav_features.rules import DoorRules
 from semnav_features.scene import ends_of
 from tests.support.remembering import DOOR_A, DOOR_B, WALL_A, Ends, see
 
@@ -36,6 +37,36 @@ def test_a_door_counts_the_sooner_the_surer_its_sightings_are(
         see(memory, doors=[DOOR_A], confidence=confidence)
         sizes.append(memory.size[1])
     assert (sizes.index(1) + 1 if 1 in sizes else None) == sightings
+
+
+@pytest.mark.parametrize(
+    ("width", "counts"), [(0.6, 0), (0.7, 1), (1.2, 1), (1.24, 1), (1.26, 0), (1.4, 0)]
+)
+def test_only_what_all_sightings_together_make_as_wide_as_a_door_counts(
+    width: float, counts: int
+) -> None:
+    memory = SceneMemory()
+    for error in (-0.04, 0.04) * 5:
+        see(memory, doors=[(3.0, 1.0, 3.0 + width + error, 1.0)])
+    assert memory.size[1] == len(memory.scene().doors) == counts
+
+
+def test_how_wide_a_door_is_says_the_rule() -> None:
+    memory = SceneMemory(DoorRules(width_max=1.5))
+    see(memory, doors=[(3.0, 1.0, 4.4, 1.0)], scans=3)
+    assert memory.size[1] == 1
+    memory.clear()
+    assert memory.size[1] == 0
+    see(memory, doors=[(3.0, 1.0, 4.6, 1.0)], scans=3)
+    assert memory.size[1] == 0
+
+
+def test_a_gap_too_wide_for_a_door_hides_no_door() -> None:
+    memory = SceneMemory()
+    see(memory, doors=[(3.0, 1.0, 4.45, 1.0)], scans=9)
+    see(memory, doors=[(3.0, 1.0, 4.0, 1.0)], scans=3)
+    (door,) = memory.scene().doors
+    assert door.end == pytest.approx((4.0, 1.0))
 
 
 def test_a_door_stays_when_it_is_out_of_view() -> None:

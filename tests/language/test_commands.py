@@ -30,9 +30,13 @@ from semnav_env.language import (
     Stop,
     Turn,
     Turning,
+    decode,
+    encode,
+    from_program,
     parse,
     sample_clause,
     sample_command,
+    to_program,
 )
 from semnav_env.language.languages import languages
 from tests.support.command_strategies import clauses, commands
@@ -141,6 +145,15 @@ def test_sampled_commands_come_back_from_their_words(language: str, count: int) 
     for _ in range(count):
         command = sample_command(rng)
         assert parse(command.say(language), language) == command
+
+
+@pytest.mark.parametrize("count", [500, pytest.param(100_000, marks=pytest.mark.slow)])
+def test_sampled_commands_come_back_from_programs_and_tokens(count: int) -> None:
+    rng = np.random.default_rng(11)
+    for _ in range(count):
+        command = sample_command(rng)
+        assert from_program(to_program(command)) == command
+        assert decode(encode(command)) == command
 
 
 @pytest.mark.parametrize("bad", [0, -1, 0.3, 50.5, float("nan"), float("inf")])

@@ -10,8 +10,6 @@ from semnav_agents.translating.interpreter import understand
 from semnav_env.language import parse
 from semnav_env.language.corpora import (
     ParseOutcome,
-    development_corpora,
-    held_out_corpora,
     judge,
     load_sentences,
     verdicts,
@@ -20,6 +18,7 @@ from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.corpora.notation import read_meaning
 from semnav_env.language.corpora.sentences import Sentence
 from semnav_scripts.main import main
+from studies.corpora import development_corpora, held_out_corpora
 
 FROZEN = {
     "english": "c6715a0370b6e6dec67ecacbe6edee88a9997e0dc590327c044b2aa12eaa3c81",
@@ -143,3 +142,16 @@ def test_a_meaning_that_is_none_is_refused_with_its_line(tmp_path, capsys) -> No
     corpus.write_text('{"text": "x", "kind": "feasible", "meaning": ["jump"]}\n')
     assert main(["evaluate", "language", str(corpus)]) == 2
     assert "line 1: 'jump' is no step" in capsys.readouterr().err
+
+
+def test_without_files_the_sets_of_the_checkout_are_counted(tmp_path, capsys, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["evaluate", "language"]) == 2
+    assert "name files of sentences" in capsys.readouterr().err
+    folder = tmp_path / "studies" / "corpora"
+    folder.mkdir(parents=True)
+    row = {"id": "a", "text": "turn left", "kind": "feasible", "meaning": ["turn left"]}
+    (folder / "mine.jsonl").write_text(json.dumps(row) + "\n")
+    assert main(["evaluate", "language", "--grammar", "--json"]) == 0
+    (counts,) = json.loads(capsys.readouterr().out)["counts"]
+    assert (counts["corpus"], counts["understood"]) == ("mine", 1)

@@ -164,7 +164,6 @@ REFUSED = [
     '"turn left"',
     "please",
     "...",
-    "the second door on the right",
     "drive slowly to the end",
     "go 3² metres",
 ]

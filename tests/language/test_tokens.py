@@ -29,7 +29,8 @@ from semnav_env.language import (
     token_space,
 )
 from semnav_env.language.command import room_of
-from semnav_env.language.tokens import COLUMN_SIZES, ROOM, TOKEN_REFERENTS
+from semnav_env.language.declarations import ROOM
+from semnav_env.language.tokens import COLUMN_SIZES, TOKEN_REFERENTS
 from tests.support.command_strategies import commands, without_rooms
 
 SHAPE = (MAX_CLAUSES, CLAUSE_FEATURES)

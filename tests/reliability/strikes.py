@@ -130,6 +130,7 @@ def _run_in_child(words: list[str], arm: Callable[[], None], errors: int) -> Non
     code = 99
     try:
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - for as long as the process lives
+        os.dup2(errors, 2)
         sys.stderr = os.fdopen(errors, "w", buffering=1)
         signal.signal(signal.SIGALRM, signal.SIG_DFL)
         signal.alarm(WALL_SECONDS)

@@ -18,7 +18,8 @@ from semnav_agents.searching.settings import SearchSettings
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.routes.route_to import route_to
 from semnav_env.rescue.environment import search_and_rescue
-from semnav_env.world.depth import DepthRig, raise_plan
+from semnav_env.robots import DepthRig
+from semnav_env.world.depth import raise_plan, rig_hits
 from semnav_env.world.dynamics import Dynamics
 from semnav_env.world.lidar import Lidar
 from semnav_env.world.maps import FloorPlan, Material, PlanDoor, Region, Surface
@@ -112,7 +113,7 @@ def look_far(plan: FloorPlan, folder: Path) -> Any:
 
 def look_in_depth(plan: FloorPlan, folder: Path) -> Any:
     """Pictures of depth cameras."""
-    return DepthRig.spot().see(raise_plan(plan), START, np.random.default_rng(0))
+    return rig_hits(DepthRig.spot(), raise_plan(plan), START, np.random.default_rng(0)).cloud
 
 
 def find_faults(plan: FloorPlan, folder: Path) -> Any:

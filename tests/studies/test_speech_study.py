@@ -5,7 +5,8 @@ import time
 import numpy as np
 
 from semnav_env.language import parse
-from semnav_env.language.corpora import ParseOutcome, development_corpora, load_sentences
+from semnav_env.language.corpora import ParseOutcome, load_sentences
+from studies.corpora import development_corpora
 from studies.speech.robustness import (
     changed_commands,
     outcomes,

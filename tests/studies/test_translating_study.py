@@ -6,12 +6,12 @@ from semnav_agents.translating.files import BUNDLED_FOLDER
 from semnav_env.language import parse
 from semnav_env.language.corpora import (
     ParseOutcome,
-    development_corpora,
     judge,
     load_sentences,
 )
 from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.corpora.measure import rooms_in
+from studies.corpora import development_corpora
 from studies.translating.infeasible import infeasible
 from studies.translating.measure import interpreters, outcome_of
 from studies.translating.programs import command_of_meaning

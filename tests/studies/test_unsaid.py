@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from semnav_env.env import SemNavEnv
+from semnav_env.judge import plan_goals
 from semnav_env.judge.tasks.implicit import with_implicit_steps
-from semnav_env.judge.verifier import plan_goals
 from semnav_env.language import Leave, parse
 from semnav_env.mind.grounding import GroundingError, PassGoal, ground
 from semnav_env.mind.grounding.room_exits import room_exits

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from semnav_agents.oracle import OracleAgent
+from semnav_env.judge import Judge, Motion, place
 from semnav_env.judge.metrics import Recording
-from semnav_env.judge.verifier import Motion, Verifier, place
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import FloatArray, Point, wrap_angle
 
@@ -47,7 +47,7 @@ class ErringAgent:
 
 
 def ghost(
-    verifier: Verifier,
+    judge: Judge,
     points: list[Point],
     rng: np.random.Generator,
     *,
@@ -55,40 +55,40 @@ def ghost(
     pause: float = 0.0,
     stand: float = 0.0,
 ) -> Recording:
-    """Glide from point to point until the verifier has seen enough; nothing is solid.
+    """Glide from point to point until the judge has seen enough; nothing is solid.
 
     Args:
-        verifier: told every step.
+        judge: told every step.
         points: where to, by the shortest ways.
         rng: of speed and wobble.
         wobble: how far aside it may get, metres.
         pause: seconds to stand still at each point.
         stand: seconds to stand still at the end.
     """
-    speed, start = float(rng.uniform(0.5, 1.5)), verifier.mission.start[:2]
+    speed, start = float(rng.uniform(0.5, 1.5)), judge.mission.start[:2]
     aside = rng.uniform(-1e-3, 1e-3, 2)  # not through the very jambs, which lie on the grid
     path = np.array([start])
     for a, b in pairwise([start, *points]):
-        leg = _timed(verifier.mission.geodesic.to(b).way(a) + aside, speed)
+        leg = _timed(judge.mission.geodesic.to(b).way(a) + aside, speed)
         if wobble > 0.0:
             errors = np.cumsum(rng.normal(0.0, 0.1 * wobble, leg.shape), axis=0)
             leg += np.clip(errors, -wobble, wobble)
         path = np.vstack((path, leg, np.repeat(leg[-1:], round(pause / PERIOD), axis=0)))
     path = np.vstack((path, np.repeat(path[-1:], round(stand / PERIOD), axis=0)))
-    poses = np.column_stack((path, _headings(path, verifier.mission.start[2])))
+    poses = np.column_stack((path, _headings(path, judge.mission.start[2])))
     velocities = np.zeros((len(path), 3))
     velocities[1:, 0] = np.hypot(*np.diff(path, axis=0).T) / PERIOD
     turns = [wrap_angle(turn) for turn in np.diff(poses[:, 2]).tolist()]
     velocities[1:, 2] = np.array(turns) / PERIOD
-    rows = _judged(verifier, poses, velocities)
+    rows = _judged(judge, poses, velocities)
     return Recording(
         poses[:rows], velocities[:rows], np.zeros(rows, dtype=np.int64), np.zeros(rows), PERIOD
     )
 
 
-def targets(plan: FloorPlan, verifier: Verifier, rng: np.random.Generator) -> list[Point]:
+def targets(plan: FloorPlan, judge: Judge, rng: np.random.Generator) -> list[Point]:
     """The places of the goals, or with errors: others, too few, another door first."""
-    points = [_beyond(goal) for goal in verifier.mission.goals]
+    points = [_beyond(goal) for goal in judge.mission.goals]
     kind = rng.integers(5)
     door = plan.doors[rng.integers(len(plan.doors))].midpoint
     if kind == 1:
@@ -128,12 +128,12 @@ def _headings(path: FloatArray, start: float) -> FloatArray:
     return np.array(headings)
 
 
-def _judged(verifier: Verifier, poses: FloatArray, velocities: FloatArray) -> int:
-    """Tell the verifier every step until it is over; the rows that it was told of."""
+def _judged(judge: Judge, poses: FloatArray, velocities: FloatArray) -> int:
+    """Tell the judge every step until it is over; the rows that it was told of."""
     steps = zip(poses[1:].tolist(), velocities[1:].tolist(), strict=True)
     for row, ((x, y, heading), (forward, _, turn)) in enumerate(steps, start=2):
-        verifier.update(Motion((x, y, heading), forward, turn, False, PERIOD))
-        if verifier.over:
+        judge.update(Motion((x, y, heading), forward, turn, False, PERIOD))
+        if judge.over:
             return row
-    verifier.out_of_time()
+    judge.out_of_time()
     return len(poses)

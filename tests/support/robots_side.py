@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from semnav_env.mind.belief import Belief, BeliefTracker
 
 SIMULATOR = ("dynamics", "env", "episodes", "lidar", "maps", "metrics", "observations", "rendering")
-SIMULATOR += ("robots", "routes", "simulator", "tasks", "verifier", "world", "agents", "scripts")
+SIMULATOR += ("robots", "routes", "simulator", "tasks", "judge", "world", "agents", "scripts")
 FORBIDDEN = {"pymunk", "shapely", *(f"semnav_env.{name}" for name in SIMULATOR)}
 
 

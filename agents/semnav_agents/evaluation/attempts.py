@@ -12,7 +12,7 @@ from typing import Any
 
 from semnav_agents.evaluation.provenance import UNKNOWN, Provenance
 from semnav_features.decompression import read_lines
-from semnav_features.validation import clipped, shown
+from semnav_features.validation import clipped, require, shown
 from semnav_features.writing import write_file
 
 NOT_KNOWN = Provenance(UNKNOWN, "", UNKNOWN).row()
@@ -102,6 +102,8 @@ def _attempt(line: str, place: str) -> Attempt:
             hint = "; evaluate anew with --out" if each.name not in row else ""
             raise ValueError(f"{place}: {each.name} is {shown(value)}, not of type {right}{hint}")
         values[each.name] = value
+    spl = values["spl"]
+    require(spl != spl or 0.0 <= spl <= 1.0, f"{place}: spl", spl, "from 0 to 1, or null")
     return Attempt(**values)
 
 

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
+from semnav_env.judge import Judge, Verdict
 from semnav_env.judge.metrics import Metrics
-from semnav_env.judge.verifier import Verdict, Verifier
 from semnav_env.mind.grounding.goal import Goal, door_of
 
 
-def cause_of(verifier: Verifier, metrics: Metrics, impossible: str | None) -> str:
+def cause_of(judge: Judge, metrics: Metrics, impossible: str | None) -> str:
     """Why an episode failed; empty if it did not.
 
     Args:
-        verifier: the judge of the episode.
+        judge: the judge of the episode.
         metrics: of the episode.
         impossible: why the robot believed that the command is impossible; None if it did not.
     """
-    if verifier.success:
+    if judge.success:
         return ""
-    words = [_what_happened(verifier)]
+    words = [_what_happened(judge)]
     if impossible:
         words.append(f"robot: {impossible}")
     words.append(f"{metrics.goal_distance:.1f} m from the goal")
@@ -26,11 +26,11 @@ def cause_of(verifier: Verifier, metrics: Metrics, impossible: str | None) -> st
     return "; ".join(words)
 
 
-def _what_happened(verifier: Verifier) -> str:
-    goal = verifier.follower.goal
-    match verifier.failure:
+def _what_happened(judge: Judge) -> str:
+    goal = judge.follower.goal
+    match judge.failure:
         case Verdict.WRONG_DOOR:
-            return f"crossed {verifier.crossed[-1]}, {_instead(goal)}"
+            return f"crossed {judge.crossed[-1]}, {_instead(goal)}"
         case Verdict.WRONG_TURN:
             return f"left by another arm or went past, {_instead(goal)}"
         case _:

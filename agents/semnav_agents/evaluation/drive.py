@@ -10,12 +10,12 @@ from typing import Any
 from semnav_agents.base import Agent, GoalHolder, steps
 from semnav_agents.evaluation.causes import cause_of
 from semnav_env.env import SemNavEnv
+from semnav_env.judge import Judge, Verdict
 from semnav_env.judge.metrics import Metrics, Recorder, Recording, measure
 from semnav_env.judge.metrics.event_log import events_of
 from semnav_env.judge.metrics.events import Event
 from semnav_env.judge.metrics.final_belief import FinalBelief
-from semnav_env.judge.verifier import Verdict, Verifier
-from semnav_env.judge.verifier.recheck import recheck
+from semnav_env.judge.recheck import recheck
 from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import ORIGIN, compose, relative, to_parent
@@ -27,7 +27,7 @@ class Drive:
 
     Attributes:
         recording: poses, velocities and contacts of every step.
-        verifier: the judge; it knows the plan, the command, the true route and the goals.
+        judge: the judge; it knows the plan, the command, the true route and the goals.
         metrics: all measures.
         cause: why it failed, in words; empty after success.
         robot: the body that drove.
@@ -38,7 +38,7 @@ class Drive:
     """
 
     recording: Recording
-    verifier: Verifier
+    judge: Judge
     metrics: Metrics
     cause: str
     robot: RobotSpec
@@ -49,8 +49,8 @@ class Drive:
     @property
     def kind(self) -> str:
         """The kind of the clause that failed, such as "Turn"; empty after success."""
-        clauses = self.verifier.mission.command.clauses
-        active = min(self.verifier.follower.active, len(clauses) - 1)
+        clauses = self.judge.mission.command.clauses
+        active = min(self.judge.follower.active, len(clauses) - 1)
         return "" if self.metrics.success else type(clauses[active]).__name__
 
     def as_infeasible(self) -> Drive:
@@ -59,9 +59,9 @@ class Drive:
         It is a success if the robot stood still, said that the command is impossible, and had made
         no mistake before. There is no true route to weigh it by, so it has no SPL and SDTW.
         """
-        right = recognised_impossible(self.verifier, self.impossible)
+        right = recognised_impossible(self.judge, self.impossible)
         said = self.impossible or "did not say that it is impossible"
-        cause = "" if right else f"{self.verifier.verdict}; robot: {said}"
+        cause = "" if right else f"{self.judge.verdict}; robot: {said}"
         near = right or self.metrics.oracle_success
         told = replace(
             self.metrics, success=right, oracle_success=near, spl=math.nan, sdtw=math.nan
@@ -69,14 +69,14 @@ class Drive:
         return replace(self, metrics=told, cause=cause)
 
     def rechecked(self) -> str:
-        """The verdict of the second opinion if it differs from the verifier's; otherwise empty."""
-        verifier, mission = self.verifier, self.verifier.mission
-        found = recheck(self.recording, mission.floor_plan, verifier.goals, mission.rules)
-        return "" if found.verdict == verifier.verdict else found.verdict
+        """The verdict of the second opinion if it differs from the judge's; otherwise empty."""
+        judge, mission = self.judge, self.judge.mission
+        found = recheck(self.recording, mission.floor_plan, judge.goals, mission.rules)
+        return "" if found.verdict == judge.verdict else found.verdict
 
     def events(self) -> tuple[Event, ...]:
         """The events of the drive, in the order of time."""
-        return events_of(self.recording, self.verifier.mission.floor_plan)
+        return events_of(self.recording, self.judge.mission.floor_plan)
 
     def save_picture(self, path: str | Path, title: str = "") -> None:
         """Write a picture: plan, true route, path driven, contacts, goals, what was believed."""
@@ -84,19 +84,19 @@ class Drive:
             save_episode,  # matplotlib only when it is wanted
         )
 
-        mission = self.verifier.mission
+        mission = self.judge.mission
         plan, route, goals = mission.floor_plan, mission.route, mission.goals
         save_episode(path, plan, self.recording, self.robot, route, goals, title, self.belief)
 
 
-def recognised_impossible(verifier: Verifier, impossible: str | None) -> bool:
+def recognised_impossible(judge: Judge, impossible: str | None) -> bool:
     """Whether a robot answered an impossible command rightly, see `Drive.as_infeasible`.
 
     Args:
-        verifier: the judge, after the end.
+        judge: the judge, after the end.
         impossible: why the robot believes that the command is impossible.
     """
-    return bool(impossible) and verifier.verdict is Verdict.STOPPED_SHORT
+    return bool(impossible) and judge.verdict is Verdict.STOPPED_SHORT
 
 
 def drive(
@@ -118,13 +118,13 @@ def drive(
         info = step.info
         if film is not None:
             film.note(step.terminated or step.truncated)
-    verifier, recording = env.judge.verifier, recorder.recording()
-    metrics = measure(recording, verifier, env.robot)
+    judge, recording = env.judge, recorder.recording()
+    metrics = measure(recording, judge, env.robot)
     impossible = info["impossible"]
-    cause = cause_of(verifier, metrics, impossible)
+    cause = cause_of(judge, metrics, impossible)
     social = env.world.social()
     believed = _final_belief(env, agent)
-    return Drive(recording, verifier, metrics, cause, env.robot, social, impossible or "", believed)
+    return Drive(recording, judge, metrics, cause, env.robot, social, impossible or "", believed)
 
 
 def _final_belief(env: SemNavEnv, agent: Agent) -> FinalBelief:

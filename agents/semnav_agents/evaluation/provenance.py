@@ -16,20 +16,22 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 
 PACKAGE = "semnav_env"
-"""Name of the package whose sources are read."""
+"""Name of the package whose commit is asked for."""
 
 UNKNOWN = "unknown, before 0.2"
 """Version and rules of results that were kept before results said theirs."""
 
 DECIDING = (
-    *("rules.py", "env.py", "robot_loop.py"),  # tolerances, and the course of a control period
-    *("lidar", "robots", "simulator", "world"),  # how a robot moves, and what it senses
-    *("features", "semnav_features/kernels", "belief", "observations"),  # what it makes of that
-    *("commands", "commands/speech", "grounding", "routes"),  # what words mean
-    *("tasks", "verifier"),  # when an episode ends, and how it is judged
-    *("metrics/measure.py", "metrics/motion.py", "metrics/paths.py"),
+    *("semnav_env/rules.py", "semnav_env/env.py", "semnav_env/control_period.py"),
+    *("semnav_env/robots", "semnav_env/world/physics", "semnav_env/world/simulator"),
+    "semnav_env/world/lidar",
+    *("semnav_features", "semnav_features/kernels"),
+    *("semnav_env/mind/belief", "semnav_env/mind/grounding", "semnav_env/mind/observations"),
+    *("semnav_env/language", "semnav_env/language/speech"),
+    *("semnav_env/judge/routes", "semnav_env/judge/tasks", "semnav_env/judge"),
+    *(f"semnav_env/judge/metrics/{name}.py" for name in ("measure", "motion", "paths")),
 )
-"""Modules of the package, and folders without their subfolders, that decide how episodes go.
+"""Modules, and folders without their subfolders, that decide how episodes go.
 
 What is not among them is named otherwise: agents by the commit, floor plans by their fingerprint
 in each episode, people and other things that move by `dynamics` in each row.
@@ -134,10 +136,10 @@ def _git(folder: Path, *words: str) -> str:
 
 
 def _deciding_sources() -> Iterator[tuple[str, str]]:
-    """Place in the package and text of each file that decides."""
-    top = files(PACKAGE)
+    """Place, from its package on, and text of each file that decides."""
     for name in DECIDING:
-        place = top.joinpath(*name.split("/"))
+        package, *rest = name.split("/")
+        place = files(package).joinpath(*rest)
         if place.is_file():
             yield name, place.read_text("utf-8")
         else:

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 
 from semnav_agents.evaluation.intervals import wilson_interval
+from semnav_env.judge import FAILURES
 from semnav_env.judge.metrics import WORST_SHARES, Metrics, means, worst
-from semnav_env.judge.verifier import FAILURES
 from semnav_env.world.dynamics.social import for_json
 
 INTERVAL_MEASURES = ("success", "contact_free")
@@ -26,7 +26,7 @@ class Result:
         verdicts: one for each clause.
         metrics: all measures.
         cause: why it failed, in words; empty after success.
-        rechecked: verdict of the second opinion if it differs from the verifier's; else empty.
+        rechecked: verdict of the second opinion if it differs from the judge's; else empty.
         social: how near people came, see `SocialRecord.outcome`; empty without people.
         episode: id of a frozen episode; otherwise empty.
         group: name under which it is counted.

@@ -209,7 +209,7 @@ def conclude(
     result = Result(
         command=command,
         seed=seed,
-        verdicts=tuple(str(verdict) for verdict in driven.verifier.verdicts),
+        verdicts=tuple(str(verdict) for verdict in driven.judge.verdicts),
         metrics=driven.metrics,
         cause=driven.cause,
         rechecked=driven.rechecked() if extras.recheck else "",
@@ -217,7 +217,7 @@ def conclude(
         episode=episode,
         group=group or command,
         kind=driven.kind,
-        floor_plan=driven.verifier.mission.floor_plan.name,
+        floor_plan=driven.judge.mission.floor_plan.name,
     )
     if extras.pictures is not None and not result.success:
         name = file_stem(driven, episode or command, seed)
@@ -233,7 +233,7 @@ def file_stem(driven: Drive, command: str, seed: int) -> str:
     words = re.sub("[^a-z0-9]+", "_", command.lower()).strip("_")
     if len(words) > MAX_NAME_LENGTH:
         words = f"{words[:MAX_NAME_LENGTH]}_{zlib.crc32(command.encode()):08x}"
-    return f"{driven.verifier.mission.floor_plan.name}-{words}-{driven.robot.name}-seed{seed}"
+    return f"{driven.judge.mission.floor_plan.name}-{words}-{driven.robot.name}-seed{seed}"
 
 
 def scattered(

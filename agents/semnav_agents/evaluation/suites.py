@@ -88,9 +88,31 @@ _FROM_BEND = _trials(
     "go down the hallway, turn left and take the first door on the right",
 )
 
+_VILLA_HALL = (
+    *_trials(
+        "villa_hall",
+        (1.0, 1.0, math.pi / 2),
+        "turn left at the next corner",
+        "turn left at the corner and go through the first door on the right",
+        "go to the parents' bedroom",
+        "go to the daughter's room",
+    ),
+    *_trials("villa_hall", (1.2, 3.7, -math.pi / 2), "go through the first door on the left"),
+    *_trials(
+        "villa_hall",
+        (-3.0, 4.35, 0.0),
+        "turn right at the next corner",
+        "go to the living room",
+        "go to the kitchen",
+    ),
+    *_trials("villa_hall", (-5.4, 4.35, 0.0), "take the first door on the left"),
+    *_trials("villa_hall", (-1.5, 4.35, math.pi), "go through the first door on the right"),
+)
+
 SUITES = {
     "heidelberg": _HEIDELBERG,
     "office_cross": _FROM_WEST + _FROM_EAST + _FROM_SOUTH + _FROM_BEND,
+    "villa_hall": _VILLA_HALL,
 }
 """The suites by name; each is in the floor plan whose name it has, or begins with."""
 

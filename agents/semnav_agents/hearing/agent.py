@@ -16,7 +16,7 @@ from semnav_agents.hearing.clause_state import ClauseState
 from semnav_agents.hearing.elements import Description, describe
 from semnav_agents.hearing.network import GroundingNetwork, NetworkOutput
 from semnav_agents.scripted import ScriptedAgent
-from semnav_env.language.tokens import TokenVerb
+from semnav_env.language.declarations import TokenVerb
 from semnav_env.mind.grounding import GoalKind
 from semnav_env.mind.observations import SeenGoal, read_odometry
 from semnav_env.robots import RobotSpec

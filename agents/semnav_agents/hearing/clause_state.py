@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_env.language.tokens import CLAUSE_FEATURES, CONDITION_CASES, TokenVerb
+from semnav_env.language.declarations import TokenVerb
+from semnav_env.language.tokens import CLAUSE_FEATURES, CONDITION_CASES
 from semnav_env.mind.grounding.ways import WAY_SPACING, Trail
 from semnav_features.frames import FloatArray, Point, Pose, to_local
 

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from semnav_agents.hearing.elements import ElementKind
 from semnav_agents.hearing.tokens import CLAUSE_SIZE
-from semnav_env.language.tokens import COLUMN_SIZES, TokenVerb
+from semnav_env.language.declarations import TokenVerb
+from semnav_env.language.tokens import COLUMN_SIZES
 
 Arrays = dict[str, NDArray[Any]]
 

@@ -8,14 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.language.clauses import DEGREE_STEP
+from semnav_env.language.declarations import DEGREES, SECONDS
 from semnav_env.language.references import AMOUNT_STEP, STEP_LENGTH, Unit
-from semnav_env.language.tokens import (
-    COLUMN_SIZES,
-    DEGREES,
-    LAST_TOKEN,
-    SECONDS,
-    TOKEN_REFERENTS,
-)
+from semnav_env.language.tokens import COLUMN_SIZES, LAST_TOKEN, TOKEN_REFERENTS
 
 MOST_COUNTED = 12
 """Ordinals up to this have a number of their own in the description."""

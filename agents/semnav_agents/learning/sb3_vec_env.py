@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from semnav_env.env import SemNavEnv
 from semnav_env.vector import SemNavVectorEnv
-from semnav_env.vector.infos import Infos, info_of
+from semnav_env.vector.infos import Infos, plain_info
 
 try:
     from stable_baselines3.common.vec_env import VecEnv
@@ -78,7 +78,7 @@ class SB3VecEnv(VecEnv):
         """Begin episodes, with the seeds and options that were set."""
         options = {"each": self._options}
         observations, infos = self.vector.reset(seed=self._seeds, options=options)
-        self.reset_infos = [info_of(infos, k) for k in range(self.num_envs)]
+        self.reset_infos = [plain_info(infos, k) for k in range(self.num_envs)]
         self._reset_seeds()
         self._reset_options()
         return observations
@@ -93,14 +93,14 @@ class SB3VecEnv(VecEnv):
         over = terminated | truncated
         told = [{"TimeLimit.truncated": each} for each in (truncated & ~terminated).tolist()]
         if self._all_infos:
-            told = [info_of(infos, k) | info for k, info in enumerate(told)]
+            told = [plain_info(infos, k) | info for k, info in enumerate(told)]
         for k in np.flatnonzero(over).tolist():
             told[k] = self._final(infos, k) | told[k]
         return observations, rewards.astype(np.float32), over, told
 
     def _final(self, infos: Infos, index: int) -> dict[str, Any]:
         """What is said of a robot whose episode is over; keeps what is said of its next one."""
-        begun = info_of(infos, index)
+        begun = plain_info(infos, index)
         final: dict[str, Any] = begun.pop("final_info")
         self.reset_infos[index] = begun
         return final | {"terminal_observation": begun.pop("final_obs")}

@@ -9,7 +9,15 @@ import numpy as np
 from semnav_agents.planning.obstacles import point_counts, points_of_segments
 from semnav_agents.planning.planner import DriveTarget
 from semnav_env.robots import RobotSpec
-from semnav_features.frames import FloatArray, Point, heading_between, wrap_angle
+from semnav_features.frames import (
+    FloatArray,
+    Point,
+    Pose,
+    heading_between,
+    points_to_parent,
+    to_local,
+    wrap_angle,
+)
 from semnav_features.scene import Door
 
 DOORWAY_DISTANCE = 0.1
@@ -18,6 +26,11 @@ DOORWAY_DISTANCE = 0.1
 THROUGH_DISTANCE, THROUGH_TOLERANCE = 1.3, 0.5
 """Distance from the door and radius of the region in which a robot is through it, metres:
 everywhere in it a robot 1.1 m long has left the doorway."""
+
+
+ROOM_MARGIN = 1.5
+"""Space that a path may take behind a door, beside the jambs and around the target, metres: that of
+a body in any heading, and the radius of the region in which it is through."""
 
 
 def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
@@ -36,6 +49,29 @@ def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
     stood_in = owner[(np.abs(points) < reach).all(axis=1)]
     others: FloatArray = points[~np.isin(owner, stood_in)]
     return others
+
+
+def room_behind(gate: tuple[Point, Point], target: Pose) -> FloatArray:
+    """Points along the walls of a room behind a gate that is open at the gate alone.
+
+    What a robot has not seen counts as free. These walls keep a path to the target from leading
+    through the wall beside the door.
+
+    Args:
+        gate: the jambs, metres.
+        target: a pose behind them, in the same frame.
+
+    Returns:
+        shape (N, 2), in that frame.
+    """
+    (x, y), end = gate
+    frame = x, y, heading_between(gate[0], end)
+    width, (along, behind) = math.dist(gate[0], end), to_local(frame, target[:2])
+    first, last = min(0.0, along) - ROOM_MARGIN, max(width, along) + ROOM_MARGIN
+    inside = behind + math.copysign(ROOM_MARGIN, behind)
+    corners = [(0.0, 0.0), (first, 0.0), (first, inside), (last, inside), (last, 0.0), (width, 0.0)]
+    ends = points_to_parent(frame, np.array(corners))
+    return points_of_segments(np.hstack((ends[:-1], ends[1:])))
 
 
 def target_behind(door: Door, approach: Point) -> DriveTarget:

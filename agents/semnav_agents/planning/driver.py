@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from semnav_agents.planning.doorway import room_behind
 from semnav_agents.planning.follower import PathProgress, Steering, follow
 from semnav_agents.planning.free import points_around
 from semnav_agents.planning.guard import SPEED_SHARES, safe_share
@@ -187,26 +188,38 @@ class Driver:
     def _path_around(
         self, points: FloatArray, start: Pose, target: DriveTarget, barriers: FloatArray
     ) -> PlannedPath:
-        """A path through the target's gate, if it has one.
+        """A path through the target's gate, if it has one, and through no barrier.
 
-        Barriers count as obstacles if the path then leads through the gate. Without a gate they
-        count if the way around them is no longer than `detour` allows.
+        The first of these is taken that leads right: among the points alone; around barriers and
+        the walls beside the gate; and, where the first misses the gate, around those walls alone,
+        for a barrier may be no door. Without a gate a way around barriers must be no longer than
+        `detour` allows.
         """
         path = plan(points, start, target, self.robot, self.planner)
+        beside = NO_POINTS if target.gate is None else room_behind(target.gate, target.pose)
+        closed = np.vstack((barriers, beside))
         self._heeds_barriers = False
-        if not len(barriers) or self._heads_right(path, target, barriers):
+        if self._heads_right(path, target, closed):
             return path
-        solid = np.vstack((points, barriers))
-        around = plan(solid, start, target, self.robot, self.planner)
-        near = target.gate is not None or around.length < self.detour * path.length
-        leads = around.complete and near and self._heads_right(around, target, barriers)
-        self._heeds_barriers = leads
-        return around if leads else path
+        longest = self.detour * path.length if target.gate is None else math.inf
+        around = plan(np.vstack((points, closed)), start, target, self.robot, self.planner)
+        if self._leads(around, target, barriers) and around.length < longest:
+            self._heeds_barriers = True
+            return around
+        if len(barriers) and not self._heads_right(path, target, NO_POINTS):
+            around = plan(np.vstack((points, beside)), start, target, self.robot, self.planner)
+            if self._leads(around, target, NO_POINTS):
+                return around
+        return path
+
+    def _leads(self, path: PlannedPath, target: DriveTarget, barriers: FloatArray) -> bool:
+        """Whether a path leads to the target, and as it should."""
+        return path.complete and self._heads_right(path, target, barriers)
 
     def _heads_right(self, path: PlannedPath, target: DriveTarget, barriers: FloatArray) -> bool:
-        """Whether a path crosses the target's gate, or without one no barrier."""
-        if target.gate is not None:
-            return path.crosses(*target.gate)
+        """Whether a path crosses no barrier, and the target's gate if it has one."""
+        if target.gate is not None and not path.crosses(*target.gate):
+            return False
         return is_free(barriers, path.poses, self.robot)
 
     def _path_to_stop(self, points: FloatArray, pose: Pose, velocity: Twist) -> PlannedPath | None:

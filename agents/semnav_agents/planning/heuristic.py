@@ -84,5 +84,8 @@ def seconds_at(field: ObstacleField, time: FloatArray, x: float, y: float) -> fl
         return math.inf
     if time[j, i] < math.inf:
         return float(time[j, i])
-    near = time[max(0, j - 1) : j + 2, max(0, i - 1) : i + 2].min()
-    return float(near) + COARSE_CELL
+    least = math.inf  # `min` of a table counts references when it is the first to be compiled
+    for row in range(max(0, j - 1), min(n, j + 2)):
+        for column in range(max(0, i - 1), min(n, i + 2)):
+            least = min(least, time[row, column])
+    return least + COARSE_CELL

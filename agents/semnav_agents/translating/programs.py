@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from enum import StrEnum
+from itertools import islice
+from typing import Any, TypeAlias, TypeVar
 
 from semnav_agents.translating.masking import (
     MAX_ROOMS,
@@ -13,52 +15,32 @@ from semnav_agents.translating.masking import (
     VALUE_SYMBOLS,
     MaskedText,
 )
-from semnav_env.language.clauses import (
-    Approach,
-    Clause,
-    Face,
-    Follow,
-    GoBack,
-    GoToDoor,
-    GoToRoom,
-    IfThere,
-    Leave,
-    SearchHouse,
-    Stop,
-    Turn,
-    Turning,
-)
+from semnav_env.language.clauses import CLAUSE_KINDS, Clause, Turning
 from semnav_env.language.command import Command
-from semnav_env.language.references import (
-    Distance,
-    DoorReference,
-    Place,
-    PlaceReference,
-    RoomReference,
-    Side,
-    Unit,
-)
+from semnav_env.language.declarations import Multiples, Option, Spoken, form_of, open_fields
+from semnav_env.language.references import Place, Side, Unit
+
+S = TypeVar("S", bound=Spoken)
+Fields: TypeAlias = Mapping[str, tuple[Option, ...]]
 
 START, END, REFUSE = "start", "end", "refuse"
 
 _LITERALS = ("0", "1", "2", "3", "4", "5", "-1", "-2", "0.5", "45", "60", "90", "180")
 _OTHER_SIDES = (Side.AHEAD, Side.BEHIND, Side.OPPOSITE)
-_FIXED: dict[str, Clause] = {
-    "leave": Leave(),
-    "back": GoBack(),
-    "search": SearchHouse(),
-    "stop": Stop(),
-}
 
 SYMBOLS = (
     *(START, END, REFUSE),
-    *("follow", "until", "past", "for", "turn", "turn by", "turn around"),
-    *("to", "through", "in", "face", "wall", "wait", "if", "if not", "else"),
-    *_FIXED,
+    *("follow", "until", "past", "for", "turn", "turn_by", "turn_around"),
+    *("to", "through", "in", "face", "wall", "wait", "if", "if_not", "else"),
+    *("leave", "back", "search", "stop"),
     *("door", *(place.value for place in Place), *ROOM_SYMBOLS, *Unit),
     *(*SIDE_SYMBOLS, *_OTHER_SIDES, *VALUE_SYMBOLS, *_LITERALS),
 )
-"""What the network can say; a command is such symbols between `START` and `END`."""
+"""What the network can say; a command is such symbols between `START` and `END`.
+
+The bundled weights know them by their places, so none is taken out or moved. A clause with another
+symbol in its form has no symbols for these weights.
+"""
 
 
 class UnsayableError(ValueError):
@@ -71,81 +53,50 @@ def symbols_of(command: Command, text: MaskedText) -> tuple[str, ...]:
     Raises:
         UnsayableError: it has a value, side or room that the text does not have.
     """
-    return tuple(symbol for clause in command.clauses for symbol in _Speaker(text).clause(clause))
+    return tuple(symbol for clause in command.clauses for symbol in _Speaker(text).said(clause))
 
 
 class _Speaker:
-    """Puts clauses in symbols, with the placeholders of a text."""
+    """Puts clauses and their parts in symbols, with the placeholders of a text."""
 
     def __init__(self, text: MaskedText) -> None:
         self._text = text
 
-    def clause(self, clause: Clause) -> Iterator[str]:
-        match clause:
-            case Follow(None):
-                yield "follow"
-            case Follow(Distance(amount, unit)):
-                yield from ("for", self.value(amount), unit.value)
-            case Follow(until, past):
-                yield from ("past" if past else "until", *self.place(until))
-            case Turn(turning, at, degrees):
-                yield from self.turn(turning, at, degrees)
-            case GoToDoor(door, approach):
-                yield from (approach.value, *self.place(door))
-            case GoToRoom(name, approach):
-                yield from (approach.value, self.room(name))
-            case Face(Side() as side):
-                yield from ("wall", self.side(side))
-            case Face(what):
-                yield from ("face", *self.place(what))
-            case IfThere(what, absent, otherwise):
-                yield "if not" if absent else "if"
-                yield from self.place(what)
-                if otherwise:
-                    yield "else"
-            case Stop(seconds) if seconds:
-                yield from ("wait", self.value(seconds))
-            case _:
-                known = [name for name, fixed in _FIXED.items() if fixed == clause]
-                if not known:
-                    raise UnsayableError(f"there are no symbols for {clause!r}")
-                yield known[0]
+    def said(self, value: Spoken) -> Iterator[str]:
+        """The symbols of a clause, or of a part of one."""
+        template = form_of(value).symbols if value.forms else ""
+        if not template:
+            raise UnsayableError(f"there are no symbols for {value!r}")
+        for word in template.split(" "):
+            if word.startswith("{"):
+                yield from self._field(getattr(value, word[1:-1]))
+            else:
+                yield _sayable(word, SYMBOLS)
 
-    def turn(
-        self, turning: Turning, at: PlaceReference | None, degrees: int | None
-    ) -> Iterator[str]:
-        if turning is Turning.AROUND:
-            yield "turn around"
-        else:
-            yield "turn" if degrees is None else "turn by"
-            yield self.side(Side(turning.value))
-        if degrees is not None:
-            yield self.value(degrees)
-        if at is not None:
-            yield from self.place(at)
+    def _field(self, value: object) -> Iterator[str]:
+        match value:
+            case Spoken():
+                yield from self.said(value)
+            case Side() | Turning():
+                yield self._side(Side(value.value))
+            case StrEnum():
+                yield value.value
+            case str():
+                yield self._room(value)
+            case int() | float():
+                yield self._number(value)
 
-    def place(self, what: Any) -> Iterator[str]:
-        match what:
-            case RoomReference(name):
-                yield self.room(name)
-            case DoorReference(ordinal, side):
-                yield from ("door", self.value(ordinal))
-                if side is not None:
-                    yield self.side(side)
-            case PlaceReference(place, ordinal):
-                yield from (place.value, self.value(ordinal))
-
-    def value(self, number: float) -> str:
+    def _number(self, number: float) -> str:
         if number in self._text.values[:MAX_VALUES]:
             return VALUE_SYMBOLS[self._text.values.index(number)]
         return _sayable(f"{number:g}", _LITERALS)
 
-    def side(self, side: Side) -> str:
+    def _side(self, side: Side) -> str:
         if side in self._text.sides:
             return SIDE_SYMBOLS[self._text.sides.index(side)]
         return _sayable(side.value, tuple(each.value for each in _OTHER_SIDES))
 
-    def room(self, name: str) -> str:
+    def _room(self, name: str) -> str:
         return ROOM_SYMBOLS[self._text.rooms.index(_sayable(name, self._text.rooms[:MAX_ROOMS]))]
 
 
@@ -161,96 +112,93 @@ def command_of(symbols: Sequence[str], text: MaskedText) -> Command:
     Raises:
         UnsayableError: they are no command.
     """
-    listener = _Listener(list(symbols), text)
-    clauses = []
+    reader, clauses, at = _SymbolReader(symbols, text), [], 0
     try:
-        while listener.left:
-            clauses.append(listener.clause())
+        while at < len(symbols):
+            clause, at = reader.first_clause(at)
+            clauses.append(clause)
         return Command(tuple(clauses))
-    except (ValueError, IndexError) as error:
+    except ValueError as error:
         raise UnsayableError(f"{' '.join(symbols)!r} is no command: {error}") from None
 
 
-class _Listener:
-    """Reads clauses from symbols."""
+class _SymbolReader:
+    """Reads clauses and their parts from symbols.
 
-    def __init__(self, left: list[str], text: MaskedText) -> None:
-        self.left, self._text = left, text
+    What is read from a place comes with the place behind it; the longest reading is the first.
+    """
 
-    def clause(self) -> Clause:
-        symbol = self.left.pop(0)
-        match symbol:
-            case "follow":
-                return Follow()
-            case "until" | "past":
-                return Follow(self.place(), symbol == "past")
-            case "for":
-                return Follow(Distance(self.value(), Unit(self.left.pop(0))))
-            case "turn":
-                return Turn(self.turning(), self.maybe_place())
-            case "turn around":
-                return Turn(Turning.AROUND, self.maybe_place())
-            case "turn by":
-                return Turn(self.turning(), degrees=self.whole())
-            case "to" | "through" | "in":
-                return self.destination(Approach(symbol))
-            case "wall":
-                return Face(self.side())
-            case "face":
-                return Face(self.place())
-            case "wait":
-                return Stop(self.whole())
-            case "if" | "if not":
-                what = self.place()
-                otherwise = self.left[:1] == ["else"]
-                del self.left[:otherwise]
-                return IfThere(what, symbol == "if not", otherwise)
-        if symbol in _FIXED:
-            return _FIXED[symbol]
-        raise ValueError(f"{symbol!r} begins no clause")
+    def __init__(self, symbols: Sequence[str], text: MaskedText) -> None:
+        self._symbols, self._text = symbols, text
 
-    def destination(self, approach: Approach) -> GoToDoor | GoToRoom:
-        place = self.place()
-        if isinstance(place, RoomReference):
-            return GoToRoom(place.name, approach)
-        if isinstance(place, DoorReference):
-            return GoToDoor(place, approach)
-        raise ValueError(f"one goes to a door or a room, not to {place!r}")
+    def first_clause(self, at: int) -> tuple[Clause, int]:
+        """The clause that begins at a place."""
+        found = [each for kind in CLAUSE_KINDS.values() for each in self._longest(kind, at)]
+        if not found:
+            raise ValueError(f"{self._symbols[at]!r} begins no clause")
+        return max(found, key=lambda each: each[1])
 
-    def turning(self) -> Turning:
-        return Turning(self.side().value)
+    def _longest(self, kind: type[S], at: int) -> Iterator[tuple[S, int]]:
+        return islice(self._values(kind, at), 1)
 
-    def maybe_place(self) -> PlaceReference | None:
-        return self.place() if self.left and self.left[0] in tuple(Place) else None
+    def _values(self, kind: type[S], at: int) -> Iterator[tuple[S, int]]:
+        """The values of a class that begin at a place."""
+        forms = sorted(open_fields(kind), key=lambda each: -each[0].symbols.count(" "))
+        for form, options in forms:
+            for parts, stop in self._parts(form.symbols.split(" "), options, at):
+                try:
+                    value = kind(**form.fixed | parts)
+                except ValueError:
+                    continue
+                yield value, stop
 
-    def place(self) -> Any:
-        symbol = self.left.pop(0)
-        if symbol in ROOM_SYMBOLS:
-            return RoomReference(self._text.rooms[ROOM_SYMBOLS.index(symbol)])
-        if symbol == "door":
-            ordinal = self.whole()
-            sides = (*SIDE_SYMBOLS, *_OTHER_SIDES)
-            return DoorReference(
-                ordinal, self.side() if self.left and self.left[0] in sides else None
-            )
-        return PlaceReference(Place(symbol), self.whole())
+    def _parts(
+        self, template: list[str], options: Fields, at: int
+    ) -> Iterator[tuple[dict[str, Any], int]]:
+        """The open fields of a form, by name."""
+        if not template:
+            yield {}, at
+        elif at < len(self._symbols) and template[0].startswith("{"):
+            name = template[0][1:-1]
+            for value, stop in self._field(options[name], at):
+                for others, end in self._parts(template[1:], options, stop):
+                    yield {name: value} | others, end
+        elif at < len(self._symbols) and self._symbols[at] == template[0]:
+            yield from self._parts(template[1:], options, at + 1)
 
-    def whole(self) -> int:
-        value = self.value()
-        if value != int(value):
-            raise ValueError(f"{value} is no whole number")
-        return int(value)
+    def _field(self, options: tuple[Option, ...], at: int) -> Iterator[tuple[Any, int]]:
+        for option in options:
+            if isinstance(option, type) and issubclass(option, Spoken):
+                yield from self._values(option, at)
+            else:
+                yield from ((value, at + 1) for value in self._plain(option, self._symbols[at]))
 
-    def value(self) -> float:
-        symbol = self.left.pop(0)
-        return (
-            self._text.values[VALUE_SYMBOLS.index(symbol)]
-            if symbol in VALUE_SYMBOLS
-            else float(symbol)
+    def _plain(self, option: Option, symbol: str) -> Iterator[Any]:
+        """The value that a symbol stands for, if it is such a one."""
+        match option:
+            case Side() | Turning():
+                side = self._side(symbol)
+                if side == option.value:
+                    yield option
+            case StrEnum():
+                if symbol == option.value:
+                    yield option
+            case Multiples():
+                yield from self._numbers(symbol, type(option.step))
+            case _ if option is int:
+                yield from self._numbers(symbol, int)
+            case _ if option is str and symbol in ROOM_SYMBOLS:
+                yield from self._text.rooms[ROOM_SYMBOLS.index(symbol) :][:1]
+
+    def _side(self, symbol: str) -> str | None:
+        if symbol in SIDE_SYMBOLS:
+            return next(iter(self._text.sides[SIDE_SYMBOLS.index(symbol) :]), None)
+        return symbol
+
+    def _numbers(self, symbol: str, kind: type[float]) -> Iterator[float]:
+        found = (
+            self._text.values[VALUE_SYMBOLS.index(symbol) :][:1] if symbol in VALUE_SYMBOLS else ()
         )
-
-    def side(self) -> Side:
-        symbol = self.left.pop(0)
-        return (
-            self._text.sides[SIDE_SYMBOLS.index(symbol)] if symbol in SIDE_SYMBOLS else Side(symbol)
-        )
+        if symbol in _LITERALS:
+            found = (float(symbol),)
+        yield from (kind(value) for value in found if kind(value) == value)

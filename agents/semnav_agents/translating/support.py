@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from semnav_env.language.clauses import Follow, GoBack, Leave, Stop
-from semnav_env.language.command import Command
-from semnav_env.language.references import DoorReference, PlaceReference
+from semnav_env.language.command import Command, reference_of
+from semnav_env.language.references import PlaceReference
 from semnav_env.language.speech.lexicon import SpeechLexicon, parts_of
 from semnav_env.language.speech.recognition import lexicon_for, recognised
 
@@ -97,12 +97,9 @@ def _named(command: Command) -> set[str]:
     """What a command names, by the keys of `NEEDED`."""
     found: set[str] = set()
     for clause in command.clauses:
-        for field in ("until", "at", "door", "what"):
-            what = getattr(clause, field, None)
-            if isinstance(what, DoorReference):
-                found.add("door")
-            elif isinstance(what, PlaceReference):
-                found.add(what.place.value)
+        what = reference_of(clause)
+        if what is not None:
+            found.add(what.place.value if isinstance(what, PlaceReference) else "door")
         found |= {"back"} if isinstance(clause, GoBack) else set()
         found |= {"leave"} if isinstance(clause, Leave) else set()
     return found

@@ -141,8 +141,8 @@ class GapTrial:
         trace, gap, evidence = self._trace, self._gap[0], self._evidence[0]
         record, scratch, settings = trace.record, trace.scratch, trace.settings
         circle = trace.beams_per_turn
-        kernel.measure_walls(*self._sweep, circle, gap, trace.pieces, record, evidence)
-        kernel.measure_place(gap, *self._longest, evidence)
+        beams.measure_walls(*self._sweep, circle, gap, trace.pieces, record, evidence)
+        beams.measure_place(gap, *self._longest, evidence)
         numbers = self._evidence.view(np.float64)
         gap["confidence"] = kernel.score(numbers, scratch.scorer)
         if not kernel.is_accepted(gap, record, evidence):

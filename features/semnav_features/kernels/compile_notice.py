@@ -21,19 +21,20 @@ class CompileNotice:
 
     @contextmanager
     def while_compiling(self) -> Iterator[None]:
-        """Count the time that passes inside."""
-        self._since = time.perf_counter()
+        """Count the time that passes inside; one thread may compile, and another wait for it."""
+        since = self._since = time.perf_counter()
         try:
             yield
         finally:
-            self._spent += time.perf_counter() - self._since
+            self._spent += time.perf_counter() - since
             self._since = None
 
     def work_goes_on(self) -> None:
         """Say so, if the user has waited for long enough."""
-        if self._said or self._since is None:
+        since = self._since
+        if self._said or since is None:
             return
-        if self._spent + time.perf_counter() - self._since > PATIENCE:
+        if self._spent + time.perf_counter() - since > PATIENCE:
             self._said = True
             print(
                 "semnav-env: compiling kernels used for the first time: up to half a minute; "

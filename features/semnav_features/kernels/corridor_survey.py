@@ -30,6 +30,7 @@ from semnav_features.kernels.heading import prevailing_heading
 from semnav_features.kernels.narrowings import is_narrowing
 from semnav_features.kernels.rows import put_row
 from semnav_features.kernels.selection import finite_values, value_of_rank
+from semnav_features.kernels.side_openings import MAX_OPENINGS, OPENING, note_opening
 
 PROBED_AHEAD = 40.0
 """How far ahead of the robot the sides are probed, metres."""
@@ -45,26 +46,6 @@ MAX_LEVEL_STEP = 0.05
 
 RECENT_LENGTH = 2.0
 """Whether a side steps back is judged by where it lay on this length before, metres."""
-
-MIN_OPENING_WIDTH = 1.35
-"""Least length for which a side steps back at an opening, metres; a doorway is shorter."""
-
-MIN_EDGED_OPENING_WIDTH = 1.25
-"""Least length of an opening from both of whose edges walls lead out, metres."""
-
-MAX_LEAF_LENGTH = 1.2
-"""A wall must lead out this far at an edge of an opening, metres: farther than any door leaf."""
-
-EDGE_START, EDGE_TOLERANCE = 0.6, 0.25
-"""A wall that leads out of an opening begins at most this far behind the side, and lies at most
-that far from the edge along the axis, metres."""
-
-OPENING = np.dtype([("left", "?"), ("near", "f8"), ("far", "f8"), ("offset", "f8")])
-"""An opening: whether on the left side, its near and far edge along the axis, and the distance of
-its side from the axis, metres."""
-
-MAX_OPENINGS = 32
-"""More openings along a corridor are left out."""
 
 Frame: TypeAlias = tuple[float, float, float]
 """Pose of an axis or a robot: x, y in metres and heading in radians."""
@@ -234,13 +215,13 @@ def _follow(
             reference = _recent(side, k, usual)
         if level or raw[k] <= reference + MAX_SIDE_STEP:
             if first >= 0:
-                count = _note_opening(solid, sign, first, k, reference, openings, count)
+                count = note_opening(solid, sign, first, k, reference, openings, count, False)
             first = -1
             side[k] = raw[k]
         elif first < 0:
             first = k
     if first >= 0 and math.isfinite(end):
-        count = _note_opening(solid, sign, first, last, reference, openings, count)
+        count = note_opening(solid, sign, first, last, reference, openings, count, True)
     return count
 
 
@@ -253,47 +234,3 @@ def _recent(side: FloatArray, k: int, usual: float) -> float:
     """
     seen = finite_values(side[max(0, k - round(RECENT_LENGTH / PROBE_SPACING)) : k])
     return value_of_rank(seen, 3 * (len(seen) - 1) // 4) if len(seen) > 0 else usual
-
-
-@kernel
-def _note_opening(
-    solid: FloatArray,
-    sign: float,
-    first: int,
-    last: int,
-    offset: float,
-    openings: np.ndarray,
-    count: int,
-) -> int:
-    """Note the probes [first, last) as an opening, if wide and walls lead out of its edges."""
-    near = (first - 0.5) * PROBE_SPACING - PROBED_BEHIND
-    far = (last - 0.5) * PROBE_SPACING - PROBED_BEHIND
-    if far - near < MIN_EDGED_OPENING_WIDTH or count == len(openings):
-        return count
-    leading = 0
-    for edge in (near, far):
-        leading += _leads_out(solid, sign, edge, offset)
-    if leading < (1 if far - near >= MIN_OPENING_WIDTH else 2):
-        return count
-    opening = openings[count]
-    opening.left, opening.near, opening.far, opening.offset = sign > 0.0, near, far, offset
-    return count + 1
-
-
-@kernel
-def _leads_out(solid: FloatArray, sign: float, edge: float, offset: float) -> bool:
-    """Whether a wall or a door leads away from the axis at x = `edge`, from y = `offset` on.
-
-    For the right side the frame is mirrored (`sign` is -1), so that y always grows outwards.
-    """
-    for i in range(len(solid)):
-        x1, y1, x2, y2 = solid[i, 0], sign * solid[i, 1], solid[i, 2], sign * solid[i, 3]
-        if y2 < y1:
-            x1, y1, x2, y2 = x2, y2, x1, y1
-        is_along = y2 - y1 <= abs(x2 - x1)
-        if is_along or not (y1 < offset + EDGE_START and y2 > offset + MAX_LEAF_LENGTH):
-            continue
-        beside = x1 + (x2 - x1) * max(0.0, offset - y1) / (y2 - y1)
-        if abs(beside - edge) < EDGE_TOLERANCE:
-            return True
-    return False

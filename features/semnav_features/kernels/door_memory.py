@@ -65,21 +65,37 @@ UNKNOWN, OPEN, FILLED = range(3)
 
 
 @kernel
-def door_counts(doors: Any, k: int) -> bool:
+def door_counts(doors: Any, k: int, state: Any) -> bool:
     """Whether door `k` of the remembered ones is likely enough to be taken for a door.
 
-    Of two in the same place, such as a door and the gap to its leaf, only the likelier one counts.
+    It must be as wide as a door, which each sighting is only within the spacing of the beams. Of
+    two in the same place, such as a door and the gap to its leaf, only the likelier one counts.
+
+    Args:
+        doors: `REMEMBERED_DOOR` array.
+        k: which of them.
+        state: an entry of `memory.MEMORY_STATE`, for `narrowest` and `widest`.
     """
     door = doors[k]
-    if door.log_odds < MIN_COUNTING_LOG_ODDS:
+    if door.log_odds < MIN_COUNTING_LOG_ODDS or not _has_width_of_a_door(door, state):
         return False
     for i in range(len(doors)):
         rival = doors[i]
         x = 0.5 * (rival.start_x + rival.end_x - door.start_x - door.end_x)
         y = 0.5 * (rival.start_y + rival.end_y - door.start_y - door.end_y)
-        if x * x + y * y < SAME_PLACE_DISTANCE**2 and _comes_first(rival, i, door, k):
+        if x * x + y * y >= SAME_PLACE_DISTANCE**2 or not _comes_first(rival, i, door, k):
+            continue
+        if _has_width_of_a_door(rival, state):
             return False
     return True
+
+
+@kernel
+def _has_width_of_a_door(door: Any, state: Any) -> bool:
+    """Whether the jambs, as all sightings together have them, are a door's width apart."""
+    dx, dy = door.end_x - door.start_x, door.end_y - door.start_y
+    square = dx * dx + dy * dy
+    return bool(state.narrowest * state.narrowest <= square <= state.widest * state.widest)
 
 
 @kernel

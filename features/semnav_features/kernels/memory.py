@@ -25,9 +25,14 @@ from semnav_features.kernels.remembered import (
 )
 from semnav_features.kernels.rows import put_row
 
-COUNTERS = np.dtype([("walls", "i8"), ("doors", "i8"), ("scans", "i8")])
-"""How many entries of the walls and of the doors are used, and how many scans were added; an array
-of shape (1,)."""
+COUNTERS = ("walls", "doors", "scans")
+"""Fields of `MEMORY_STATE` that are zero while nothing is remembered."""
+
+MEMORY_STATE = np.dtype(
+    [(name, "i8") for name in COUNTERS] + [("narrowest", "f8"), ("widest", "f8")]
+)
+"""How many entries of the walls and of the doors are used, how many scans were added, and the
+least and the largest width of a door, metres; an array of shape (1,)."""
 
 MIN_WALL_SIGHTINGS = 2
 """A wall counts from this many sightings on."""
@@ -82,8 +87,8 @@ def remember(
         pose: of the lidar in the memory's frame.
         memory: `SceneMemory.arrays`, changed in place.
     """
-    known_walls, known_doors, counters = memory
-    used, frame = counters[0], frame_of(pose)
+    known_walls, known_doors, state = memory
+    used, frame = state[0], frame_of(pose)
     for i in range(counts[WALLS]):
         used.walls = remember_wall(placed(walls[i], frame), known_walls, used.walls)
     for i in range(counts[DOORS]):
@@ -106,8 +111,8 @@ def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) 
         pose: of the lidar by odometry, in the memory's frame.
         memory: as in `remember`.
     """
-    known, _, counters = memory
-    used, sums, frame = counters[0].walls, PRIOR, frame_of(pose)
+    known, _, state = memory
+    used, sums, frame = state[0].walls, PRIOR, frame_of(pose)
     for i in range(counts[WALLS]):
         sums = with_sighting(placed(walls[i], frame), known, used, pose, sums)
     return corrected(pose, sums)
@@ -140,20 +145,20 @@ def doubt_passed_wall(
 
 
 @kernel
-def how_many_count(walls: FloatArray, doors: Any, counters: Any) -> tuple[int, int]:
+def how_many_count(walls: FloatArray, doors: Any, state: Any) -> tuple[int, int]:
     """How many of the remembered walls and doors count."""
-    used = counters[0]
+    used = state[0]
     wall_total, door_total = 0, 0
     for k in range(used.walls):
         wall_total += walls[HITS, k] >= MIN_WALL_SIGHTINGS
     for k in range(used.doors):
-        door_total += door_counts(doors[: used.doors], k)
+        door_total += door_counts(doors[: used.doors], k, used)
     return wall_total, door_total
 
 
 @kernel(counts_references=True)
 def what_counts(
-    walls: FloatArray, doors: Any, counters: Any
+    walls: FloatArray, doors: Any, state: Any
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """The remembered walls and doors that count.
 
@@ -161,7 +166,7 @@ def what_counts(
         Ends of the walls, shape (n, 4), and of the doors, shape (m, 4), metres; and of each door
         the log-odds that it is one and how often it was seen, shape (m, 2).
     """
-    used = counters[0]
+    used = state[0]
     wall_ends, door_ends = np.empty((used.walls, 4)), np.empty((used.doors, 4))
     beliefs = np.empty((used.doors, 2))
     n = m = 0
@@ -170,7 +175,7 @@ def what_counts(
             put_row(wall_ends, n, ends_of_wall(walls, k))
             n += 1
     for k in range(used.doors):
-        if door_counts(doors[: used.doors], k):
+        if door_counts(doors[: used.doors], k, used):
             door = doors[k]
             put_row(door_ends, m, (door.start_x, door.start_y, door.end_x, door.end_y))
             put_row(beliefs, m, (door.log_odds, float(door.hits)))

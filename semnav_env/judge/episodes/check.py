@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from semnav_env.judge import plan_goals
 from semnav_env.judge.episodes.episode import Episode, Expected, StaleEpisodeError
 from semnav_env.judge.routes.room_guide import RoomGuide
-from semnav_env.judge.verifier import plan_goals
 from semnav_env.language import readings
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.robots import ROBOTS

@@ -7,12 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
+from semnav_env.judge import plan_goals
 from semnav_env.judge.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.judge.episodes.random_clauses import CommandTopic, RandomClauses
+from semnav_env.judge.goals import check_grounded
 from semnav_env.judge.routes.room_guide import RoomGuide
 from semnav_env.judge.tasks.starts import leads_on
-from semnav_env.judge.verifier import plan_goals
-from semnav_env.judge.verifier.goals import check_grounded
 from semnav_env.language import (
     Clause,
     Command,

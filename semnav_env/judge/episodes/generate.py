@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 from numpy.random import PCG64, Generator, SeedSequence
 
+from semnav_env.judge import Judge, place, plan_mission
 from semnav_env.judge.episodes.ambiguous import ambiguous_text
 from semnav_env.judge.episodes.drafts import Drafter
 from semnav_env.judge.episodes.episode import Episode, Expected
@@ -19,7 +20,6 @@ from semnav_env.judge.episodes.splits import SEED, Split
 from semnav_env.judge.episodes.walk import carries_out
 from semnav_env.judge.episodes.wording import worded
 from semnav_env.judge.tasks.starts import sample_start
-from semnav_env.judge.verifier import Verifier, place, plan_mission
 from semnav_env.language import Command
 from semnav_env.mind.grounding import Goal, ReachGoal
 from semnav_env.mind.grounding.visible_doors import doors_around
@@ -217,18 +217,18 @@ def exits(plan: FloorPlan, room: shapely.Polygon) -> int:
 
 
 def _route(site: Site, command: Command, start: Pose) -> tuple[Point, ...] | None:
-    """The true route; None if a body cannot drive it or the verifier does not accept it."""
-    verifier = Verifier(plan_mission(site.plan, site.geodesic, command, start))
-    if not LIMITS.min_route_length <= verifier.mission.route_length <= LIMITS.max_route_length:
+    """The true route; None if a body cannot drive it or the judge does not accept it."""
+    judge = Judge(plan_mission(site.plan, site.geodesic, command, start), measures_way=False)
+    if not LIMITS.min_route_length <= judge.mission.route_length <= LIMITS.max_route_length:
         return None
-    places = [shapely.Point(place(goal)) for goal in verifier.mission.goals]
+    places = [shapely.Point(place(goal)) for goal in judge.mission.goals]
     part = site.part_at(start[:2])
     if part is None or not all(part.near(point, LIMITS.goal_distance) for point in places):
         return None
-    if not all(_has_room(site.plan, goal) for goal in verifier.mission.goals):
+    if not all(_has_room(site.plan, goal) for goal in judge.mission.goals):
         return None
-    route = _simple(verifier.mission.route)
-    return route if carries_out(verifier) else None
+    route = _simple(judge.mission.route)
+    return route if carries_out(judge) else None
 
 
 def _has_room(plan: FloorPlan, goal: Goal) -> bool:

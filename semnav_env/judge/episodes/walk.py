@@ -1,4 +1,4 @@
-"""Walks a point through a command: proof that the verifier accepts its true route."""
+"""Walks a point through a command: proof that the judge accepts its true route."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from semnav_env.judge import Judge, Motion, place
 from semnav_env.judge.routes.route import Route
-from semnav_env.judge.verifier import Motion, Verifier, place
 from semnav_env.mind.grounding import Goal, PassGoal, ReachGoal, StopGoal
 from semnav_features.frames import Pose, to_parent
 
@@ -22,30 +22,30 @@ MAX_LEGS = 20
 """Largest number of goals that are gone to; a command has fewer."""
 
 
-def carries_out(verifier: Verifier) -> bool:
+def carries_out(judge: Judge) -> bool:
     """Whether going to each goal by the shortest way carries the command out.
 
-    A point is moved, so this says nothing about bodies. The verifier cannot be used afterwards.
+    A point is moved, so this says nothing about bodies. The judge cannot be used afterwards.
     """
-    pose = verifier.mission.start
+    pose = judge.mission.start
     for _ in range(MAX_LEGS):
-        if verifier.over:
+        if judge.over:
             break
-        goal, active = verifier.follower.goal, verifier.follower.active
-        for x, y, heading in _leg(verifier, pose, goal):
+        goal, active = judge.follower.goal, judge.follower.active
+        for x, y, heading in _leg(judge, pose, goal):
             pose = x, y, heading
             speed = 0.0 if isinstance(goal, StopGoal) else 1.0
-            verifier.update(Motion(pose, speed, 0.0, in_contact=False, seconds=STEP_SECONDS))
-            if verifier.over or verifier.follower.active != active:
+            judge.update(Motion(pose, speed, 0.0, in_contact=False, seconds=STEP_SECONDS))
+            if judge.over or judge.follower.active != active:
                 break
-    return verifier.success
+    return judge.success
 
 
-def _leg(verifier: Verifier, pose: Pose, goal: Goal) -> Iterator[Pose]:
+def _leg(judge: Judge, pose: Pose, goal: Goal) -> Iterator[Pose]:
     if isinstance(goal, StopGoal):
         yield from (pose,) * (round(goal.wait / STEP_SECONDS) + 2)
         return
-    way = verifier.mission.geodesic.to(place(goal)).way(pose[:2])
+    way = judge.mission.geodesic.to(place(goal)).way(pose[:2])
     facing = goal.pose[2] if isinstance(goal, ReachGoal) and goal.fixes_heading else None
     if isinstance(goal, PassGoal):
         behind = to_parent((*place(goal), goal.pose[2]), (CROSSING_DEPTH, 0.0))

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from semnav_env.judge import Judge, Verdict, place
 from semnav_env.judge.metrics.motion import clearances, collisions_per_100m, rms_jerk
 from semnav_env.judge.metrics.paths import (
     PUBLISHED_GOAL_RADIUS,
@@ -17,7 +18,6 @@ from semnav_env.judge.metrics.paths import (
 )
 from semnav_env.judge.metrics.recording import Recording
 from semnav_env.judge.metrics.results import Metrics
-from semnav_env.judge.verifier import Verdict, Verifier, place
 from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal
 from semnav_env.robots import RobotSpec
 from semnav_env.rules import SuccessRules
@@ -29,30 +29,30 @@ GOAL_RADIUS = 1.0
 metres."""
 
 
-def measure(recording: Recording, verifier: Verifier, robot: RobotSpec) -> Metrics:
+def measure(recording: Recording, judge: Judge, robot: RobotSpec) -> Metrics:
     """Compute the measures of an episode.
 
     Args:
         recording: recording of the episode.
-        verifier: the verifier that judged it; it knows the plan, the route and the goals.
+        judge: the judge that judged it; it knows the plan, the route and the goals.
         robot: the robot that drove.
     """
-    path, route = recording.path, verifier.mission.route
-    driven_length, route_length = path_length(path), verifier.mission.route_length
-    goals = verifier.mission.goals
-    goal = place(goals[-1]) if goals else verifier.mission.start[:2]
-    distances = geodesic_distances(verifier.mission.geodesic.to(goal), path)
+    path, route = recording.path, judge.mission.route
+    driven_length, route_length = path_length(path), judge.mission.route_length
+    goals = judge.mission.goals
+    goal = place(goals[-1]) if goals else judge.mission.start[:2]
+    distances = geodesic_distances(judge.mission.geodesic.to(goal), path)
     ends, lengths = (float(distances[-1]), float(distances[0])), (driven_length, route_length)
     driven, wanted = resampled(path), resampled(route)
     alike = ndtw(driven, wanted)
-    clear = clearances(recording.poses, robot, verifier.mission.floor_plan)
-    success, verdicts = verifier.success, verifier.verdicts
+    clear = clearances(recording.poses, robot, judge.mission.floor_plan)
+    success, verdicts = judge.success, judge.verdicts
     return Metrics(
         success=success,
         within_1m=bool(distances[-1] < GOAL_RADIUS),
         within_3m=bool(distances[-1] < PUBLISHED_GOAL_RADIUS),
         oracle_success=success
-        or (bool(goals) and ever_met(goals[-1], recording, verifier.mission.rules.success)),
+        or (bool(goals) and ever_met(goals[-1], recording, judge.mission.rules.success)),
         oracle_within_1m=bool(distances.min() < GOAL_RADIUS),
         oracle_within_3m=bool(distances.min() < PUBLISHED_GOAL_RADIUS),
         spl=spl(success, *lengths),
@@ -119,5 +119,5 @@ def stood_there(goal: StopGoal, recording: Recording, standstill_speed: float) -
     return steps > 0 and steps * recording.period >= goal.wait
 
 
-def _settled(verdict: Verdict) -> bool:
+def _settled(verdict: str) -> bool:
     return verdict in (Verdict.DONE, Verdict.SKIPPED)

@@ -14,10 +14,10 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
+from semnav_env.judge import place
 from semnav_env.judge.metrics.final_belief import FinalBelief
 from semnav_env.judge.metrics.motion import footprints
 from semnav_env.judge.metrics.recording import Recording
-from semnav_env.judge.verifier import place
 from semnav_env.mind.grounding.goal import Goal
 from semnav_env.robots import RobotSpec
 from semnav_env.world.dynamics.leaves import swinging_leaves

@@ -10,10 +10,10 @@ from itertools import count
 
 import numpy as np
 
+from semnav_env.judge import place
 from semnav_env.judge.routes.choices import Choices, words_of
 from semnav_env.judge.routes.follow import check_route, crossings, destination, follows, with_rest
 from semnav_env.judge.routes.route import Route
-from semnav_env.judge.verifier import place
 from semnav_env.language import MAX_CLAUSES, Approach, Clause, Command, Follow, Turn, Turning
 from semnav_env.language.command import may_count_on
 from semnav_env.mind.grounding import Goal, GroundingError, PassGoal, ReachGoal
@@ -82,7 +82,7 @@ class PartialDescription:
 def describe(floor_plan: FloorPlan, route: Route) -> Command:
     """The shortest command that leads along a route: of the fewest clauses, then the fewest words.
 
-    The verifier accepts the route for it. If the route ends behind a door that it has crossed, or
+    The judge accepts the route for it. If the route ends behind a door that it has crossed, or
     facing one, the command ends with going through that very door, or to it; else where the route
     ends, within `LIMITS.end_distance`.
 
@@ -114,7 +114,7 @@ class _Search:
         self._farthest = PartialDescription((), route.start, 0, 0)
 
     def best(self) -> Command:
-        """The cheapest command that the verifier accepts."""
+        """The cheapest command that the judge accepts."""
         order: Iterator[int] = count()
         seen: set[tuple[object, ...]] = set()
         queue = [(0, 0, next(order), self._farthest, False)]

@@ -1,4 +1,4 @@
-"""What a robot that follows a route exactly crosses, and what the verifier says of it."""
+"""What a robot that follows a route exactly crosses, and what the judge says of it."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import math
 import numpy as np
 import shapely
 
+from semnav_env.judge import Judge, Motion, plan_mission
 from semnav_env.judge.routes.route import Route, RouteError
-from semnav_env.judge.verifier import Motion, Verifier, plan_mission
 from semnav_env.language import Approach, Command
 from semnav_env.mind.grounding.crossing import first_crossed
 from semnav_env.rules import GroundingRules
@@ -37,18 +37,18 @@ STEP_SECONDS = 0.1
 
 
 def follows(floor_plan: FloorPlan, command: Command, route: Route) -> bool:
-    """Whether a robot that follows a route carries out a command, as the verifier judges.
+    """Whether a robot that follows a route carries out a command, as the judge has it.
 
     Raises:
         GroundingError: the command cannot be carried out from the start of the route.
     """
     geodesic = floor_plan.derived(Geodesic)
-    verifier = Verifier(plan_mission(floor_plan, geodesic, command, route.start))
+    judge = Judge(plan_mission(floor_plan, geodesic, command, route.start), measures_way=False)
     poses = with_rest(route).tolist()
     for k, (x, y, heading) in enumerate(poses[1:], 1):
         speed = 1.0 if k < len(poses) - REST_POSES else 0.0
-        verifier.update(Motion((x, y, heading), speed, 0.0, in_contact=False, seconds=STEP_SECONDS))
-    return verifier.success
+        judge.update(Motion((x, y, heading), speed, 0.0, in_contact=False, seconds=STEP_SECONDS))
+    return judge.success
 
 
 def with_rest(route: Route) -> FloatArray:

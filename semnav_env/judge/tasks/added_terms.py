@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields
-from numbers import Real
-
-import numpy as np
 
 from semnav_env.judge.tasks.rewards import Rewards, RewardTerm, RewardWeights, Tick
 
@@ -46,12 +42,3 @@ class AddedTerms:
     def _refuse(self, names: Iterable[str]) -> None:
         if taken := self.added.keys() & set(names):
             raise ValueError(f"reward terms {sorted(taken)} are there already; name yours anew")
-
-
-def terms_of(rewards: Rewards, tick: Tick) -> dict[str, float]:
-    """The terms of a step, of rewards that may give anything; a `ValueError` names no number."""
-    terms = rewards.terms(tick)
-    for name, value in terms.items():
-        if not isinstance(value, Real | np.bool_) or not math.isfinite(value):
-            raise ValueError(f"reward term {name!r} is {value!r:.80}; it must be a finite number")
-    return terms

@@ -7,9 +7,9 @@ from collections import Counter
 import numpy as np
 import shapely
 
+from semnav_env.judge import Mission, plan_goals, plan_mission
 from semnav_env.judge.routes.room_guide import RoomGuide
 from semnav_env.judge.tasks.request import EpisodeRequest
-from semnav_env.judge.verifier import Mission, plan_goals, plan_mission
 from semnav_env.language import Command
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.robots import RobotSpec

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, fields
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import astuple, dataclass, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, NamedTuple, Protocol, TypeAlias, runtime_checkable
+from numbers import Real
+from operator import mul
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,28 +88,51 @@ class RewardWeights:
 
     def terms(self, tick: Tick) -> dict[str, float]:
         """The terms of a step by name, each times its weight."""
-        return self.weigh(*tick[:4], tick.motion.in_contact)
-
-    def weigh(
-        self, progress: float, clause: bool, success: bool, failure: bool, in_contact: bool
-    ) -> dict[str, float]:
-        """The terms, given all that they depend on; see `Tick`."""
-        if not (clause or success or failure or in_contact):
-            return self._uneventful | {"progress": self.progress * progress}
-        return {
-            "progress": self.progress * progress,
-            "clause": self.clause * clause,
-            "success": self.success * success,
-            "failure": self.failure * failure,
-            "contact": self.contact * in_contact,
-            "time": self.time,
-        }
+        return weigh(self.each, *tick[:4], tick.motion.in_contact)
 
     @cached_property
-    def _uneventful(self) -> dict[str, float]:
-        """The terms of nearly every step, but for its progress."""
-        weights = {each.name: getattr(self, each.name) for each in fields(RewardWeights)}
-        return {name: False * weight for name, weight in weights.items()} | {"time": self.time}
+    def each(self) -> tuple[float, ...]:
+        """The weights, in the order of `TERMS`."""
+        return astuple(self)
+
+
+TERMS = tuple(each.name for each in fields(RewardWeights))
+"""Names of the terms."""
+
+
+def weigh(
+    weights: Iterable[Any],
+    progress: Any,
+    clause: Any,
+    success: Any,
+    failure: Any,
+    in_contact: Any,
+    *,
+    driven: Any = 1,
+) -> dict[str, Any]:
+    """The terms by name: each weight times what it is the weight of, see `RewardWeights`.
+
+    Args:
+        weights: in the order of `TERMS`. For many robots each is an array, and so are the others.
+        progress: in metres, see `Tick`, like the next three.
+        clause: whether a clause was completed.
+        success: whether the whole command was completed.
+        failure: whether the episode failed.
+        in_contact: whether the body touches anything.
+        driven: whether the robot was driven, which takes time.
+    """
+    amounts = progress, clause, success, failure, in_contact, driven
+    weighed = map(mul, weights, amounts)
+    return dict(zip(TERMS, weighed, strict=True))
+
+
+def terms_of(rewards: Rewards, tick: Tick) -> dict[str, float]:
+    """The terms of a step, of rewards that may give anything; a `ValueError` names no number."""
+    terms = rewards.terms(tick)
+    for name, value in terms.items():
+        if not isinstance(value, Real | np.bool_) or not math.isfinite(value):
+            raise ValueError(f"reward term {name!r} is {value!r:.80}; it must be a finite number")
+    return terms
 
 
 def as_rewards(value: object) -> Rewards:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from semnav_env.judge.verifier import Mission, plan_mission
+from semnav_env.judge import Mission, plan_mission
 from semnav_env.language import (
     LAST,
     Approach,

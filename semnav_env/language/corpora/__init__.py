@@ -9,8 +9,6 @@ from semnav_env.language.corpora.measure import (
 )
 from semnav_env.language.corpora.sentences import (
     Sentence,
-    development_corpora,
-    held_out_corpora,
     load_sentences,
 )
 
@@ -19,8 +17,6 @@ __all__ = [
     "ParseOutcome",
     "Sentence",
     "SentenceVerdict",
-    "development_corpora",
-    "held_out_corpora",
     "judge",
     "load_sentences",
     "verdicts",

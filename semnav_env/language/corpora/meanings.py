@@ -23,30 +23,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from semnav_env.language.clauses import (
-    Approach,
-    Clause,
-    Face,
-    Follow,
-    GoBack,
-    GoToDoor,
-    GoToRoom,
-    IfThere,
-    Leave,
-    Stop,
-    Turn,
-)
 from semnav_env.language.command import Command
-from semnav_env.language.corpora.notation import Step, Steps
-from semnav_env.language.references import (
-    OTHER,
-    Distance,
-    DoorReference,
-    PlaceReference,
-    RoomReference,
-    Side,
-    Unit,
-)
+from semnav_env.language.corpora.notation import Step, Steps, notation_of, read_meaning
 from semnav_env.language.rooms import plain_name
 
 _FIRST = ("door", 1, None, None, None)
@@ -56,66 +34,12 @@ ENDS = ("corner", "end", "t-junction")
 
 
 def meaning_of(command: Command) -> Steps:
-    """The steps of a command, with conditions around those that depend on them."""
-    steps: list[Step] = []
-    clauses = list(command.clauses)
-    while clauses:
-        clause = clauses.pop(0)
-        if isinstance(clause, IfThere):
-            then = (_step_of(clauses.pop(0)),)
-            otherwise = (_step_of(clauses.pop(0)),) if clause.otherwise else ()
-            word = "no" if clause.absent else "there"
-            steps.append(("if", word, _place_of(clause.what), then, otherwise))
-        else:
-            steps.append(_step_of(clause))
-    return tuple(steps)
+    """The steps of a command, with conditions around those that depend on them.
 
-
-def _step_of(clause: Clause) -> Step:
-    match clause:
-        case Follow(None):
-            return ("hallway",)
-        case Follow(Distance(amount, unit)):
-            return ("hallway", "for", float(amount), "m" if unit is Unit.METRES else "s")
-        case Follow(until, past):
-            return ("hallway", "past" if past else "until", _place_of(until))
-        case Turn(turning, _, int(degrees)):
-            return ("turn by", turning.value, degrees)
-        case Turn(turning, at, None):
-            return ("turn", turning.value, None if at is None else _place_of(at))
-        case GoToDoor(door, approach):
-            return ("through" if approach is Approach.THROUGH else str(approach), _place_of(door))
-        case GoToRoom(name, approach):
-            room = ("room", name)
-            return room if approach is Approach.THROUGH else ("to", room)
-        case Face(Side() as side):
-            return ("face", ("wall", side.value))
-        case Face(what):
-            return ("face", _place_of(what))
-        case Leave():
-            return ("leave",)
-        case GoBack():
-            return ("back",)
-        case Stop(seconds):
-            return ("wait", float(seconds)) if seconds else ("stop",)
-    raise TypeError(f"{clause!r} has no step in the notation")
-
-
-def _place_of(reference: Any) -> Step:
-    match reference:
-        case DoorReference(ordinal, side):
-            return (
-                "door",
-                "other" if ordinal == OTHER else ordinal,
-                side and side.value,
-                None,
-                None,
-            )
-        case RoomReference(name):
-            return ("room", name)
-        case PlaceReference(place, ordinal):
-            return (place.value.replace("_", "-"), ordinal)
-    raise TypeError(f"{reference!r} is no place of the notation")
+    Raises:
+        TypeError: a clause has no step in the notation.
+    """
+    return read_meaning(notation_of(command))
 
 
 def normal(steps: Steps) -> Steps:

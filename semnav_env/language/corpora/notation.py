@@ -1,4 +1,6 @@
-"""Reads meanings in the notation of docs/meanings.md: "hallway past door(1); through door(1,left)".
+"""The notation of docs/meanings.md: "hallway past door(1); through door(1,left)".
+
+Commands are written in it by what their clauses declare.
 
 A meaning becomes a tuple of steps, each a tuple of plain values, so that it can be compared with
 the steps of a command (`semnav_env.language.corpora.meanings`).
@@ -7,7 +9,21 @@ the steps of a command (`semnav_env.language.corpora.meanings`).
 from __future__ import annotations
 
 import re
+from enum import StrEnum
+from functools import cache
 from typing import Any, TypeAlias
+
+from semnav_env.language.clauses import CLAUSE_KINDS, IfThere
+from semnav_env.language.command import Command
+from semnav_env.language.declarations import (
+    Multiples,
+    Spoken,
+    field_names,
+    form_of,
+    is_ordinal,
+    open_fields,
+)
+from semnav_env.language.references import OTHER
 
 Step: TypeAlias = tuple[Any, ...]
 Steps: TypeAlias = tuple[Step, ...]
@@ -17,6 +33,39 @@ DOOR_SIDES = ("left", "right", "ahead", "behind", "opposite")
 
 _CONDITION = re.compile(r"if ([^:]+): ?(.*?)(?: else: ?(.*))? end")
 _BEFORE_PLACE = re.compile(r"(?:until|past|at|to|face|after|before)$")
+
+
+def notation_of(command: Command) -> str:
+    """A command in the notation.
+
+    Raises:
+        TypeError: a clause has no step in it.
+    """
+    steps, clauses = [], list(command.clauses)
+    while clauses:
+        clause = clauses.pop(0)
+        step = _written(clause)
+        if isinstance(clause, IfThere):
+            step += f": {_written(clauses.pop(0))}"
+            step += f" else: {_written(clauses.pop(0))}" if clause.otherwise else ""
+            step += " end"
+        steps.append(step)
+    return "; ".join(steps)
+
+
+def _written(value: object) -> str:
+    """A clause, or the value of a field, in the notation."""
+    if isinstance(value, Spoken):
+        step = form_of(value).step if value.forms else ""
+        if not step:
+            raise TypeError(f"{value!r} has no step in the notation")
+        names = field_names(type(value))
+        return step.format(**{name: _written(getattr(value, name)) for name in names})
+    if isinstance(value, StrEnum):
+        return value.replace("_", "-")
+    if is_ordinal(value):
+        return "other" if value == OTHER else str(value)
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def read_meaning(text: str) -> Steps:
@@ -54,7 +103,7 @@ def _step(text: str) -> Step:
             read_meaning(otherwise) if otherwise else (),
         )
     match text.split(" ", 1):
-        case ["stop" | "leave" | "cross" | "hallway" | "back" as verb]:
+        case [verb] if verb in {*_verbs(None), "cross"}:
             return (verb,)
         case ["hallway", rest] if found := re.fullmatch(r"for ([\d.]+) (m|steps?)", rest):
             return ("hallway", "for", float(found[1]), found[2][0])
@@ -63,22 +112,33 @@ def _step(text: str) -> Step:
             return ("hallway", relation, read_place(place))
         case ["turn", rest]:
             return _turn(rest)
-        case ["through" | "in" | "leave" as verb, place]:
-            return (verb, read_place(place))
-        case ["to", place]:
-            return ("to", read_place(place))
         case ["back", rest] if rest.startswith("to "):
             return ("back", read_place(rest[3:]))
-        case ["face", rest]:
-            wall = re.fullmatch(r"wall (\w+)", rest)
-            return ("face", ("wall", wall[1])) if wall else ("face", read_place(rest))
-        case ["wait", seconds]:
-            return ("wait", float(seconds))
-        case [place] if place.startswith("room("):
-            return read_place(place)
+        case ["face", rest] if wall := re.fullmatch(r"wall (\w+)", rest):
+            return ("face", ("wall", wall[1]))
+        case [verb, place] if verb in {*_verbs(Spoken), "leave"}:
+            return (verb, read_place(place))
+        case [verb, number] if verb in _verbs(Multiples):
+            return (verb, float(number))
         case [*_] if text.startswith("room("):
             return read_place(text)
     raise ValueError(f"{text!r} is no step of a meaning")
+
+
+@cache
+def _verbs(followed_by: type | None) -> frozenset[str]:
+    """The words of declared steps that are one word, followed by nothing, a place or a number."""
+    found = set()
+    for kind in CLAUSE_KINDS.values():
+        for form, options in open_fields(kind):
+            verb, _, rest = form.step.partition(" ")
+            what = next(iter(options.get(rest.strip("{}"), ())), rest or None)
+            is_class = isinstance(what, type) and issubclass(what, Spoken)
+            if (
+                Spoken if is_class else Multiples if isinstance(what, Multiples) else what
+            ) is followed_by:
+                found.add(verb)
+    return frozenset(found)
 
 
 def _condition(what: str) -> tuple[str, Any]:

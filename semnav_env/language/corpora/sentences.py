@@ -4,21 +4,12 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from importlib.resources import files
-from itertools import product
 from pathlib import Path
 
 from semnav_env.language.corpora.notation import Steps, read_meaning
 
 KINDS = ("feasible", "ambiguous", "infeasible", "plain")
 """What a sentence is: "plain" is one without a meaning beside it."""
-
-
-AUTHORS = ("", "second_", "third_", "fourth_", "fifth_", "sixth_")
-"""Beginnings of the names of the development sets; the first author's have none."""
-
-HELD_OUT = ("seventh_", "eighth_")
-"""Beginnings of the names of the held-out sets."""
 
 
 @dataclass(frozen=True)
@@ -40,22 +31,6 @@ class Sentence:
     meanings: tuple[Steps, ...]
     topic: str
     corpus: str
-
-
-def development_corpora() -> tuple[Path, ...]:
-    """The files of six authors on which the parser was tuned, which come with the package."""
-    sets = product(AUTHORS, ("english", "german"))
-    return tuple(_folder() / f"{author}{language}.jsonl" for author, language in sets)
-
-
-def held_out_corpora() -> tuple[Path, ...]:
-    """The files of authors on which nothing was tuned."""
-    found = (path for author in HELD_OUT for path in _folder().glob(f"{author}*.jsonl"))
-    return tuple(sorted(found))
-
-
-def _folder() -> Path:
-    return Path(str(files("semnav_env.language.corpora")))
 
 
 def load_sentences(path: Path) -> list[Sentence]:

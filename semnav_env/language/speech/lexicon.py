@@ -147,11 +147,15 @@ def mixed(main: SpeechLexicon, other: SpeechLexicon) -> SpeechLexicon:
     return SpeechLexicon({**borrowed, **main.by_first}, main.words | other.words, main.language)
 
 
-def spoken_pieces(found: Sequence[TextPiece], lexicon: SpeechLexicon) -> list[TextPiece]:
+def spoken_pieces(
+    found: Sequence[TextPiece], lexicon: SpeechLexicon, names: Iterable[tuple[str, ...]] = ()
+) -> list[TextPiece]:
     """The words of a text without hesitations, as the lexicon knows them.
 
-    "The door's" is read as "the door is", and unknown words are taken apart ("reinfahren").
+    "The door's" is read as "the door is", but not a word of a room's name ("the daughter's
+    bedroom"); and unknown words are taken apart ("reinfahren").
     """
+    own = {word for name in names for word in name}
     spoken: list[TextPiece] = []
     for index, piece in enumerate(found):
         if [each.text for each in found[index : index + 2]] == [".", "."]:
@@ -160,7 +164,8 @@ def spoken_pieces(found: Sequence[TextPiece], lexicon: SpeechLexicon) -> list[Te
             spoken.append(piece._replace(text=","))  # "the third... wait, the second"
             continue
         base = piece.text.removesuffix("'s")
-        if base != piece.text and piece.text not in lexicon.words and base in lexicon.words:
+        is_known = piece.text in lexicon.words or piece.text in own
+        if base != piece.text and not is_known and base in lexicon.words:
             spoken += [piece._replace(text=base), piece._replace(text="is")]
         elif piece.text != "'":
             spoken += [piece._replace(text=part) for part in parts_of(piece.text, lexicon)]

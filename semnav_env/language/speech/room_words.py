@@ -38,7 +38,12 @@ def kinds_of_rooms(names: Iterable[tuple[str, ...]]) -> frozenset[str]:
 
 
 def _in_other_words(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    """A name with one of its words in other words or in the other language: "labor" for "lab"."""
+    """A name with one of its words in other words or in the other language: "labor" for "lab".
+
+    Of whose bedroom it is one also says that it is that person's room.
+    """
+    if len(words) > 1 and words[-1] == "bedroom":
+        yield *words[:-1], "room"
     for at, word in enumerate(words):
         for kind in _KINDS:
             if word in kind:

@@ -100,11 +100,11 @@ class BeliefTracker:
         self.corrects_drift, self.known_scene = corrects_drift, known_scene
         self.ranges = np.zeros(self.lidar.beams)
         self._features, self._observes_features = allocate_features(), observes_features
-        self.memory = SceneMemory()
         self.bumps = BumpMap(self.lidar, mount)
         self._belief: Belief | None = None
         self.asked: set[BeliefTracker] = set()
         self.rules, extractor = with_doors_of(rules, extractor)
+        self.memory = SceneMemory(self.rules.door)
         self._record = extractor.as_record()
         self._workbench = workbench_with(allocate_scratch(self.lidar.beams))
         self._estimate = np.zeros(1, ESTIMATE)

@@ -43,14 +43,14 @@ from semnav_features.scene import Door, Scene
 class Follower:
     """The clause under way and its goal.
 
-    The agent's follower runs on the remembered scene and on odometry; the verifier's runs on the
+    The agent's follower runs on the remembered scene and on odometry; the judge's runs on the
     true scene and the true pose. Both are this class, so both count alike.
 
     Attributes:
         command: what to follow.
         complete: the scenes hold everything there is (true scenes).
         care: share of a goal's tolerances within which it counts as reached; an agent aims well
-            inside what the verifier accepts.
+            inside what the judge accepts.
         jamb_margin: how far beside a jamb a crossing still counts, and how far behind it the
             robot must be, metres; perceived jambs are not exact.
         guide: points out the ways to rooms.

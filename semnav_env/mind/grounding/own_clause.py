@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
-from semnav_env.language.clauses import OwnClause
+from semnav_env.language.own_clause import OwnClause
 from semnav_env.mind.grounding.goal import Goal
 from semnav_env.mind.grounding.situation import Situation
 

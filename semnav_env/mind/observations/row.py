@@ -59,8 +59,8 @@ def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     pose = (believed.pose[0], believed.pose[1], believed.pose[2])
     if believed.observes_features:
         _write_features(row, senses.features, senses.mount)
-        _, doors, counters = senses.remembered
-        _write_remembered(row, doors, counters[0].doors, pose)
+        _, doors, state = senses.remembered
+        _write_remembered(row, doors, state[0], pose)
         _write_bumps(row, senses.bumps, pose)
         _keep_within(row[:_REMEMBERED], FEATURE_BOUND)
         _keep_within(row[_REMEMBERED:_CLAUSE], UNBOUNDED)
@@ -138,14 +138,15 @@ def _write_features(row: NDArray[np.float32], features: Features, mount: Pose) -
 
 
 @kernel(counts_references=True)
-def _write_remembered(row: NDArray[np.float32], doors: np.ndarray, used: int, pose: Pose) -> None:
+def _write_remembered(row: NDArray[np.float32], doors: np.ndarray, state: Any, pose: Pose) -> None:
     """Write the remembered doors that count, odometry frame, in the robot frame, nearest first."""
     row[_REMEMBERED:_BUMPS] = 0.0
+    used = state.doors
     away = np.empty(used)
     for i in range(used):
         dx = 0.5 * (doors[i].start_x + doors[i].end_x) - pose[0]
         dy = 0.5 * (doors[i].start_y + doors[i].end_y) - pose[1]
-        away[i] = dx * dx + dy * dy if door_counts(doors[:used], i) else np.inf
+        away[i] = dx * dx + dy * dy if door_counts(doors[:used], i, state) else np.inf
     c, s = math.cos(pose[2]), -math.sin(pose[2])
     x, y = -(c * pose[0] - s * pose[1]), -(s * pose[0] + c * pose[1])
     for k in range(min(used, REMEMBERED_ROWS)):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
+from semnav_env.judge import Judge, Verdict, plan_goals, plan_mission
 from semnav_env.judge.episodes import SPLITS, Episode, load_episodes
 from semnav_env.judge.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.judge.episodes.drafts import Drafter
@@ -19,10 +20,9 @@ from semnav_env.judge.episodes.generate import (
 from semnav_env.judge.episodes.random_clauses import CommandTopic
 from semnav_env.judge.episodes.site import LARGEST_BODY, Site
 from semnav_env.judge.episodes.wording import worded
+from semnav_env.judge.recheck import recheck
 from semnav_env.judge.routes.room_guide import RoomGuide
 from semnav_env.judge.tasks.starts import LEAST_AHEAD, WIDEST_HALF, is_in_junction, sample_start
-from semnav_env.judge.verifier import Verdict, Verifier, plan_goals, plan_mission
-from semnav_env.judge.verifier.recheck import recheck
 from semnav_env.language import (
     Command,
     DoorReference,
@@ -139,7 +139,7 @@ def test_where_no_room_has_a_name_none_is_spoken_of() -> None:
 
 @pytest.mark.parametrize("clauses", [2, 3, 4])
 def test_both_judges_agree_on_drafted_conditions(clauses: int) -> None:
-    """Verifier and second opinion judge each branch alike."""
+    """Judge and second opinion judge each branch alike."""
     verdicts, said = set(), set()
     for seed in range(24):
         draft, rng = drafter(seed), np.random.default_rng(seed)
@@ -149,7 +149,7 @@ def test_both_judges_agree_on_drafted_conditions(clauses: int) -> None:
         assert len(command.clauses) == clauses
         for language in ("en", "de"):
             assert parse(command.say(language), language) == command
-        judge = Verifier(plan_mission(SITE.plan, SITE.geodesic, command, draft.start))
+        judge = Judge(plan_mission(SITE.plan, SITE.geodesic, command, draft.start))
         recording = ghost(judge, targets(SITE.plan, judge, rng), rng, stand=11.0)
         assert recheck(recording, SITE.plan, judge.goals).verdict == judge.verdict
         verdicts.add(judge.verdict)

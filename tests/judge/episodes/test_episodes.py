@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from semnav_env.env import SemNavEnv
+from semnav_env.judge import Verdict
 from semnav_env.judge.episodes import (
     SPLITS,
     Episode,
@@ -28,7 +29,6 @@ from semnav_env.judge.episodes.files import to_line
 from semnav_env.judge.episodes.fingerprint import fingerprint
 from semnav_env.judge.episodes.generate import generate_split
 from semnav_env.judge.episodes.random_clauses import topics_of
-from semnav_env.judge.verifier import Verdict
 from semnav_env.language import parse
 from semnav_env.world.maps import generate_office, load_floor_plan
 from semnav_scripts.main import main

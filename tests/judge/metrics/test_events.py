@@ -161,9 +161,9 @@ def test_events_doors_and_collisions_are_those_of_the_verifier() -> None:
         recorder.note()
     recording, judge = recorder.recording(), env.judge
     events = events_of(recording, env.floor_plan)
-    assert [e.door for e in events if isinstance(e, DoorCrossed)] == judge.verifier.crossed
-    assert recording.collisions == judge.outcome.collisions > 0
-    assert len([e for e in events if isinstance(e, ContactBegun)]) == judge.outcome.collisions
+    assert [e.door for e in events if isinstance(e, DoorCrossed)] == judge.crossed
+    assert recording.collisions == judge.period.collisions > 0
+    assert len([e for e in events if isinstance(e, ContactBegun)]) == judge.period.collisions
     assert [e.step for e in events] == sorted(e.step for e in events)
 
 

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+from semnav_env.judge import Judge, Motion, plan_mission
 from semnav_env.judge.metrics import (
     COST_METRICS,
     METRIC_NAMES,
@@ -24,7 +25,6 @@ from semnav_env.judge.metrics import (
     rms_jerk,
     worst,
 )
-from semnav_env.judge.verifier import Motion, Verifier, plan_mission
 from semnav_env.language import parse
 from semnav_env.robots import SPOT
 from semnav_env.rules import Rules, SuccessRules
@@ -105,8 +105,8 @@ GEODESIC = Geodesic(PLAN)
 START = (1.3, 9.1, 0.0)
 
 
-def glided(command: str, *points: tuple[float, float]) -> tuple[Verifier, Metrics]:
-    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(command), START))
+def glided(command: str, *points: tuple[float, float]) -> tuple[Judge, Metrics]:
+    judge = Judge(plan_mission(PLAN, GEODESIC, parse(command), START))
     recording = ghost(judge, list(points), np.random.default_rng(0))
     return judge, measure(recording, judge, SPOT)
 
@@ -125,14 +125,14 @@ def test_the_neighbouring_door_is_near_and_yet_no_success() -> None:
 
 def test_to_pass_the_goal_is_success_only_for_the_oracle() -> None:
     """A wrong room first: the episode has failed when the right door is crossed."""
-    judge = Verifier(
+    judge = Judge(
         plan_mission(PLAN, GEODESIC, parse("go through the first door on the right"), START)
     )
     path = [START[:2], (3.4, 9.0), (3.4, 7.0)]
     poses = np.array([(x, y, -math.pi / 2) for x, y in path])
     rows = len(poses)
     recording = Recording(poses, np.ones((rows, 3)), np.zeros(rows, int), np.zeros(rows), 1 / 15)
-    found = measure(recording, judge, SPOT)  # of a verifier that was told of no step
+    found = measure(recording, judge, SPOT)  # of a judge that was told of no step
     assert not found.success
     assert found.oracle_success
     assert found.oracle_within_1m
@@ -142,7 +142,7 @@ def test_to_pass_the_goal_is_success_only_for_the_oracle() -> None:
 
 def test_waiting_at_the_start_is_waiting_nowhere_else() -> None:
     command = "go through the second door on the left and wait for 2 seconds"
-    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(command), START))
+    judge = Judge(plan_mission(PLAN, GEODESIC, parse(command), START))
     there = judge.mission.goals[-1].pose
     rows = 31  # two seconds
     for place, met in ((START, False), (there, True)):
@@ -159,13 +159,13 @@ def test_standing_is_what_the_missions_rules_call_standing() -> None:
         poses = np.tile(np.array(mission.goals[-1].pose), (31, 1))
         creeping = np.tile(np.array((0.2, 0.0, 0.0)), (31, 1))
         recording = Recording(poses, creeping, np.zeros(31, int), np.zeros(31), 1 / 15)
-        assert measure(recording, Verifier(mission), SPOT).oracle_success is met
+        assert measure(recording, Judge(mission), SPOT).oracle_success is met
 
 
 def test_a_command_without_a_route_is_measured_by_its_success() -> None:
     """A body that turns on the spot moves its centre, and no way is shorter than none."""
     for command, success in (("turn around", True), ("turn left by 90 degrees", False)):
-        judge = Verifier(plan_mission(PLAN, GEODESIC, parse(command), START))
+        judge = Judge(plan_mission(PLAN, GEODESIC, parse(command), START))
         turned = [START, (1.4, 9.1, math.pi), (1.35, 9.1, math.pi)]
         for pose in turned[1:]:
             judge.update(Motion(pose, 0.0, 0.0, False, 1 / 15))
@@ -185,7 +185,7 @@ def test_a_measure_that_an_episode_does_not_have_is_left_out_of_the_mean() -> No
 
 
 def test_the_shortest_way_scores_near_one_everywhere() -> None:
-    judge = Verifier(
+    judge = Judge(
         plan_mission(PLAN, GEODESIC, parse("go through the fourth door on the left"), START)
     )
     recording = ghost(judge, [judge.mission.goals[0].pose[:2]], np.random.default_rng(0))
@@ -225,7 +225,7 @@ def test_mean_collisions_per_100m_are_those_of_the_whole_way() -> None:
 
 
 def test_a_recording_survives_a_file(tmp_path) -> None:  # type: ignore[no-untyped-def]
-    judge = Verifier(
+    judge = Judge(
         plan_mission(PLAN, GEODESIC, parse("go through the first door on the right"), START)
     )
     recording = ghost(judge, [(3.4, 7.0)], np.random.default_rng(0))

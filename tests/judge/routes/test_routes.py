@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from semnav_env.judge import plan_goals
 from semnav_env.judge.routes.choices import words_of
 from semnav_env.judge.routes.describe import UndescribableError, describe
 from semnav_env.judge.routes.follow import follows
 from semnav_env.judge.routes.route import HEADING_STEP, POSE_SPACING, Route, RouteError
 from semnav_env.judge.routes.route_to import comfortable, route_to
-from semnav_env.judge.verifier import plan_goals
 from semnav_env.language import Approach, Command, DoorReference, parse, sample_clause
 from semnav_env.language.command import reference_of
 from semnav_env.mind.grounding import GroundingError, PassGoal

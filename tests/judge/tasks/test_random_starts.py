@@ -5,10 +5,10 @@ import itertools
 import numpy as np
 import pytest
 
+from semnav_env.judge import plan_goals
 from semnav_env.judge.tasks import EpisodeRequest, MissionMaker, starts
 from semnav_env.judge.tasks.sampling import DOORS, TURNS, leads_nowhere
 from semnav_env.judge.tasks.starts import LEAST_AHEAD, WIDEST_HALF
-from semnav_env.judge.verifier import plan_goals
 from semnav_env.language import Command
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.robots import robot_spec

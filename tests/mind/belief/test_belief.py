@@ -41,7 +41,7 @@ def recorded(options: dict[str, object], seed: int = 3) -> tuple[Recorded, list[
     note()
     for _ in steps(env, make_agent("scripted"), *begun):
         note()
-    command = str(env.judge.verifier.mission.command)
+    command = str(env.judge.mission.command)
     return Recorded(command, env.robot.lidar_mount, sensed), believed
 
 

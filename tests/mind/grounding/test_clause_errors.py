@@ -5,7 +5,7 @@ import pickle
 import pytest
 
 from semnav_env.env import SemNavEnv
-from semnav_env.judge.verifier import plan_goals
+from semnav_env.judge import plan_goals
 from semnav_env.language import Command, GoToRoom, Leave, Stop, parse
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.mind.grounding.clause_error import ClauseError

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from shapely import box
 
 from semnav_env.env import SemNavEnv
-from semnav_env.judge.verifier import plan_goals
+from semnav_env.judge import plan_goals
 from semnav_env.language import parse
 from semnav_env.mind.belief import BeliefTracker
 from semnav_env.mind.grounding.goal import PassGoal
@@ -74,7 +74,7 @@ def test_an_environment_has_one_rule_for_doors(mode: str) -> None:
     ):
         env = SemNavEnv(floor_plan=PLAN, observation=mode, **given_door)
         env.reset(seed=0, options=options)
-        goal = env.judge.verifier.follower.goal
+        goal = env.judge.follower.goal
         assert isinstance(goal, PassGoal)
         assert goal.door.name == "gate"
         assert env.extractor.door_rules == env.rules.door == env.tracker.rules.door

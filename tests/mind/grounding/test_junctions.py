@@ -121,6 +121,29 @@ def test_a_narrow_opening_needs_walls_at_both_edges(width: float, narrow: bool, 
     assert ways_on(seen) == ([] if narrow and edges != "both" else [(True, False, True)])
 
 
+@pytest.mark.parametrize(("width", "bends"), [(0.8, False), (1.1, True), (1.3, True)])
+@pytest.mark.parametrize("sees_near_edge", [True, False])
+def test_a_hall_may_bend_into_one_as_narrow_as_a_door(
+    width: float, bends: bool, sees_near_edge: bool
+) -> None:
+    """The wall across is enough: from before the mouth one does not see along its nearer edge."""
+    sides = polyline((-3.0, 1.0), (8.0, 1.0)) + polyline((8.0 + width, -1.0), (-3.0, -1.0))
+    walls = [Wall((8.0, 1.0), (8.0, 6.0))] if sees_near_edge else []
+    across = Wall((8.0 + width, 6.0), (8.0 + width, -1.0))
+    seen = corridor_at(Scene((*sides, *walls, across)), START)
+    assert ways_on(seen) == ([(True, False, False)] if bends else [])
+    assert all(junction.is_corner for junction in seen.junctions)
+
+
+def test_a_gap_as_narrow_as_a_door_is_a_bend_only_at_the_very_end() -> None:
+    """Before it, or where the wall across ends at the side, it may be a door that was missed."""
+    sides = polyline((-3.0, 1.0), (7.5, 1.0)) + polyline((9.0, -1.0), (-3.0, -1.0))
+    beyond, across = Wall((8.6, 1.0), (9.0, 1.0)), Wall((9.0, 6.0), (9.0, -1.0))
+    assert ways_on(corridor_at(Scene((*sides, beyond, across)), START)) == []
+    short = Wall((8.6, 1.0), (8.6, -1.0))
+    assert ways_on(corridor_at(Scene((*sides, short)), START)) == []
+
+
 @pytest.mark.parametrize("x", [-0.9, 0.0, 0.9])
 def test_in_a_junction_the_corridor_is_the_one_that_leads_on(x: float) -> None:
     """A robot that starts there looks along the corridor that leads on."""

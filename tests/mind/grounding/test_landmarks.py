@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from semnav_env.judge.verifier import plan_goals
+from semnav_env.judge import plan_goals
 from semnav_env.language import parse
 from semnav_env.mind.grounding import GroundingError, ReachGoal, ground
 from semnav_env.world.maps import load_floor_plan

@@ -202,7 +202,7 @@ def test_a_robot_that_sees_it_drives_there(robot: str, text: str, pose: Pose, do
     env = SemNavEnv(robot, "office_cross", observation=agent.observation)
     driven = drive(env, agent, 0, {"command": text, "pose": pose})
     assert driven.cause == ""
-    assert driven.verifier.crossed[-1] == door
+    assert driven.judge.crossed[-1] == door
     assert driven.rechecked() == ""
 
 

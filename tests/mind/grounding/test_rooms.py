@@ -13,8 +13,8 @@ from shapely import Point
 
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
+from semnav_env.judge import Judge, Motion, Verdict, plan_goals, plan_mission
 from semnav_env.judge.routes.room_guide import RoomGuide
-from semnav_env.judge.verifier import Motion, Verdict, Verifier, plan_goals, plan_mission
 from semnav_env.language import (
     Command,
     CommandError,
@@ -62,6 +62,8 @@ def told(name: str, begin: Pose = WEST) -> Way:
         ("Café", "cafe"),
         ("Cafe\u0301", "cafe"),
         ("Sało Ærø", "salo aero"),
+        ("Anna's room", "annas room"),
+        ("parents\u2019 bedroom", "parents bedroom"),
     ],
 )
 def test_names_are_plain_letters_and_digits(name: str, plain: str) -> None:
@@ -96,6 +98,24 @@ def test_a_misspelt_room_is_answered_with_the_nearest_one() -> None:
     with pytest.raises(CommandError, match="corrected: library") as caught:
         parse("go to the libary", rooms=("library", "kitchen"))
     assert caught.value.suggestion == "library"
+
+
+@pytest.mark.parametrize(
+    ("said", "name"),
+    [
+        ("the living room", "living room"),
+        ("the kitchen", "kitchen"),
+        ("the parents' bedroom", "parents bedroom"),
+        ("the parents\u2019 room", "parents bedroom"),
+        ("the daughter's bedroom", "daughters bedroom"),
+        ("the daughter\u2019s room", "daughters bedroom"),
+        ("the daughters bedroom", "daughters bedroom"),
+    ],
+)
+def test_the_rooms_of_the_villa_are_called_as_in_the_thesis(said: str, name: str) -> None:
+    rooms = load_floor_plan("villa_hall").room_names
+    for text in (f"go to {said}", f"go into {said}", f"enter {said}"):
+        assert parse(text, rooms=rooms).clauses == (GoToRoom(name),)
 
 
 def test_room_numbers_may_be_short_where_they_are_unique() -> None:
@@ -197,8 +217,8 @@ def test_without_a_way_a_room_is_refused() -> None:
         ground(clause, DOORS, (0.0, 0.0, 0.0))
 
 
-def judged(command: str, *walk: tuple[float, float], start: Pose = WEST) -> Verifier:
-    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(command, rooms=PLAN.room_names), start))
+def judged(command: str, *walk: tuple[float, float], start: Pose = WEST) -> Judge:
+    judge = Judge(plan_mission(PLAN, GEODESIC, parse(command, rooms=PLAN.room_names), start))
     x, y = start[:2]
     for bx, by in walk:
         for share in np.linspace(0.0, 1.0, max(2, int(math.dist((x, y), (bx, by)) / 0.1)))[1:]:
@@ -239,7 +259,7 @@ def test_after_coming_back_counting_begins_as_at_the_start() -> None:
 
 @pytest.mark.parametrize("seconds", [1, 12, 40])
 def test_waiting_takes_its_time_and_is_not_stopping_short(seconds: int) -> None:
-    judge = Verifier(plan_mission(PLAN, GEODESIC, parse(f"wait for {seconds} seconds"), WEST))
+    judge = Judge(plan_mission(PLAN, GEODESIC, parse(f"wait for {seconds} seconds"), WEST))
     steps = 0
     while not judge.over:
         judge.update(Motion(WEST, 0.0, 0.0, in_contact=False, seconds=1 / 15))

@@ -10,8 +10,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from semnav_env.judge import plan_goals
 from semnav_env.judge.routes.route import Route
-from semnav_env.judge.verifier import plan_goals
 from semnav_env.language import parse
 from semnav_env.mind.belief import BeliefTracker
 from semnav_env.mind.grounding import GroundingError

@@ -124,7 +124,7 @@ def test_the_hallway_and_its_junctions_are_those_of_the_corridor() -> None:
 
 def test_the_told_way_to_a_room_is_an_entry_of_its_own() -> None:
     env, observation = driven(ROOM, 20)
-    [(clause, way)] = env.judge.verifier.mission.ways_seen_from(ROOM["pose"]).items()
+    [(clause, way)] = env.judge.mission.ways_seen_from(ROOM["pose"]).items()
     rows, pose = table(observation, "told_ways"), env.belief.pose
     assert set(rows[:, 0]) == {float(clause)} == {1.0}
     np.testing.assert_allclose(rows[:, 1:], points_to_local(pose, np.array(way.places)), atol=1e-3)

@@ -60,7 +60,7 @@ def test_masks_are_zero_or_one_and_what_they_leave_out_is_zero() -> None:
 def test_the_tokens_are_those_of_the_command() -> None:
     env = fresh("semantic")
     observation, _ = env.reset(seed=0, options=START)
-    assert decode(observation["command"].reshape(8, 5)) == env.judge.verifier.mission.command
+    assert decode(observation["command"].reshape(8, 5)) == env.judge.mission.command
 
 
 def test_the_seen_goal_leads_to_the_true_door() -> None:

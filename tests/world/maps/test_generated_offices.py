@@ -13,7 +13,8 @@ import shapely
 from hypothesis import given, settings
 from shapely import LineString, Point
 
-from semnav_env.judge.tasks import EpisodeJudge, EpisodeRequest, MissionMaker
+from semnav_env.judge import Judge
+from semnav_env.judge.tasks import EpisodeRequest, MissionMaker
 from semnav_env.language import parse
 from semnav_env.mind.grounding import ReachGoal
 from semnav_env.robots import ROBOTS, WHEELCHAIR
@@ -180,7 +181,7 @@ def test_random_commands_are_found_and_their_ways_are_finite(name: str) -> None:
         for episode in range(2):
             mission = missions.make(EpisodeRequest(), np.random.default_rng(episode))
             assert math.isfinite(mission.route_length)
-            assert math.isfinite(EpisodeJudge(mission).remaining)
+            assert math.isfinite(Judge(mission).remaining)
             for goal in mission.goals:
                 at_desk = len(plan.furniture.query(Point(goal.pose[:2]), "covered_by"))
                 assert not (isinstance(goal, ReachGoal) and at_desk)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numba.experimental import structref
 
-from semnav_env.judge.verifier.exact_hypot import exact_hypot
+from semnav_env.judge.exact_hypot import exact_hypot
 from semnav_env.mind.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
 from semnav_env.mind.grounding.crossing import first_crossed
 from semnav_env.world.maps.geodesic import distance_at
@@ -42,7 +42,7 @@ class JudgeRecord(structref.StructRefProxy):
         doors: `FloorPlan.door_ends`.
         arms: of the corridor that lead astray, see `wrong_arms`; set with each goal.
         distances: `WaysTo.distances` of the goal, shape (0, 0) where no way is left to go.
-        progress: `Follower.progress` of the verifier's follower.
+        progress: `Follower.progress` of the judge's follower.
     """
 
     state: np.ndarray
@@ -87,25 +87,40 @@ def judge_motion(record: JudgeRecord) -> int:
     pose = (state.x, state.y, state.heading)
     events = note_pose(record.progress, pose, state.speed, state.seconds)
     events &= CLAUSE_DONE | TRAIL_DUE
-    x, y = state.last_x, state.last_y
-    state.path_length += exact_hypot(state.x - x, state.y - y)
-    if state.in_contact > state.was_in_contact:
-        state.collisions += 1
-    state.was_in_contact = state.in_contact
     still = state.speed < state.still_speed and abs(state.yaw_rate) < state.still_yaw_rate
     state.still_seconds = state.still_seconds + state.seconds if still else 0.0
     if state.still_seconds > state.longest_still:
         events |= TOO_STILL
-    crossed = first_crossed(record.doors, x, y, state.x, state.y)
+    crossed = first_crossed(record.doors, state.last_x, state.last_y, state.x, state.y)
     if crossed >= 0:
         events |= DOOR_CROSSED
     if _is_astray(record.arms, state):
         events |= ASTRAY
-    before, now = state.remaining, _remaining(record, state)
-    state.progress = before - now if math.isfinite(before - now) else 0.0
-    state.remaining_before, state.remaining, state.crossed_door = before, now, crossed
-    state.last_x, state.last_y = state.x, state.y
+    state.remaining_before, state.remaining = state.remaining, _remaining(record, state)
+    state.crossed_door = crossed
+    _write_period(state)
     return events
+
+
+@kernel
+def _write_period(state: Any) -> None:
+    """Write what became of the robot in this control period, unless a judge who thinks adds to it.
+
+    Args:
+        state: of the record, with the motion and the remaining way of this control period.
+    """
+    period = state.period
+    period.steps += 1
+    period.pose[0], period.pose[1], period.pose[2] = state.x, state.y, state.heading
+    period.path_length += exact_hypot(state.x - state.last_x, state.y - state.last_y)
+    if state.in_contact > state.was_in_contact:
+        period.collisions += 1
+    nearer = state.remaining_before - state.remaining
+    period.progress = nearer if math.isfinite(nearer) else 0.0
+    period.in_contact = state.in_contact != 0
+    period.clause = period.success = period.failure = False
+    state.was_in_contact = state.in_contact
+    state.last_x, state.last_y = state.x, state.y
 
 
 @kernel(borrows=True)

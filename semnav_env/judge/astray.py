@@ -1,16 +1,33 @@
-"""Wrong turns: arms of junctions that a clause does not name, and junctions left behind."""
+"""What leads astray: wrong doors, arms that a clause does not name, junctions left behind."""
 
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 
 from semnav_env.language.clauses import Clause, Turn
-from semnav_env.mind.grounding.goal import Goal, ReachGoal
+from semnav_env.mind.grounding.crossing import first_crossed
+from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, StopGoal
 from semnav_env.rules import SuccessRules
+from semnav_env.world.maps.floor_plan import PlanDoor
 from semnav_features.corridor import SideOpening
 from semnav_features.frames import FloatArray
+from semnav_features.rules import DoorRules
+
+
+def may_cross(goal: Goal, crossed: PlanDoor, rules: DoorRules) -> bool:
+    """Whether a goal is to pass that very door, lies beyond it on the known way, or lets roam.
+
+    What is too wide to count as a door may be crossed anyway.
+    """
+    if crossed.is_opening(rules) or (isinstance(goal, StopGoal) and goal.roams):
+        return True
+    if isinstance(goal, PassGoal) and goal.door.name == crossed.name:
+        return True
+    line = np.array([(*crossed.start, *crossed.end)])
+    return any(first_crossed(line, *a, *b) == 0 for a, b in pairwise(goal.places))
 
 
 def wrong_arms(clause: Clause, goal: Goal, rules: SuccessRules) -> FloatArray:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import shapely
+
 from semnav_env.judge.routes.room_guide import RoomGuide
 from semnav_env.language import Command
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.follower import Follower
-from semnav_env.mind.grounding.goal import Goal, PassGoal, SeekGoal
+from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
 from semnav_env.mind.grounding.ways import Guide
 from semnav_env.rules import Rules
 from semnav_env.world.maps.floor_plan import FloorPlan
@@ -52,6 +54,7 @@ def goals_in_turn(
         follower.start(scene, start)
         while not follower.done:
             check_grounded(follower)
+            _check_inside(follower.goal, floor_plan)
             yield follower.active, follower.goal
             follower.skip_to_next(scene)
     except GroundingError as error:
@@ -72,6 +75,20 @@ def check_grounded(follower: Follower) -> None:
         raise GroundingError(follower.impossible)
     if isinstance(follower.goal, SeekGoal):
         raise GroundingError(f"{follower.goal.what}: the floor plan shows none there")
+
+
+def _check_inside(goal: Goal, floor_plan: FloorPlan) -> None:
+    """Refuse a goal that no pose in the plan reaches.
+
+    To a robot that stands across a corridor the end of another one can look like a corner.
+
+    Raises:
+        GroundingError: says where the goal leads.
+    """
+    if isinstance(goal, ReachGoal):
+        away = floor_plan.boundary.distance(shapely.Point(goal.pose[:2]))
+        if away > goal.distance_tolerance:
+            raise GroundingError(f"{goal.because}: that leads out of {floor_plan.name}")
 
 
 def place(goal: Goal) -> Point:

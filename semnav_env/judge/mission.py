@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from semnav_env.judge.goals import goals_in_turn, place
 from semnav_env.judge.routes.room_guide import RoomGuide
-from semnav_env.judge.verifier.goals import goals_in_turn, place
 from semnav_env.language import Command
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.goal import Goal

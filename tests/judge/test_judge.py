@@ -1,4 +1,4 @@
-"""The verifier says what happened, by the identity of doors and by places."""
+"""The judge says what happened, by the identity of doors and by places."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from semnav_env.judge.tasks import EpisodeJudge
-from semnav_env.judge.verifier import Motion, Verdict, Verifier, plan_mission
-from semnav_env.judge.verifier.verdict import verdicts
+from semnav_env.judge import Judge, Motion, Verdict, plan_mission
+from semnav_env.judge.verdict import verdicts
 from semnav_env.language import parse
 from semnav_env.mind.grounding import GroundingError, PassGoal
 from semnav_env.world.maps import PlanDoor, load_floor_plan
@@ -22,11 +21,11 @@ GEODESIC = Geodesic(PLAN)
 WEST: Pose = (1.3, 9.1, 0.0)
 
 
-def verifier(command: str, start: Pose = WEST) -> Verifier:
-    return Verifier(plan_mission(PLAN, GEODESIC, parse(command), start))
+def judge_of(command: str, start: Pose = WEST) -> Judge:
+    return Judge(plan_mission(PLAN, GEODESIC, parse(command), start))
 
 
-def walk(judge: Verifier, *points: tuple[float, float], step: float = 0.1) -> Verifier:
+def walk(judge: Judge, *points: tuple[float, float], step: float = 0.1) -> Judge:
     """Move the robot's centre along straight lines, facing the way it goes."""
     x, y = judge.mission.start[:2]
     for px, py in points:
@@ -59,7 +58,7 @@ def walk(judge: Verifier, *points: tuple[float, float], step: float = 0.1) -> Ve
 def test_walks_are_judged_by_what_was_crossed_and_reached(
     command: str, points: list[tuple[float, float]], verdicts: list[str]
 ) -> None:
-    assert list(walk(verifier(command), *points).verdicts) == verdicts
+    assert list(walk(judge_of(command), *points).verdicts) == verdicts
 
 
 def test_verdicts_are_printed_as_plain_words() -> None:
@@ -67,7 +66,7 @@ def test_verdicts_are_printed_as_plain_words() -> None:
 
 
 def test_the_door_next_to_the_named_one_is_a_failure() -> None:
-    judge = walk(verifier("go through the second door on the right"), (3.4, 9.0), (3.4, 7.0))
+    judge = walk(judge_of("go through the second door on the right"), (3.4, 9.0), (3.4, 7.0))
     assert judge.over
     assert not judge.success
     assert judge.crossed == ["west_south_1"]
@@ -77,38 +76,38 @@ def test_an_opening_too_wide_for_a_door_is_no_wrong_door() -> None:
     gate = PlanDoor("gate", (14.0, 8.0), (14.0, 10.2))
     plan = replace(PLAN, doors=(*PLAN.doors, gate))
     command = parse("follow the hallway until the intersection")
-    judge = walk(Verifier(plan_mission(plan, GEODESIC, command, WEST)), (15.0, 9.1))
+    judge = walk(Judge(plan_mission(plan, GEODESIC, command, WEST)), (15.0, 9.1))
     assert judge.success
     assert judge.crossed == ["gate"]
 
 
 def test_a_closed_door_is_not_counted() -> None:
-    judge = verifier("go through the second door on the left", (28.6, 9.1, math.pi))
+    judge = judge_of("go through the second door on the left", (28.6, 9.1, math.pi))
     assert isinstance(judge.mission.goals[0], PassGoal)
     assert judge.mission.goals[0].door.name == "east_south_1"
 
 
 def test_a_missing_referent_is_answered_with_what_there_is() -> None:
     with pytest.raises(GroundingError, match="after 5"):
-        verifier("go through the ninth door on the right")
+        judge_of("go through the ninth door on the right")
 
 
 def test_contacts_are_counted_when_they_begin() -> None:
-    judge = verifier("go through the first door on the right")
+    judge = judge_of("go through the first door on the right")
     for touching in (False, True, True, False, True):
         judge.update(Motion(WEST, 0.1, 0.0, touching, 1 / 15))
-    assert judge.read().collisions == 2
+    assert judge.period.collisions == 2
 
 
 def test_the_path_is_as_long_as_what_was_driven() -> None:
-    judge, (x, y, _) = verifier("follow the hallway until the end"), WEST
+    judge, (x, y, _) = judge_of("follow the hallway until the end"), WEST
     for dx, dy in ((0.3, 0.0), (0.3, 0.4), (0.0, 0.0)):
         judge.update(Motion((x + dx, y + dy, 0.0), 1.0, 0.0, in_contact=False, seconds=1.0))
-    assert judge.read().path_length == pytest.approx(1.2)
+    assert judge.period.path_length == pytest.approx(1.2)
 
 
 def test_standing_still_for_ten_seconds_is_stopping_short() -> None:
-    judge = verifier("go through the first door on the right")
+    judge = judge_of("go through the first door on the right")
     for _ in range(149):
         judge.update(Motion(WEST, 0.0, 0.0, False, 1 / 15))
     assert not judge.over
@@ -118,7 +117,7 @@ def test_standing_still_for_ten_seconds_is_stopping_short() -> None:
 
 
 def test_the_route_leads_through_every_goal_and_is_shortest() -> None:
-    judge = verifier("turn right at the intersection and go through the first door on the left")
+    judge = judge_of("turn right at the intersection and go through the first door on the left")
     assert judge.mission.route[0] == pytest.approx(WEST[:2])
     assert judge.mission.route[-1] == pytest.approx((16.0, 2.7))
     walk(judge, (15.0, 9.1), (15.0, 2.7), (16.3, 2.7))
@@ -126,14 +125,14 @@ def test_the_route_leads_through_every_goal_and_is_shortest() -> None:
 
 
 def test_the_remaining_way_shrinks_to_zero() -> None:
-    judge = EpisodeJudge(verifier("go through the first door on the right").mission)
+    judge = Judge(judge_of("go through the first door on the right").mission)
     lengths = [judge.remaining]
     for x, y in ((2.4, 9.0), (3.4, 8.8), (3.4, 8.3)):
         judge.update(Motion((x, y, 0.0), 1.0, 0.0, False, 1.0))
         lengths.append(judge.remaining)
     assert lengths == sorted(lengths, reverse=True)
     judge.update(Motion((3.4, 7.9, 0.0), 1.0, 0.0, False, 1.0))
-    assert judge.verifier.success
+    assert judge.success
     assert judge.remaining == 0.0
 
 
@@ -174,29 +173,36 @@ def test_the_branch_not_taken_is_skipped_and_never_fails() -> None:
 def test_the_clause_of_the_other_branch_is_skipped(
     command: str, points: list[tuple[float, float]], verdicts: list[str]
 ) -> None:
-    judge = walk(verifier(command), *points)
+    judge = walk(judge_of(command), *points)
     assert list(judge.verdicts) == verdicts
     assert judge.success
 
 
 def test_the_verdict_is_that_of_the_deciding_clause() -> None:
-    judge = verifier("go through the second door on the right")
+    judge = judge_of("go through the second door on the right")
     assert judge.verdict is Verdict.ACTIVE
     assert walk(judge, (3.4, 9.0), (3.4, 7.0)).verdict is Verdict.WRONG_DOOR
 
 
 def test_a_referent_missing_from_the_plan_is_refused() -> None:
-    """From beside the door of a room there is no end of a corridor to be seen on the plan."""
-    plan = load_floor_plan("villa_hall")
-    start: Pose = (1.0426539, 0.685958, -2.890914)
-    command = "turn left at the first corner and go down the hallway until the end of the hallway"
+    """Where there are no walls, there is no end of a corridor to be seen on the plan."""
+    plan = replace(load_floor_plan("villa_hall"), surfaces=(), doors=())
+    start: Pose = (1.0, 2.0, 1.5)
+    command = "go down the hallway until the end of the hallway"
     with pytest.raises(GroundingError, match="the end of the hallway: the floor plan shows none"):
-        Verifier(plan_mission(plan, Geodesic(plan), parse(command), start))
+        Judge(plan_mission(plan, Geodesic(plan), parse(command), start))
+
+
+def test_a_corner_outside_the_building_is_refused() -> None:
+    """Across the hall of the villa its side arm looks like a room that opens to the left."""
+    plan = load_floor_plan("villa_hall")
+    with pytest.raises(GroundingError, match="leads out of villa_hall"):
+        plan_mission(plan, Geodesic(plan), parse("turn left at the corner"), (1.58, 2.02, -2.98))
 
 
 def test_after_a_stop_the_next_clause_begins_where_the_stop_did() -> None:
     """It does not matter where the robot stands."""
-    judge = verifier("follow the hallway for 3 metres, stop and turn left")
+    judge = judge_of("follow the hallway for 3 metres, stop and turn left")
     walk(judge, (3.6, 9.6))
     judge.update(Motion((3.6, 9.6, 0.0), 0.0, 0.0, in_contact=False, seconds=1 / 15))
     assert [str(verdict) for verdict in judge.verdicts] == ["done", "done", "active"]
@@ -205,6 +211,6 @@ def test_after_a_stop_the_next_clause_begins_where_the_stop_did() -> None:
 
 def test_a_door_that_opens_later_is_still_a_wrong_door() -> None:
     """It may have been opened since; a way through it was not asked for."""
-    judge = verifier("go through the first door on the left", (28.6, 9.1, math.pi))
+    judge = judge_of("go through the first door on the left", (28.6, 9.1, math.pi))
     assert not PLAN.door("east_south_2").open
     assert walk(judge, (23.0, 9.0), (23.0, 7.0)).verdict is Verdict.WRONG_DOOR

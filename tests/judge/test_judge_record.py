@@ -11,10 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_env.judge.tasks import EpisodeJudge
-from semnav_env.judge.verifier import Verdict, Verifier, plan_mission
-from semnav_env.judge.verifier.exact_hypot import exact_hypot
-from semnav_env.judge.verifier.judge_record import ASTRAY, DOOR_CROSSED, TOO_STILL, judge_motion
+from semnav_env.judge import Judge, Verdict, plan_mission
+from semnav_env.judge.exact_hypot import exact_hypot
+from semnav_env.judge.judge_record import ASTRAY, DOOR_CROSSED, TOO_STILL, judge_motion
 from semnav_env.language import parse
 from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.maps.geodesic import Geodesic
@@ -52,27 +51,27 @@ def test_the_length_of_a_step_is_that_of_python_to_the_last_bit(x: float, y: flo
     ],
 )
 def test_an_event_calls_for_thinking(pose: Pose, speed: float, seconds: float, event: int) -> None:
-    verifier = Verifier(MISSION)
+    judge = Judge(MISSION)
     if event == DOOR_CROSSED:
-        verifier.write(moved((3.4, 8.5, 0.0)))
-        judge_motion(verifier.record)
-    verifier.write(moved(pose, speed, seconds))
-    assert judge_motion(verifier.record) & (DOOR_CROSSED | ASTRAY | TOO_STILL) == event
+        judge.write(moved((3.4, 8.5, 0.0)))
+        judge_motion(judge.record)
+    judge.write(moved(pose, speed, seconds))
+    assert judge_motion(judge.record) & (DOOR_CROSSED | ASTRAY | TOO_STILL) == event
 
 
 @pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda j: pickle.loads(pickle.dumps(j))])
 def test_a_copied_judge_goes_on_as_the_original(duplicate: object) -> None:
-    judge, rng = EpisodeJudge(MISSION), np.random.default_rng(0)
+    judge, rng = Judge(MISSION), np.random.default_rng(0)
     way = np.linspace((1.3, 9.1, 0.0), (15.0, 9.1, 0.0), 150) + rng.normal(0.0, 0.02, (150, 3))
     motions = [moved((x, y, heading)) for x, y, heading in way.tolist()]
     for motion in motions[:70]:
         judge.update(motion)
-    twin: EpisodeJudge = duplicate(judge)  # type: ignore[operator]
+    twin: Judge = duplicate(judge)  # type: ignore[operator]
     for motion in motions[70:]:
         assert judge.update(motion) == twin.update(motion)
-        assert judge.info == twin.info
-    assert judge.verifier.verdict == twin.verifier.verdict == Verdict.ACTIVE
-    assert judge.outcome.path_length == sum_of_steps(motions)
+        assert judge.verdicts == twin.verdicts
+    assert judge.verdict == twin.verdict == Verdict.ACTIVE
+    assert judge.period.path_length == sum_of_steps(motions)
 
 
 def sum_of_steps(motions: list[Motion]) -> float:
@@ -85,7 +84,7 @@ def sum_of_steps(motions: list[Motion]) -> float:
 
 
 def test_progress_is_by_how_much_the_way_gets_shorter() -> None:
-    judge = EpisodeJudge(MISSION)
+    judge = Judge(MISSION)
     before = judge.remaining
     judged = judge.update(moved((2.0, 9.0, 0.0)))
     assert judged.progress == before - judge.remaining > 0.5

@@ -1,4 +1,4 @@
-"""The verifier and the second opinion, which share no code, agree."""
+"""The judge and the second opinion, which share no code, agree."""
 
 from __future__ import annotations
 
@@ -16,12 +16,13 @@ from hypothesis import strategies as st
 from semnav_agents.evaluation import drive
 from semnav_agents.oracle import OracleAgent
 from semnav_env.env import SemNavEnv
+from semnav_env.judge import FAILURES, Judge, Verdict, plan_mission
+from semnav_env.judge import judge as first
+from semnav_env.judge import recheck as second
+from semnav_env.judge.astray import wrong_arms
 from semnav_env.judge.metrics import Recording
+from semnav_env.judge.recheck import recheck
 from semnav_env.judge.tasks.sampling import sample_mission
-from semnav_env.judge.verifier import FAILURES, Verdict, Verifier, plan_mission, verifier
-from semnav_env.judge.verifier import recheck as second
-from semnav_env.judge.verifier.astray import wrong_arms
-from semnav_env.judge.verifier.recheck import recheck
 from semnav_env.language import Clause, Command, GoBack, GoToRoom, parse
 from semnav_env.language.rooms import plain_name
 from semnav_env.language.sampling import sample_command
@@ -38,7 +39,7 @@ PLANS = {name: load_floor_plan(name) for name in bundled_names()}
 GEODESICS = {name: Geodesic(plan) for name, plan in PLANS.items()}
 
 
-def glide(name: str, seed: int) -> tuple[Verifier, Recording] | None:
+def glide(name: str, seed: int) -> tuple[Judge, Recording] | None:
     """A random command on a plan and a ghost that carries it out, more or less."""
     plan, rng = PLANS[name], np.random.default_rng(seed)
     start = sample_pose(plan, WHEELCHAIR, rng)
@@ -51,8 +52,8 @@ def glide(name: str, seed: int) -> tuple[Verifier, Recording] | None:
     return judge, ghost(judge, points, rng, wobble=wobble, pause=times[0], stand=times[1])
 
 
-def judge_of_any(name: str, start: Pose, rng: np.random.Generator) -> Verifier | None:
-    """The verifier of a random command, of any kind half of the time; None if not feasible."""
+def judge_of_any(name: str, start: Pose, rng: np.random.Generator) -> Judge | None:
+    """The judge of a random command, of any kind half of the time; None if not feasible."""
     drawn = sample_mission(PLANS[name], GEODESICS[name], start, rng)
     command = drawn and drawn.command
     kind = rng.integers(8)
@@ -64,7 +65,7 @@ def judge_of_any(name: str, start: Pose, rng: np.random.Generator) -> Verifier |
         rooms = PLANS[name].rooms
         command = Command((GoToRoom(plain_name(rooms[rng.integers(len(rooms))].name)),))
     try:
-        return command and Verifier(plan_mission(PLANS[name], GEODESICS[name], command, start))
+        return command and Judge(plan_mission(PLANS[name], GEODESICS[name], command, start))
     except GroundingError:
         return None
 
@@ -100,7 +101,7 @@ def test_both_judge_driven_episodes_alike(name: str, robot: str) -> None:
     for seed, agent in enumerate((OracleAgent(), ErringAgent(1), ErringAgent(2))):
         driven = drive(env, agent, seed, {})
         assert driven.rechecked() == ""
-        assert driven.metrics.success == (driven.verifier.verdict is Verdict.DONE)
+        assert driven.metrics.success == (driven.judge.verdict is Verdict.DONE)
 
 
 def arms_that_end_sooner(clause: Clause, goal: Goal, rules: SuccessRules) -> FloatArray:
@@ -110,11 +111,11 @@ def arms_that_end_sooner(clause: Clause, goal: Goal, rules: SuccessRules) -> Flo
 @pytest.mark.parametrize(
     ("module", "name", "value"),
     [
-        (verifier, "wrong_arms", arms_that_end_sooner),
-        (verifier, "_may_cross", lambda *_: True),
+        (first, "wrong_arms", arms_that_end_sooner),
+        (first, "may_cross", lambda *_: True),
     ],
 )
-def test_a_verifier_that_judges_otherwise_is_found_out(
+def test_a_judge_that_judges_otherwise_is_found_out(
     monkeypatch: pytest.MonkeyPatch, module: ModuleType, name: str, value: object
 ) -> None:
     monkeypatch.setattr(module, name, value)
@@ -137,11 +138,11 @@ def test_other_rules_give_other_verdicts() -> None:
 
 
 def test_a_disagreement_is_told() -> None:
-    """A verifier that is led to believe in another path is found out."""
+    """A judge that is led to believe in another path is found out."""
     env = SemNavEnv(observation="truth", max_seconds=25.0)
     driven = drive(env, OracleAgent(), 0, {})
-    assert driven.verifier.success
-    driven.verifier.failure = Verdict.WRONG_DOOR
+    assert driven.judge.success
+    driven.judge.failure = Verdict.WRONG_DOOR
     assert driven.rechecked() == "done"
 
 
@@ -168,7 +169,7 @@ def test_plain_walks_are_judged_as_by_hand(
     command: str, points: list[tuple[float, float]], verdict: str
 ) -> None:
     start = (1.3, 9.1, 0.0)
-    judge = Verifier(
+    judge = Judge(
         plan_mission(PLANS["office_cross"], GEODESICS["office_cross"], parse(command), start)
     )
     recording = walked(start[:2], *points)
@@ -179,15 +180,15 @@ def test_plain_walks_are_judged_as_by_hand(
 def test_what_comes_after_the_end_changes_nothing(seed: int) -> None:
     start = (1.3, 9.1, 0.0)
     command = parse("go through the first door on the right")
-    judge = Verifier(plan_mission(PLANS["office_cross"], GEODESICS["office_cross"], command, start))
+    judge = Judge(plan_mission(PLANS["office_cross"], GEODESICS["office_cross"], command, start))
     more = np.random.default_rng(seed).uniform(0.0, 25.0, (5, 2)).tolist()
     recording = walked(start[:2], (3.4, 9.0), (3.4, 7.0), *map(tuple, more))
     found = recheck(recording, judge.mission.floor_plan, judge.goals)
     assert (found.verdict, found.step) == ("done", 2)
 
 
-def test_the_second_opinion_imports_no_verifier_or_follower() -> None:
+def test_the_second_opinion_imports_no_judge_or_follower() -> None:
     tree = ast.parse(Path(second.__file__).read_text())
     names = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     names |= {a.name for node in ast.walk(tree) if isinstance(node, ast.Import) for a in node.names}
-    assert not [name for name in names if "verifier" in name or "follower" in name]
+    assert not [name for name in names if "judge.judge" in name or "follower" in name]

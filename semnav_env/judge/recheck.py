@@ -1,6 +1,6 @@
-"""A second opinion: judges a recorded path by Shapely's geometry, apart from the verifier.
+"""A second opinion: judges a recorded path by Shapely's geometry, apart from the judge.
 
-It shares no code with the verifier or with the follower, only the goals that a command has on the
+It shares no code with the judge or with the follower, only the goals that a command has on the
 true scene and the rules of docs/commands.md. It works on the whole path at once: first where each
 goal is met, each door crossed and each wrong arm entered, then which came first.
 """

@@ -1,0 +1,261 @@
+"""The judge: follows one episode on the true scene and says what became of each clause."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from semnav_env.judge.astray import may_cross, wrong_arms
+from semnav_env.judge.goals import place
+from semnav_env.judge.judge_record import (
+    ASTRAY,
+    DOOR_CROSSED,
+    NO_ARMS,
+    NO_DISTANCES,
+    TOO_STILL,
+    JudgeRecord,
+    join_record,
+    judge_motion,
+    set_arms,
+    set_distances,
+)
+from semnav_env.judge.judge_state import (
+    Period,
+    first_state,
+    limit_goal,
+    put_motion,
+    read_period,
+)
+from semnav_env.judge.mission import Mission
+from semnav_env.judge.verdict import Verdict, verdicts
+from semnav_env.language.clauses import SearchHouse
+from semnav_env.mind.grounding.follower import Follower
+from semnav_env.mind.grounding.goal import Goal
+from semnav_env.mind.grounding.ways import KnownWays
+from semnav_env.world.maps.floor_plan import FloorPlan, PlanDoor
+from semnav_env.world.simulator.sensed import Motion
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.scene import Scene
+
+if TYPE_CHECKING:
+    from semnav_env.judge.payload import Payload
+
+
+class Judge:
+    """Judges one episode on the true scene, control period by control period.
+
+    A door clause is done when the robot's centre crosses that very door; a place is reached when
+    the centre comes within the tolerances of the clause's goal on the true scene.
+
+    Args:
+        mission: what is to be done.
+        payload: by which some clauses are judged, beside where the robot is.
+        measures_way: whether the progress towards the goal is wanted. The shortest ways to each
+            goal are computed for it.
+
+    Attributes:
+        mission: likewise.
+        follower: how far the command has truly come.
+        record: what is kept count of, for `judge_motion`.
+        row: what became of the last control period, dtype `PERIOD`, shape (1,); part of the record.
+        verdicts: one word per clause, plain text for `info`; see `Verdict`.
+        failure: why the episode failed; None if it has not.
+        truncated: whether the time was over before the command was carried out.
+        crossed: names of the doors that were crossed, in order.
+
+    Raises:
+        ValueError: a house is to be searched without a payload.
+    """
+
+    def __init__(
+        self, mission: Mission, payload: Payload | None = None, *, measures_way: bool = True
+    ) -> None:
+        if payload is None and SearchHouse() in mission.command.clauses:
+            raise ValueError(
+                '"search the house" needs a person detector: make "semnav_env:SearchAndRescue-v0", '
+                "or give payload=PersonSearch() of semnav_env.rescue"
+            )
+        self.mission, self._payload, self._measures_way = mission, payload, measures_way
+        self.follower = Follower(
+            mission.command, complete=True, guide=KnownWays(mission.ways), rules=mission.rules
+        )
+        self.follower.start(mission.scene, mission.start)
+        self.failure: Verdict | None = None
+        self.truncated = False
+        self.crossed: list[str] = []
+        self._met: list[Goal] = []
+        self._state, self._arms, self._distances = first_state(mission), NO_ARMS, NO_DISTANCES
+        self.record = self._join()
+        self._head_for(self.follower.goal)
+        self._measure_way()
+        self._note_verdicts()
+
+    def _join(self) -> JudgeRecord:
+        self._numbers, self.row = self._state.view(np.uint8).data, self._state["period"]
+        doors = self.mission.floor_plan.derived(_door_ends)
+        progress = self.follower.progress
+        return join_record(self._state, doors, self._arms, self._distances, progress)
+
+    def __getstate__(self) -> dict[str, Any]:
+        left_out = ("record", "row", "_numbers")
+        return {name: value for name, value in self.__dict__.items() if name not in left_out}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self.record = self._join()
+
+    def update(self, motion: Motion) -> Period:
+        """Judge one control period."""
+        self.write(motion)
+        self.think(judge_motion(self.record))
+        return self.period
+
+    def write(self, motion: Motion) -> None:
+        """Put the motion of a control period into the record, for `judge_motion`."""
+        put_motion(self._numbers, motion)
+
+    def think(self, events: int) -> None:
+        """Do what the events of `judge_motion` call for, and complete `row`."""
+        if not events:
+            return
+        was_over = self.over
+        completed = self._follow(events)
+        ended = self.over and not was_over
+        self.row["clause"], self.row["success"] = completed, ended and self.success
+        self.row["failure"] = ended and not self.success
+        self.row["over"] = self.over and not self.truncated
+        if completed:
+            before = float(self._state["remaining_before"][0])
+            self.row["progress"] = before if isfinite(before) else 0.0
+            self._measure_way()
+        self._note_verdicts()
+
+    def conclude(self, truncated: bool) -> dict[str, Any]:
+        """End the episode, whose time may be over; returns what is known then, for `info`."""
+        if truncated:
+            self.truncated = True
+            self.out_of_time()
+        return {
+            "is_success": self.success,
+            "crossed_doors": tuple(self.crossed),
+            "route_length": self.mission.route_length,
+        }
+
+    def out_of_time(self) -> None:
+        """The episode ended before the command was carried out."""
+        if not self.over:
+            still, rules = float(self._state["still_seconds"][0]), self.mission.rules.success
+            stopped = still > rules.final_still_seconds
+            self.failure = Verdict.STOPPED_SHORT if stopped else Verdict.OUT_OF_TIME
+            self._note_verdicts()
+
+    @property
+    def period(self) -> Period:
+        """What became of the last control period, in plain numbers."""
+        return read_period(self._numbers)
+
+    @property
+    def remaining(self) -> float:
+        """Length of the shortest way to the goal under way, metres; 0 when all is done."""
+        return float(self._state["remaining"][0])
+
+    @property
+    def success(self) -> bool:
+        """Whether the whole command was carried out."""
+        return self.failure is None and self.follower.done
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing more is to come: success or failure."""
+        return self.failure is not None or self.follower.done
+
+    @property
+    def completed(self) -> int:
+        """How many clauses have been carried out."""
+        return len(self._met)
+
+    @property
+    def goals(self) -> tuple[Goal, ...]:
+        """The goals as they were judged, one after the other, and those planned for the rest.
+
+        They differ from the planned ones after "go back", which leads along the way driven.
+        """
+        active = () if self.follower.done else (self.follower.goal,)
+        return (*self._met, *active, *self.mission.goals[self.completed + 1 :])
+
+    @property
+    def verdict(self) -> Verdict:
+        """What became of the command as a whole; active while it is under way."""
+        return self.failure or (Verdict.DONE if self.follower.done else Verdict.ACTIVE)
+
+    def _follow(self, events: int) -> bool:
+        """Go on with the command; returns whether a clause was carried out in full."""
+        clause, goal, crossed = self.follower.active, self._goal, None
+        state = self._state[0]
+        pose: Pose = (float(state["x"]), float(state["y"]), float(state["heading"]))
+        completed = self.follower.think(events, self._scene, pose)
+        if events & DOOR_CROSSED:
+            crossed = self.mission.floor_plan.doors[int(state["crossed_door"])]
+            self.crossed.append(crossed.name)
+        if completed:
+            self._met.append(goal)
+            self._head_for(self.follower.goal)
+        if (self.failure is None and not self.follower.done) or completed:
+            self.failure = self._fault(events, clause if completed else None, goal, crossed)
+        return completed and self.failure is not Verdict.INCOMPLETE
+
+    def _fault(
+        self, events: int, completed: int | None, goal: Goal, crossed: PlanDoor | None
+    ) -> Verdict | None:
+        """What went wrong in this control period, if anything.
+
+        Args:
+            events: of `judge_motion`.
+            completed: index of the clause whose goal was reached.
+            goal: that was under way.
+            crossed: the door that was crossed.
+        """
+        if crossed is not None and not may_cross(goal, crossed, self.mission.rules.door):
+            return Verdict.WRONG_DOOR
+        if completed is None and events & ASTRAY:
+            return Verdict.WRONG_TURN
+        if completed is not None and not self._carried_out(completed):
+            return Verdict.INCOMPLETE
+        if not self.follower.done and events & TOO_STILL:
+            return Verdict.STOPPED_SHORT
+        return self.failure
+
+    def _carried_out(self, clause: int) -> bool:
+        """Whether the clause of that index, whose goal was reached, is carried out in full."""
+        return self._payload is None or self._payload.fulfils(self.mission.command.clauses[clause])
+
+    def _note_verdicts(self) -> None:
+        clauses, follower = len(self.mission.command.clauses), self.follower
+        found = verdicts(clauses, follower.active, self.failure, follower.skipped)
+        self.verdicts = tuple(map(str, found))
+
+    def _scene(self) -> Scene:
+        return self.mission.scene
+
+    def _head_for(self, goal: Goal) -> None:
+        """Tell the record of a new goal."""
+        self._goal = goal
+        clauses, rules = self.mission.command.clauses, self.mission.rules.success
+        limit_goal(self._state, goal, rules)
+        done = self.follower.done
+        self._arms = NO_ARMS if done else wrong_arms(clauses[self.follower.active], goal, rules)
+        set_arms(self.record, self._arms)
+
+    def _measure_way(self) -> None:
+        """Measure the way to the goal under way from now on, and anew from where the robot is."""
+        if self._measures_way:
+            ways, done = self.mission.geodesic.to(place(self.follower.goal)), self.follower.done
+            self._distances = NO_DISTANCES if done else ways.distances
+            set_distances(self.record, self._distances)
+
+
+def _door_ends(floor_plan: FloorPlan) -> FloatArray:
+    """The jambs of all doors in an array that is not read-only, and so of one type with others."""
+    return floor_plan.door_ends.copy()
