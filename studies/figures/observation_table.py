@@ -35,7 +35,7 @@ and the kernels' offsets.
 MODES_TITLE = """## Which mode has which entry
 
 `observation="semantic"` is the default. `"truth"` has the entries of `"semantic"` without errors.
-`"command"` is for who is to hear the command: see [below](#hearing-the-command).
+`"command"` is for a policy that hears the command: see [below](#hearing-the-command).
 """
 
 TEXT = """## Hearing the command
@@ -49,9 +49,9 @@ hallway's axis, the arms that leave it. Where a *clause* began is not among them
 moves at the moment at which the grounding takes the clause before for done; `start` is where the
 command began.
 
-A named room is out of sight. Whoever knows the building says beforehand how to get there, as
-places 1.5 m apart and the door at the end: `told_ways` and `told_doors`. They are told at the
-start and do not change; on a robot they are the `ways=` of `BeliefTracker.begin`.
+A named room is out of sight. The robot is told beforehand how to get there, as places 1.5 m apart
+and the door at the end: `told_ways` and `told_doors`. They are given at the start and do not
+change; on a robot they are the `ways=` of `BeliefTracker.begin`.
 
 `command` holds tokens, a `MultiDiscrete` of 16-bit integers: Gymnasium flattens it to one-hot,
 and stable-baselines3 does the same. The words themselves are in `info["instruction"]` of `reset`,
@@ -67,7 +67,7 @@ observation, info = env.reset(seed=0)
 assert observation["instruction"] == info["instruction"]
 ```
 
-The hallway is surveyed anew for each observation. That costs more than all else: see the
+The hallway is surveyed anew for each observation, which costs more than all other entries: see the
 measurement in [speed](speed.md#in-training).
 """
 
