@@ -22,7 +22,7 @@ JUMP_WITHOUT_TIME = 5.0
 out for mapping have up to two."""
 
 FROZEN_SCANS = 10
-"""So many scans with one pose are looked at for motion."""
+"""Number of scans with one and the same pose after which they are compared for motion."""
 
 CHANGED_BY, CHANGED_BEAMS = 0.2, 0.4
 """Change of a range, metres, and share of the beams with such a change, beyond which the lidar has

@@ -13,7 +13,7 @@ MANY_FALLS = 0.01
 """Share of scans beyond which smaller falls are, too."""
 
 STANDING_SCANS = 10
-"""So many scans in a row with one time are worth a note."""
+"""Number of successive scans with one and the same time from which on a note is made."""
 
 
 class StampCheck:
