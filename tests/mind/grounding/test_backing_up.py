@@ -55,7 +55,7 @@ def test_the_goal_lies_as_far_behind_as_is_said(halves: int, heading: float) -> 
 
 def test_nobody_backs_up_into_a_wall() -> None:
     scene = Scene((wall(-2.0, -1.0, -2.0, 1.0),))
-    with pytest.raises(GroundingError, match="there is a wall 2[.]0 m behind"):
+    with pytest.raises(GroundingError, match=r"there is a wall 2\.0 m behind"):
         ground(BackUp(Distance(1.5)), scene, ORIGIN)
     assert ground(BackUp(Distance(1.0)), scene, ORIGIN).pose == (-1.0, 0.0, 0.0)
 
