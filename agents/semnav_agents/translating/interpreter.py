@@ -154,7 +154,7 @@ class LearnedInterpreter:
         return self._asked(text, tuple(each.command for each in likely))
 
     def _asked(self, text: str, found: tuple[Command, ...]) -> AmbiguousCommandError:
-        return AmbiguousCommandError(text, Question(found, self._spoken(text), self.rooms))
+        return AmbiguousCommandError(text, Question(found, self._spoken(text), self._read))
 
     def _others(self, text: str, known: Sequence[Command], count: int) -> tuple[Command, ...]:
         """The likeliest commands besides those that are known."""
@@ -187,6 +187,9 @@ class LearnedInterpreter:
         except CommandError:
             return None
         return found
+
+    def _read(self, text: str) -> Command:
+        return self.interpret(text).command
 
     def _spoken(self, text: str) -> Language:
         return language_of_text(text, self.language)
