@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 from torch.nn import functional
 
-from semnav_agents.layers import EPSILON
+from semnav_agents.networks.layers import EPSILON
 from semnav_agents.translating.network import TranslatorShape, positions
 
 LONGEST_TEXT = 320

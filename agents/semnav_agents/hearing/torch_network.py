@@ -16,7 +16,7 @@ from semnav_agents.hearing.network import (
     STILL,
     NetworkShape,
 )
-from semnav_agents.layers import EPSILON
+from semnav_agents.networks.layers import EPSILON
 
 
 class Grounded(NamedTuple):

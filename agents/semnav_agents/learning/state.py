@@ -9,12 +9,10 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from semnav_agents.learning.policy import check_tensors
+from semnav_agents.networks.weights import Tensors, check_tensors
 
 if TYPE_CHECKING:
     from stable_baselines3 import PPO
-
-Tensors = dict[str, NDArray[Any]]
 
 STEPS_NAME, IMITATED_NAME = "steps", "imitated"
 """Names of the counts of decisions, and of demonstrations that were imitated first."""

@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_agents.learning.policy import Policy, check_tensors
+from semnav_agents.learning.policy import Policy
+from semnav_agents.networks.weights import Tensors, check_tensors
 
 Weights = Mapping[str, NDArray[np.float32]]
-Tensors = dict[str, NDArray[Any]]
 Moments = Mapping[int, Mapping[str, Any]]
 
 RLLIB_FILE = "rllib.safetensors"
@@ -35,10 +35,8 @@ def policy_from(weights: Weights, hidden: int) -> Policy:
         hidden: number of hidden layers.
     """
     names = [f"{ACTOR}{2 * i}" for i in range(hidden)] + [f"{ACTION}0"]
-    return Policy(
-        tuple(weights[f"{name}.weight"].copy() for name in names),
-        tuple(weights[f"{name}.bias"].copy() for name in names),
-    )
+    parts = [(weights[f"{name}.weight"], weights[f"{name}.bias"]) for name in names]
+    return Policy.of_layers([(weight.copy(), bias.copy()) for weight, bias in parts])
 
 
 def beginning(weights: Weights, log_std: float) -> Weights:
