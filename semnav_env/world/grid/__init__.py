@@ -4,7 +4,7 @@
 - `occupancy`: the cells that something solid passes through, or comes near.
 - `distance`: how far each cell is from the nearest one that is marked.
 - `costs`: the least cost of the way from each cell; the way itself; the nearest cell with one.
-- `flood`: the poses that a rectangular body reaches, as `reach.Reach`.
+- `poses`: the poses that a rectangular body reaches, turning where it must.
 
 Nothing here knows floor plans. `semnav_env.world.maps` asks these questions of a plan
 (`geodesic`, `reach`, `reachability`); whether a body has room at one exact pose is geometry without

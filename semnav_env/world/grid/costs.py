@@ -1,6 +1,8 @@
 """The cheapest ways over a grid of cells with eight neighbours each.
 
-`scipy.sparse.csgraph.dijkstra` gives the same costs to the last bit, FIGURES
+`scipy.sparse.csgraph.dijkstra` gives the same costs to the last bit, in 7 to 11 times the processor
+time without that of making its graph: 24 instead of 3.1 ms on office:large:1, 8.3 instead of 1.1 ms
+on office_cross (`python -m studies grids`).
 """
 
 from __future__ import annotations

@@ -1,8 +1,11 @@
 """The exact Euclidean distance transform of a grid.
 
 P. Felzenszwalb, D. Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8
-(2012): the lower envelope of parabolas, once along the rows and once along the columns. The
-distances are those of `scipy.ndimage.distance_transform_edt` to the last bit, FIGURES
+(2012): the lower envelope of parabolas, once along the rows and once along the columns.
+
+`scipy.ndimage.distance_transform_edt` gives the same distances to the last bit, in 3 to 4 times the
+processor time: 9.1 instead of 2.7 ms on office:large:1, 2.8 instead of 0.7 ms on office_cross
+(`python -m studies grids`).
 """
 
 from __future__ import annotations
