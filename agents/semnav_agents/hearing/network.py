@@ -17,7 +17,7 @@ import numpy as np
 
 from semnav_agents.hearing.elements import ELEMENT_SIZE, Description
 from semnav_agents.hearing.tokens import COMMAND_SIZE
-from semnav_agents.networks.card import Card, NetworkSettings
+from semnav_agents.networks.card import Card, TransformerSettings
 from semnav_agents.networks.layers import (
     Array,
     Shapes,
@@ -31,7 +31,7 @@ from semnav_agents.networks.layers import (
     softmax,
 )
 from semnav_agents.networks.weights import check_tensors, load_weights
-from semnav_features.checked_fields import Count, check_fields
+from semnav_features.checked_fields import Count
 from semnav_features.frames import Pose, compose, relative
 
 KINDS, ADVANCES, OFFSETS, QUERY_OUTPUTS = 4, 3, 4, 6
@@ -47,27 +47,12 @@ MASKED = -1e9
 
 
 @dataclass(frozen=True)
-class NetworkShape(NetworkSettings):
-    """Sizes of the network.
-
-    Attributes:
-        width: numbers of an element inside.
-        heads: of the attention.
-        layers: of the encoder.
-        hidden: width of the perceptrons between.
-    """
+class NetworkShape(TransformerSettings):
+    """Sizes of the network, whose width is that of an element inside."""
 
     KIND = "grounding"
 
-    width: Count = 64
-    heads: Count = 4
     layers: Count = 3
-    hidden: Count = 128
-
-    def __post_init__(self) -> None:
-        check_fields(self)
-        if self.width % self.heads:
-            raise ValueError(f"width is {self.width}; it must be a multiple of heads, {self.heads}")
 
     def tensors(self) -> Shapes:
         """The shape of every tensor by name; weights are (outputs, inputs)."""

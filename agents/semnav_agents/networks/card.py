@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from semnav_features.checked_fields import Count, check_fields
 from semnav_features.reading import read_bytes
 from semnav_features.validation import clipped
 from semnav_features.writing import write_file
@@ -32,6 +33,28 @@ class NetworkSettings:
 
     KIND = ""
     """What the cards of this kind of network call it."""
+
+
+@dataclass(frozen=True)
+class TransformerSettings(NetworkSettings):
+    """Sizes of a transformer.
+
+    Attributes:
+        width: numbers of an element or a word inside.
+        heads: of the attention.
+        layers: of the encoder, and of a decoder.
+        hidden: width of the perceptrons between.
+    """
+
+    width: Count = 64
+    heads: Count = 4
+    layers: Count = 2
+    hidden: Count = 128
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if self.width % self.heads:
+            raise ValueError(f"width is {self.width}; it must be a multiple of heads, {self.heads}")
 
 
 Settings = TypeVar("Settings", bound=NetworkSettings)

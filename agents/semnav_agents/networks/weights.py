@@ -75,6 +75,18 @@ def load_tensors(path: Path) -> Tensors:
         raise ValueError(f"{path} is not a safetensors file: {error}") from None
 
 
+def pop_count(tensors: Tensors, name: str) -> int:
+    """Take a tensor that holds a count out of others.
+
+    Raises:
+        ValueError: it is missing, or no count.
+    """
+    tensor = tensors.pop(name, None)
+    if tensor is None or tensor.shape != () or tensor.dtype != np.int64 or tensor < 0:
+        raise ValueError(f"tensor {name!r} must be one whole number of 64 bits, at least 0")
+    return int(tensor)
+
+
 def check_tensors(
     tensors: Mapping[str, NDArray[Any]], shapes: Mapping[str, tuple[int, ...]]
 ) -> None:

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from semnav_agents.networks.card import BUNDLED_FOLDER, Card, NetworkSettings
+from semnav_agents.networks.card import BUNDLED_FOLDER, Card, TransformerSettings
 from semnav_agents.networks.layers import (
     Array,
     Shapes,
@@ -31,7 +31,7 @@ from semnav_agents.networks.layers import (
 from semnav_agents.networks.weights import load_weights
 from semnav_agents.translating.masking import MARKS
 from semnav_agents.translating.programs import END, START, SYMBOLS
-from semnav_features.checked_fields import Count, check_fields
+from semnav_features.checked_fields import Count
 
 SHORTEST, LONGEST = 3, 5
 """Lengths of the n-grams, characters, with a sign for the word's ends."""
@@ -44,29 +44,16 @@ UNLIKELY = 7.0
 
 
 @dataclass(frozen=True)
-class TranslatorShape(NetworkSettings):
-    """Sizes of the network.
+class TranslatorShape(TransformerSettings):
+    """Sizes of the network, whose width is that of a word inside.
 
     Attributes:
-        width: numbers of a word inside.
-        heads: of the attention.
-        layers: of the encoder, and of the decoder.
-        hidden: width of the perceptrons between.
         buckets: rows of the table of n-grams.
     """
 
     KIND = "translator"
 
-    width: Count = 64
-    heads: Count = 4
-    layers: Count = 2
-    hidden: Count = 128
     buckets: Count = 4096
-
-    def __post_init__(self) -> None:
-        check_fields(self)
-        if self.width % self.heads:
-            raise ValueError(f"width is {self.width}; it must be a multiple of heads, {self.heads}")
 
     def tensors(self) -> Shapes:
         """The shape of every tensor by name; weights are (outputs, inputs)."""
