@@ -25,6 +25,7 @@ from semnav_agents.networks.card import (
     CARD_FILE,
     Card,
     bundled_names,
+    card_fields,
     network_folder,
     network_kind,
 )
@@ -49,13 +50,12 @@ def agent_label(name: str) -> dict[str, object]:
     Returns:
         "agent" and "training_seed", which is -1 for an agent that is not trained.
     """
-    folder, kind = network_folder(name), network_kind(name)
-    if kind not in (PolicySettings.KIND, NetworkShape.KIND):
+    if network_kind(name) not in (PolicySettings.KIND, NetworkShape.KIND):
         return {"agent": name, "training_seed": -1}
-    is_policy = kind == PolicySettings.KIND
-    card = Card.read(folder, PolicySettings) if is_policy else Card.read(folder, NetworkShape)
-    label = card.preset.get("name", folder.name)
-    return {"agent": str(label), "training_seed": card.seed}
+    folder = network_folder(name)
+    card = card_fields(folder)
+    label = card["preset"].get("name", folder.name)
+    return {"agent": str(label), "training_seed": card["seed"]}
 
 
 class LearnedAgent:

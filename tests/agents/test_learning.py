@@ -153,6 +153,7 @@ def edit(saved, **changes):
     [
         ({"format": 2}, "has format 2; this version reads format 3"),
         ({"network": "grounding"}, "the card of a 'grounding', not of a 'policy'"),
+        ({"seed": -1}, "'seed' must be at least 0, not -1"),
         ({"seed": "zero"}, "'seed' must be of type int, not 'zero'"),
         ({"widths": [COMPACT_SIZE, -1, 2]}, r"settings: widths\[1\] is -1; it must be"),
         ({"widths": [COMPACT_SIZE, True, 2]}, r"settings: widths\[1\] is True; it must be"),

@@ -82,7 +82,8 @@ class Card(Generic[Settings]):
         """Write it to a folder, in one move; each row of the curve is a line."""
         document = {"format": CARD_FORMAT, "network": self.settings.KIND, **asdict(self)}
         rows = ",\n  ".join(json.dumps(row) for row in document.pop("curve"))
-        text = json.dumps(document, indent=1)[:-2] + f',\n "curve": [\n  {rows}\n ]\n}}\n'
+        curve = f"[\n  {rows}\n ]" if rows else "[]"
+        text = json.dumps(document, indent=1)[:-2] + f',\n "curve": {curve}\n}}\n'
         write_file(folder / CARD_FILE, text)
 
     @classmethod
@@ -97,7 +98,7 @@ class Card(Generic[Settings]):
             ValueError: there is none, it is damaged, or it is that of another kind of network.
             OSError: it cannot be read.
         """
-        path, document = folder / CARD_FILE, _document(folder)
+        path, document = folder / CARD_FILE, card_fields(folder)
         found = document["network"]
         if found != kind.KIND:
             raise ValueError(f"{path} is the card of a {found!r:.40}, not of a {kind.KIND!r}")
@@ -118,8 +119,13 @@ _FIELD_TYPES: dict[str, type] = {
 }
 
 
-def _document(folder: Path) -> dict[str, Any]:
-    """The fields of the card in a folder, each of its type."""
+def card_fields(folder: Path) -> dict[str, Any]:
+    """The fields of the card in a folder, of whatever network, each of its type.
+
+    Raises:
+        ValueError: there is none, or it is damaged.
+        OSError: it cannot be read.
+    """
     path = folder / CARD_FILE
     if not path.is_file():
         raise ValueError(f"{folder} holds no trained network: there is no {CARD_FILE} in it")
@@ -136,6 +142,8 @@ def _document(folder: Path) -> dict[str, Any]:
         value = document.get(name)
         if type(value) is not kind:
             raise ValueError(f"{path}: {name!r} must be of type {kind.__name__}, not {value!r:.40}")
+    if document["seed"] < 0:
+        raise ValueError(f"{path}: 'seed' must be at least 0, not {document['seed']}")
     return dict(document)
 
 
@@ -153,7 +161,7 @@ def network_kind(source: str | Path) -> str:
         OSError: it cannot be read.
     """
     folder = network_folder(source)
-    return str(_document(folder)["network"]) if (folder / CARD_FILE).is_file() else ""
+    return str(card_fields(folder)["network"]) if (folder / CARD_FILE).is_file() else ""
 
 
 def bundled_names(kind: type[NetworkSettings]) -> tuple[str, ...]:
