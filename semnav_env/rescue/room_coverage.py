@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.rescue.visible_floor import CELL, floor_grid, visible_floor
 from semnav_env.robots import RobotSpec
+from semnav_env.world.grid.rays import Cells, mark_in_view
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import FloatArray, Pose
 

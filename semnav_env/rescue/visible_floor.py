@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.robots import RobotSpec
 from semnav_env.world.grid.cells import Grid
 from semnav_env.world.grid.poses import REACHED, Reach
+from semnav_env.world.grid.rays import Cells, mark_in_view
 from semnav_env.world.lidar.lidar import Lidar
 from semnav_env.world.maps.cell_budget import spacing_within_budget
 from semnav_env.world.maps.floor_plan import FloorPlan

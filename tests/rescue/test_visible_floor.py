@@ -8,13 +8,13 @@ import numpy as np
 import shapely
 
 from semnav_env.rescue import PersonDetectorSettings
-from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.person_detector import view_spec
 from semnav_env.rescue.room_coverage import RoomCoverage
 from semnav_env.rescue.visible_floor import floor_grid, visible_floor
 from semnav_env.robots import SPOT
 from semnav_env.world.grid.cells import Grid
 from semnav_env.world.grid.poses import REACHED
+from semnav_env.world.grid.rays import Cells, mark_in_view
 from semnav_env.world.lidar.lidar import Lidar
 from semnav_env.world.maps import FloorPlan, PlanDoor, Region, Surface, generate_office
 from semnav_env.world.maps.reach import reach
