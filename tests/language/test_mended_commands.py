@@ -91,11 +91,11 @@ def test_the_carets_are_under_a_room_that_there_is_not(
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("go to the kitchn", "did you mean 'go to room \"kitchen\"'?; corrected: kitchen"),
-        ("go thruogh the second door on the rigth", "corrected: through, right"),
+        ("go to the kitchn", 'Did you mean "kitchen"? (\'go to room "kitchen"\')'),
+        ("go thruogh the second door on the rigth", 'Did you mean "through, right"?'),
         (
             "take a left, then a right, then turn 45 degrees",
-            'mean "... turn right and turn left by',
+            'Left, or right? ("turn left by 45 degrees" / "turn right by 45 degrees")',
         ),
         ("turn left in 5 metres", "in what distance? first say how far to go"),
         ("go down the hallway for 100 metres", "a distance is 0.5 to 50 metres"),
