@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from semnav_env.language.clauses import (
     Approach,
+    BackUp,
     Clause,
     Face,
     Follow,
@@ -60,6 +61,7 @@ __all__ = [
     "AmbiguousCommandError",
     "Approach",
     "Ask",
+    "BackUp",
     "Clause",
     "Command",
     "CommandError",
