@@ -191,6 +191,13 @@ def test_a_room_needs_only_what_lies_below_it(room):
         assert parts <= ROOMS[room], name
 
 
+@pytest.mark.parametrize("package", ["semnav_env.world.grid", "semnav_agents.networks"])
+def test_grids_and_networks_know_nobody_above_features(package):
+    for name in [name for name in MODULES if name.startswith(f"{package}.")]:
+        others = {o for o in needed(name, set()) if not o.startswith("semnav_features.")}
+        assert all(other.startswith(f"{package}.") for other in others), name
+
+
 def test_only_agents_learn():
     for package in ("stable_baselines3", "sb3_contrib", "torch", "safetensors"):
         assert all(place.startswith("semnav_agents/") for place in importers(package)), package

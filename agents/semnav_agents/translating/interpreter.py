@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from semnav_agents.translating.files import BUNDLED_FOLDER, load_translator
+from semnav_agents.networks.card import BUNDLED_FOLDER
+from semnav_agents.translating.network import load_translator
 from semnav_agents.translating.support import TextSupport
 from semnav_agents.translating.translator import TranslatedText, Translation, translate
 from semnav_env.language.clauses import GoToDoor, Stop
@@ -66,7 +67,7 @@ class LearnedInterpreter:
     language: str | Language | None = None
     rooms: Sequence[str] = ()
     limits: DoubtLimits = DoubtLimits()
-    folder: Path = BUNDLED_FOLDER
+    folder: Path = BUNDLED_FOLDER / "translator"
 
     def interpret(self, text: str) -> Interpretation:
         """The reading that the grammar finds.
