@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types slow soak docs policies clean
+.PHONY: demo test packages lint types slow soak docs policies clean
 
 demo: $(VENV)/.demo
 	$(BIN)/semnav demo "go through the second door on the right" --map heidelberg_hallway \
@@ -11,6 +11,9 @@ demo: $(VENV)/.demo
 
 test: $(VENV)/.test lint types
 	$(BIN)/python -m pytest -m "not slow" -n 2
+
+packages: $(VENV)/.test
+	$(BIN)/python -m tests.installed
 
 COUNT ?= 2000
 STRIKES ?= 10
