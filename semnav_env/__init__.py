@@ -59,9 +59,9 @@ __getattr__ = lazy_names(
     },
 )
 
-# Gymnasium's passive checker stays off, because it cannot follow a first `reset` that is refused, as
-# any command may be: in Gymnasium 1.4.0 the first step after the next `reset` then ends in "cannot
-# unpack non-iterable NoneType object". It has no other complaint (`tests/env/test_env.py`).
+# Gymnasium's passive checker stays off, because it cannot follow a first `reset` that is refused,
+# as any command may be: in Gymnasium 1.4.0 the first step after the next `reset` then ends in
+# "cannot unpack non-iterable NoneType object". It has no other complaint (`tests/env/test_env.py`).
 _SEMNAV: dict[str, Any] = {
     "entry_point": "semnav_env.env:SemNavEnv",
     "vector_entry_point": "semnav_env.vector:SemNavVectorEnv",
