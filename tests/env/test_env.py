@@ -292,3 +292,16 @@ def test_implicit_steps_that_are_neither_true_nor_false_are_refused(steps: objec
 def test_options_that_are_no_dict_are_refused() -> None:
     with pytest.raises(ValueError, match="options are a dict"):
         SemNavEnv().reset(options="turn left")  # type: ignore[arg-type]
+
+
+def test_a_reset_in_the_same_floor_makes_no_new_simulator() -> None:
+    env = SemNavEnv()
+    env.reset(seed=0, options=START)
+    before = env.simulator
+    env.reset(seed=1, options=START)
+    assert env.simulator is before
+
+
+def test_rendering_before_a_reset_is_an_error() -> None:
+    with pytest.raises(RuntimeError, match=r"call reset\(\) before render\(\)"):
+        SemNavEnv(render_mode="rgb_array").render()

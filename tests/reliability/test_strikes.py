@@ -1,4 +1,4 @@
-"""Case 6: a full disk, a kill and Ctrl-C lose nothing, whatever command writes.
+"""A full disk, a kill and Ctrl-C lose nothing, whatever command writes.
 
 Some strikes are part of every run, of commands that differ in how they write; the others are slow,
 and `make soak` tries more of all.

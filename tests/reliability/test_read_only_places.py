@@ -1,4 +1,4 @@
-"""Case 7: no command needs a home or an installation that it may write to.
+"""No command needs a home or an installation that it may write to.
 
 Root may write anywhere, so permissions would show nothing. Where the system allows it, the commands
 run in a mount namespace in which installation, interpreter and home are mounted read-only;
