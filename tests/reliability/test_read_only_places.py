@@ -94,7 +94,10 @@ def need_mounts(mounted: bool) -> None:
 HOMES = pytest.mark.parametrize("mounted", [False, True], ids=["no home", "read-only mounts"])
 
 
-@pytest.mark.parametrize("words", WITHOUT_KERNELS)
+@pytest.mark.parametrize(
+    "words",
+    [*WITHOUT_KERNELS[:2], *(pytest.param(w, marks=pytest.mark.slow) for w in WITHOUT_KERNELS[2:])],
+)
 def test_a_command_needs_no_home(tmp_path: Path, words: str) -> None:
     done = run(tmp_path, words, mounts_are_allowed())
     assert (done.returncode, done.stderr) == (0, "")

@@ -43,9 +43,16 @@ sys.exit(semnav.main())
 """
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("count", [1, 40, 200, 330])
-@pytest.mark.parametrize("words", [["map", "list"], ["--help"], ["ground", "stop", "--json"]])
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("count", [1, 40, 200, pytest.param(330, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["map", "list"],
+        pytest.param(["--help"], marks=pytest.mark.slow),
+        pytest.param(["ground", "stop", "--json"], marks=pytest.mark.slow),
+    ],
+)
 def test_a_signal_while_loading_ends_in_one_line(words: list[str], count: int, number: int) -> None:
     program = INTERRUPTED_AT_AN_IMPORT.format(
         root=str(ROOT), count=count, words=words, number=int(number)
