@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test packages versions lowest newest fallbacks lint types slow soak nightly docs policies clean
+.PHONY: demo test coverage packages versions lowest newest fallbacks lint types slow soak nightly docs policies clean
 
 demo: $(VENV)/.demo
 	$(BIN)/semnav demo "go through the second door on the right" --map heidelberg_hallway \
@@ -11,6 +11,11 @@ demo: $(VENV)/.demo
 
 test: $(VENV)/.test lint types
 	$(BIN)/python -m pytest -m "not slow" -n 2
+
+coverage: $(VENV)/.test
+	mkdir -p build/coverage
+	$(BIN)/python -m pytest -m "not slow" -n 2 --cov --cov-report=html:build/coverage/html
+	@echo "lines covered: $$($(BIN)/coverage report --format=total) %; build/coverage/html says which"
 
 packages: $(VENV)/.test
 	$(BIN)/python -m tests.installed
@@ -57,7 +62,7 @@ soak: $(VENV)/.test
 slow: $(VENV)/.test
 	$(BIN)/python -m pytest -m slow
 
-nightly: slow soak versions
+nightly: slow soak versions coverage
 
 lint: $(VENV)/.test
 	$(BIN)/ruff check .
