@@ -18,7 +18,7 @@ from shutil import which
 
 import pytest
 
-from tests.support.paths import ROOT
+from tests.support.paths import ROOT, ROOTS
 
 INSTALLED = tuple(
     sorted({str(Path(p).resolve()) for p in (ROOT, sys.prefix, sysconfig.get_path("purelib"))})
@@ -78,7 +78,11 @@ def run(folder: Path, words: str, mounted: bool) -> subprocess.CompletedProcess[
     log.write_text("# angle_min=-0.3 angle_increment=0.01\n" + ",".join(["2.0"] * 60) + "\n")
     hidden = ("NUMBA_CACHE_DIR", "SEMNAV_CACHE_DIR", "XDG_CACHE_HOME", "MPLCONFIGDIR")
     env = {name: value for name, value in os.environ.items() if name not in hidden}
-    env |= {"TMPDIR": str(tmp), "PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
+    env |= {
+        "TMPDIR": str(tmp),
+        "PYTHONPATH": os.pathsep.join(map(str, ROOTS.values())),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
     env |= {"HOME": str(home) if mounted else "/dev/null/home"}
     words = words.format(log=log, tmp=tmp)
     command = [sys.executable, "-m", "semnav", *words.split()]
