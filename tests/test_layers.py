@@ -240,7 +240,10 @@ def test_setuptools_finds_every_package_from_its_root():
 
 def test_no_file_of_the_tree_is_a_link():
     """Zip files and Windows break links."""
-    listed = subprocess.run(["git", "ls-files", "-s"], cwd=ROOT, capture_output=True, text=True)
+    if not (ROOT / ".git").exists():
+        pytest.skip("only git knows what is of the tree")
+    command = ["git", "ls-files", "-s"]
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     assert not [line for line in listed.stdout.splitlines() if line.startswith("120000")]
 
 

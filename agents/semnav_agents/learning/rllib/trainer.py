@@ -1,5 +1,4 @@
 """Training by RLlib's PPO on the machines of a Ray cluster."""
-# pyright: reportMissingImports=false
 
 from __future__ import annotations
 
