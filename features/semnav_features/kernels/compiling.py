@@ -9,6 +9,7 @@ that Python calls is linked with all that it calls, optimised and turned into ma
 from __future__ import annotations
 
 import gc
+import os
 from collections.abc import Callable, Iterator, Set
 from contextlib import contextmanager
 from copy import copy
@@ -31,7 +32,7 @@ from semnav_features.kernels import frames_in_kernels  # noqa: F401 - kernels ca
 from semnav_features.kernels.cache_folder import cache_folder
 from semnav_features.kernels.kernel_cache import KernelCache
 
-NUMBA_FITS = (
+NUMBA_FITS = not os.environ.get("SEMNAV_PLAIN_NUMBA") and (
     all(
         hasattr(JITCodeLibrary, name)
         for name in (

@@ -183,7 +183,7 @@ def perceive(senses: Senses, odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
         before: odometry at the last scan, and the pose that was believed then.
     """
     corrects_drift = senses.estimate[0].corrects_drift
-    features, limits = senses.features, senses.limits[0]
+    features, limits = senses.features[0], senses.limits[0]
     extract_features(senses, senses.estimate[0].observes_features)
     robot = _advanced(odometry, before) if corrects_drift else odometry
     lidar = _mounted(robot, senses.mount)
@@ -211,22 +211,14 @@ def _pose(field: FloatArray) -> Pose:
 @kernel(borrows=True)
 def extract_features(senses: Senses, all_of_them: bool) -> None:
     """Extract the features of the last scan; corners and corridors only if all are wanted."""
-    features, limits = senses.features, senses.limits[0]
-    room = len(features.corners) if all_of_them else 0
     extract_arrays(
         senses.ranges,
         senses.beams,
-        limits.angle_increment,
-        limits.range_min,
-        limits.range_max,
-        senses.record,
-        senses.workbench.scratch,
-        features.walls,
-        features.doors,
-        features.corners[:room],
-        features.corridors,
-        features.arcs,
-        features.counts,
+        senses.limits[0],
+        senses.record[0],
+        senses.workbench.scratch[0],
+        senses.features[0],
+        all_of_them,
     )
 
 

@@ -58,7 +58,7 @@ def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     believed = senses.estimate[0]
     pose = (believed.pose[0], believed.pose[1], believed.pose[2])
     if believed.observes_features:
-        _write_features(row, senses.features, senses.mount)
+        _write_features(row, senses.features[0], senses.mount)
         _, doors, state = senses.remembered
         _write_remembered(row, doors, state[0], pose)
         _write_bumps(row, senses.bumps, pose)
