@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,7 +70,7 @@ SWEEP_CAPACITY = 2048
 all lidars of up to so many beams share theirs; twice as many are compiled anew."""
 
 
-class Scratch(np.record):
+class Scratch(Protocol):
     """Working memory of the extraction of one scan; what it holds does not matter between calls.
 
     It is one record, which kernels hand on as one pointer. Below, n is the number of beams for
@@ -153,7 +153,7 @@ class Scratch(np.record):
     corner_ends: NDArray[np.int64]
 
 
-class Features(np.record):
+class Features(Protocol):
     """The arrays into which kernels write a scene, as one record, dtype `FEATURES`; see `layout`.
 
     Attributes:
