@@ -14,6 +14,7 @@ import pytest
 from semnav_features.kernels import cache_key
 from semnav_features.kernels.compile_notice import PATIENCE, CompileNotice
 from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.linking import NUMBA_FITS
 from tests.support.paths import ROOT
 from tests.support.small_kernels import (
     counting,
@@ -31,9 +32,27 @@ def test_a_kernel_gives_the_same_to_python_and_to_kernels():
     assert [twice(3), twice(2.5), increased_twice(1)] == [6, 5.0, 3]
 
 
+def test_only_what_python_calls_becomes_callable_from_python():
+    @kernel
+    def inner(x):
+        return x * 3
+
+    @kernel
+    def outer(x):
+        return inner(x) + 1
+
+    outer._cache.disable()
+    assert outer(2) == 7
+    assert (len(inner.body.overloads), len(inner.overloads)) == (1, 0)
+
+
+def test_numba_offers_what_linking_needs():
+    assert NUMBA_FITS
+
+
 def test_a_literal_argument_needs_no_kernel_of_its_own():
     sum_of_twice(np.arange(4.0))
-    assert len(twice.overloads) <= 2  # of floats and of integers
+    assert len(twice.body.overloads) <= 2  # of floats and of integers
 
 
 def test_an_inner_function_is_not_found_in_place_of_the_kernel_that_python_calls():
@@ -80,8 +99,8 @@ def test_a_kernel_is_pickled_and_copied_by_its_name():
     assert copy.deepcopy([twice]) == [twice]
 
 
-KERNELS = 6
-"""How many the next process compiles: `twice` is one for floats and one for integers."""
+KERNELS = 5
+"""How many the next process compiles: those that Python calls."""
 
 USE_KERNELS = """
 import numpy as np

@@ -1,4 +1,4 @@
-"""How kernels are compiled: by numba's `njit`, and kept between runs in files of our own.
+"""How kernels are compiled: linked, or by numba's own `njit`; kept between runs in files.
 
 What a kernel works on is handed over as few things: records with nested arrays, such as `Scratch`,
 are one pointer each, where a tuple of the same arrays is some 200 numbers for each call.
@@ -6,6 +6,7 @@ are one pointer each, where a tuple of the same arrays is some 200 numbers for e
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from functools import partial
 from typing import Any, TypeVar, overload
@@ -16,6 +17,10 @@ from numba.core.ccallback import CFunc
 
 from semnav_features.kernels import frames_in_kernels  # noqa: F401 - kernels call them
 from semnav_features.kernels.kernel_cache import keep_in_files
+from semnav_features.kernels.linking import NUMBA_FITS, LinkedKernel
+
+LINKS = NUMBA_FITS and not os.environ.get("SEMNAV_PLAIN_NUMBA")
+"""Whether kernels are linked by `linking`, which compiles them faster."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -35,11 +40,11 @@ def kernel(function: Callable[..., Any] | None = None, *, inline: bool = False) 
         return partial(kernel, inline=inline)
     if inline:
         return njit(function, error_model="numpy", nogil=True, inline="always")
-    options: Any = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-    compiled = njit(function, **options)
-    if not getattr(config, "DISABLE_JIT", False):
-        _take_literals_by_type(compiled)
-        keep_in_files(compiled, function)
+    options: Any = {"error_model": "numpy", "nogil": True}
+    if getattr(config, "DISABLE_JIT", False):
+        return njit(function, **options)
+    compiled = LinkedKernel(function, options) if LINKS else _plain(function, options)
+    keep_in_files(compiled, function)
     return compiled
 
 
@@ -51,11 +56,12 @@ def callback_address(function: Callable[..., Any], arguments: tuple[Any, ...], r
     return int(callback.address or 0)
 
 
-def _take_literals_by_type(compiled: Any) -> None:
-    """Let a kernel that is called with literals, as in f(x, 1) and f(x, 2), be compiled once.
+def _plain(function: Callable[..., Any], options: dict[str, Any]) -> Any:
+    """Numba's own, but compiled once for all literals, as in f(x, 1) and f(x, 2).
 
     Numba compiles a kernel for each literal, a third more of them in all.
     """
+    compiled: Any = njit(function, **{**options, "no_cfunc_wrapper": True})
     template = compiled.get_call_template
 
     def of_types(args: Any, kws: Any) -> Any:
@@ -63,3 +69,4 @@ def _take_literals_by_type(compiled: Any) -> None:
         return template([types.unliteral(kind) for kind in args], by_name)
 
     compiled.get_call_template = of_types
+    return compiled
