@@ -27,7 +27,7 @@ from semnav_features.frames import Point as Position
 from semnav_features.rules import DoorRules
 
 ROUNDING = 1e-9
-"""Tolerance for points exactly on the limit of a goal, which count as inside, metres and radians."""
+"""Tolerance for points on the limit of a goal, which count as inside, metres and radians."""
 
 FAR = 1000.0
 """Longer than any building, metres."""

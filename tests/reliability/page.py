@@ -102,10 +102,11 @@ the floor that is seen in a search, the walls near a lidar, and points on walls.
 more cells, the grid becomes coarser: up to {ways:g} m for shortest paths and up to {reach:g} m for
 the places that a body reaches. A plan for which this is too coarse to find doors is refused in one
 line that names its extent. The limits are {ways_area:,.0f} m2 for shortest paths and
-{reach_area:,.0f} m2 for the places that a body reaches. Plans of up to {usual:,.0f} m2 keep their grid of {spacing:g} m. Tests check that every use of such plans, among
-them an episode, takes less than a gigabyte (`tests/reliability/test_geometry_budgets.py`). Pictures
-have a fixed size, and an exported map has at most {pixels:,} pixels. Time has no such budget: a
-search looks around from every {standpoint:g} m of the floor.
+{reach_area:,.0f} m2 for the places that a body reaches. Plans of up to {usual:,.0f} m2 keep their
+grid of {spacing:g} m. Tests check that every use of such plans, among them an episode, takes less
+than a gigabyte (`tests/reliability/test_geometry_budgets.py`). Pictures have a fixed size, and an
+exported map has at most {pixels:,} pixels. Time has no such budget: a search looks around from
+every {standpoint:g} m of the floor.
 
 ## Texts of files
 

@@ -86,7 +86,7 @@ class Drafter:
         return Command(said)
 
     def infeasible(self, clauses: int) -> Command | None:
-        """Draw a command of which only the last clause is impossible, by the rules and for people."""
+        """Draw a command of which only the last clause is impossible, by rules and for people."""
         first = self.feasible(clauses - 1, None) if clauses > 1 else None
         if clauses > 1 and first is None:
             return None
@@ -190,7 +190,7 @@ class Drafter:
         return follower
 
     def _follows(self, said: tuple[Clause, ...], clause: Clause) -> bool:
-        """Whether a clause adds something to the others; two clauses along a corridor may be one."""
+        """Whether a clause adds something; two clauses along a corridor may be one."""
         if not said or not isinstance(clause, Follow):
             return True
         before = said[-1]

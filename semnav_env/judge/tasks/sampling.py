@@ -40,7 +40,7 @@ TURNS = [
     ]
     for turning in (Turning.LEFT, Turning.RIGHT)
 ]
-"""Turns that are drawn, by side, place and ordinal; an entry that occurs twice has twice the weight."""
+"""Turns that are drawn, by side, place and ordinal; an entry may occur twice to be more likely."""
 
 DOORS = [
     [
