@@ -31,8 +31,11 @@ def _section(rules: type) -> str:
     rows = [f"| `{f.name}` | {f.default:.3g} | {said[f.name]} |" for f in fields(rules)]
     first = inspect.cleandoc(rules.__doc__ or "").split("\n", 1)[0]
     return "\n".join(
-        (f"## {rules.__name__}\n\n{first}\n\n| rule | default | meaning |\n|---|---|---|", *rows,
-        "")
+        (
+            f"## {rules.__name__}\n\n{first}\n\n| rule | default | meaning |\n|---|---|---|",
+            *rows,
+            "",
+        )
     )
 
 

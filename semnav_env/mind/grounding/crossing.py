@@ -1,4 +1,4 @@
-"""Where a step crosses the line of a doorway."""
+"""Finds where a step crosses the line of a doorway."""
 
 from __future__ import annotations
 

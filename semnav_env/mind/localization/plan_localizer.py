@@ -24,7 +24,7 @@ coordinates: quantiles of the chi-squared distribution. A right door that is ref
 for it is seen again a step later."""
 
 RIVALS = 3
-"""How many doors of the plan a detected one is compared with: those nearest to it."""
+"""Number of doors of the plan with which a detected one is compared: the nearest ones."""
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ class PlanLocalizer:
         self._odometry = odometry
 
     def expected(self, reach: float) -> Iterator[tuple[Door, float]]:
-        """Where doors of the plan should be found, robot frame, and how exactly that is known.
+        """Yield the doors of the plan within reach, with the standard deviation of their jambs.
 
         Args:
             reach: largest distance to the middle of a door, metres.
