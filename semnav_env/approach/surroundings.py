@@ -1,4 +1,4 @@
-"""What is solid around a door, from a floor plan, from a perceived scene, or both."""
+"""The solid things around a door, from a floor plan, from a perceived scene, or both."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SEED_DISTANCE = 0.02
 """Distance before the door of the place that says which side of it the room is, metres."""
 
 THIN = 0.002
-"""Thickness that a wall which ends in the open gets, metres: without one it takes no area."""
+"""Thickness of a wall that ends in the open, metres: without thickness it would have no area."""
 
 NOTHING = Polygon()
 """The empty area."""

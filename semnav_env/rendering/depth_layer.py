@@ -14,7 +14,7 @@ from semnav_features.clouds import PointCloud, find_door
 from semnav_features.frames import ORIGIN, FloatArray, Pose, points_to_parent, relative
 
 DRAWN_POINTS = 3000
-"""Number of points of a cloud that are drawn, about."""
+"""Approximate number of points of a cloud that are drawn."""
 
 LOOKED_AT = 2.5
 """Largest distance of a remembered door whose jambs are looked for, metres."""

@@ -1,4 +1,4 @@
-"""Has pictures of an environment drawn."""
+"""Draws the pictures of an environment."""
 
 from __future__ import annotations
 

@@ -41,7 +41,8 @@ class CountedDoor:
     def pose(self, beyond: float) -> Pose:
         """The pose on the door's axis `beyond` metres behind its line, facing outward.
 
-        A negative `beyond` is before the line."""
+        A negative `beyond` is before the line.
+        """
         x, y = self.door.midpoint
         c, s = math.cos(self.outward), math.sin(self.outward)
         return x + beyond * c, y + beyond * s, self.outward

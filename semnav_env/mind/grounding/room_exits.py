@@ -32,7 +32,8 @@ MIN_OPEN_SHARE = 0.1
 room. No true exit had less, in half of the episodes of `train` that begin in a room."""
 
 SIMILAR_SHARE = 0.05
-"""Doors whose shares of open directions differ by less than this are equally open: one direction."""
+"""Doors whose shares of open directions differ by less than this are equally open: one
+direction."""
 
 
 def room_exits(
