@@ -19,8 +19,8 @@ FARTHEST = 100.0
 bounded."""
 
 COLUMNS = ("is_there", "x", "y", "probability", "reported")
-"""Columns of a row: whether it counts, position (robot frame, metres), probability of being a person,
-and whether the robot has reported it."""
+"""Columns of a row: whether it counts, position (robot frame, metres), probability of being a
+person, and whether the robot has reported it."""
 
 
 class SeenPerson(NamedTuple):

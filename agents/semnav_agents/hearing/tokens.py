@@ -13,10 +13,10 @@ from semnav_env.language.references import AMOUNT_STEP, STEP_LENGTH, Unit
 from semnav_env.language.tokens import COLUMN_SIZES, LAST_TOKEN, TOKEN_REFERENTS
 
 MOST_COUNTED = 12
-"""Ordinals up to this have a number of their own in the description."""
+"""Largest ordinal with a number of its own in the description."""
 
 MOST_FROM_END = 4
-"""As many ordinals from the end have one."""
+"""Number of ordinals from the end that have a number of their own."""
 
 _METRES = {
     TOKEN_REFERENTS.index(Unit.METRES): AMOUNT_STEP[Unit.METRES],
@@ -30,11 +30,11 @@ CLAUSE_SIZE = sum(_ONE_HOT) + MOST_COUNTED + MOST_FROM_END + _AMOUNTS
 """Numbers that describe one clause."""
 
 COMMAND_SIZE = 2 * CLAUSE_SIZE
-"""Numbers that describe the clause under way and the one before it."""
+"""Number of values that describe the active clause and the one before it."""
 
 
 def describe_clauses(tokens: NDArray[np.int64], clause: int) -> NDArray[np.float32]:
-    """The clause under way and the one before it, shape (COMMAND_SIZE,).
+    """Describe the active clause and the one before it, shape (COMMAND_SIZE,).
 
     Args:
         tokens: of the command, shape (8, 5).

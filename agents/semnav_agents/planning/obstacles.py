@@ -58,8 +58,8 @@ class MemorySettings:
 class ObstacleMemory:
     """Centres of the hits of recent scans, at most one in each voxel of 5 cm.
 
-    A centre that beams pass through is cleared. A centre out of view is kept until the robot has
-    driven or turned so far that odometry no longer tells where the centre is.
+    A centre through which beams pass is cleared. A centre out of view is kept until the robot has
+    driven or turned so far that odometry no longer determines its position.
     """
 
     def __init__(self, settings: MemorySettings | None = None) -> None:
@@ -77,7 +77,7 @@ class ObstacleMemory:
     def update(
         self, lidar_pose_in_odom: Pose, ranges: ArrayLike, directions: FloatArray, range_max: float
     ) -> None:
-        """Take in one scan.
+        """Add one scan.
 
         Args:
             lidar_pose_in_odom: metres and radians.
@@ -155,7 +155,7 @@ def points_of_segments(segments: FloatArray, spacing: float = 0.02) -> FloatArra
         shape (N, 2).
 
     Raises:
-        FloorPlanError: that is more than the budget allows.
+        FloorPlanError: there are more points than the budget allows.
     """
     starts, ends = segments[:, :2], segments[:, 2:]
     counts = point_counts(segments, spacing)

@@ -24,7 +24,7 @@ Array = NDArray[Any]
 class RunnerVectorEnv(VectorWrapper):
     """Compact observations of shape (n, COMPACT_SIZE), and infos of ended episodes alone.
 
-    RLlib keeps every info and sends it to the learner, so all that is not logged is left out.
+    RLlib keeps every info and sends it to the learner, so infos that are not logged are left out.
 
     Args:
         envs: environments with `observation="all"` that reset in the step after an episode's end.
