@@ -34,8 +34,9 @@ def polylines(
     Takes some milliseconds for 360 beams, and up to a second for a thousand in one smooth curve.
 
     Args:
-        scan: one sweep of a lidar.
-        vertices: of all polylines together; fewer only where more do not improve the fit.
+        scan: a scan of a lidar.
+        vertices: number of vertices of all polylines together; fewer only where more do not
+            improve the fit.
         missed: residual that counts for a beam that meets no line, metres; a smaller one leaves
             more beams out.
         link: largest distance between neighbouring points that a line may join, metres; no line

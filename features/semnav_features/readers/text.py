@@ -27,11 +27,11 @@ MAX_EXPANSION = 100
 expand five to twenty times."""
 
 _ALWAYS_EXPANDED = 1 << 20
-"""Bytes that are decompressed at any rate."""
+"""Number of bytes that are always decompressed."""
 
 
 def most_expanded(packed: BinaryIO) -> int:
-    """Bytes to which what was read so far of a compressed log may expand."""
+    """Largest number of decompressed bytes for the part of a compressed log read so far."""
     return _ALWAYS_EXPANDED + MAX_EXPANSION * packed.tell()
 
 
