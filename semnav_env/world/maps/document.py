@@ -1,4 +1,4 @@
-"""A floor plan file as a JSON document of a bearable size; `schema` checks what it holds."""
+"""A floor plan file as a JSON document of limited size; `schema` checks its contents."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MAX_NUMBERS = 100_000
 """Largest number of coordinates in a file, two for each position."""
 
 TOO_DEEP = "nested too deeply; a plan needs eight levels"
-"""What is wrong with a document that Python cannot read for its depth."""
+"""Message about a document that Python cannot read because of its depth."""
 
 
 def read_text(path: Path) -> str:

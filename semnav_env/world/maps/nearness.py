@@ -1,4 +1,4 @@
-"""Numba kernel that finds the cells of a grid that lie near what is solid."""
+"""Kernel that finds the cells of a grid that lie near solid segments."""
 
 from __future__ import annotations
 

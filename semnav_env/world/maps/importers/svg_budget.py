@@ -33,7 +33,8 @@ MAX_STYLE_SHEET = 10_000
 """Length of the longest style sheet, characters."""
 
 MAX_CLOSINGS = 100
-"""How often one subpath may be closed; each closing is looked up from the subpath's beginning."""
+"""Largest number of closings of one subpath; each closing is looked up from the subpath's
+beginning."""
 
 _OUTLINES = ("d", "points")
 _TRANSFORMS = ("transform", "gradientTransform", "patternTransform")
@@ -109,7 +110,7 @@ def _arcs(element: Element) -> float:
 
 
 def _faults(element: Element) -> Iterator[str]:
-    """What in an element takes too long to read."""
+    """The parts of an element that take too long to read."""
     if any(map(_LONG_NUMBER.search, element.attrib.values())):
         yield f"a number of {MAX_DIGITS} characters or more; save it with fewer decimals"
     if any(len(element.get(name, "")) > MAX_TRANSFORM for name in _TRANSFORMS):
