@@ -95,7 +95,7 @@ def _take_contacts_into_robot_frame(r: Any) -> None:
 
 @kernel
 def lost_motion(record: np.ndarray) -> tuple[float, float, float]:
-    """Motion that the drive demanded in this period and contacts prevented, of the footprint's centre.
+    """Motion of the footprint's centre that the drive demanded and contacts prevented.
 
     Metres forward, metres to the left, radians; zeros where the robot touches nothing.
     """

@@ -27,7 +27,7 @@ Solids: TypeAlias = tuple[np.ndarray, NDArray[np.int64], FloatArray]
 
 
 def culling_around(floor_plan: FloorPlan, robot: RobotSpec, period: float) -> Culling:
-    """For each place of a plan, the segments that a robot there may touch within a control period."""
+    """For each place of a plan, the segments that a robot may touch within a control period."""
     reach = math.hypot(robot.length / 2, robot.width / 2)
     reach += math.sqrt(2.0) * longest_way(robot, period)
     return shared_culling(floor_plan, reach, glass=True)

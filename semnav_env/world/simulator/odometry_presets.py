@@ -33,7 +33,7 @@ SPOT_ODOMETRY = OdometrySettings(
     veer_noise=0.015,
     slip=0.5,
 )
-"""Legs and an inertial sensor: turns are measured well, and steps of a trot slip a little at random.
+"""Legs and an inertial sensor: turns are measured well, steps of a trot slip a little at random.
 
 Mes 2021 gives no number for SPOT's drift. These are an assumption of the size that legged odometry
 is usually said to have, some percent of the way. Measure your own robot before you trust them.

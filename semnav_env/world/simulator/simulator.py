@@ -199,7 +199,7 @@ class Simulator:
         return rig_hits(rig, raised, self.motion.pose, rng, self.world.moving_shapes).cloud
 
     def demand(self, twist: Twist) -> None:
-        """Set the velocity of the robot for the next control period; raises the errors of `step`."""
+        """Set the velocity of the robot for the next control period; raises errors of `step`."""
         self.world.demand(twist)
 
     def sensed(self, events: int) -> Sensed:
