@@ -37,7 +37,7 @@ KNOWS_THE_PLAN = "agent searcher, which knows the floor plan; --agent explorer d
 
 
 @dataclass(frozen=True)
-class _Told:
+class _DemoTask:
     """The command of the drive, its floor plan and its options.
 
     Attributes:
@@ -105,7 +105,7 @@ class Arguments:
         if self.seed is not None and self.seed < 0:
             raise ValueError(f"seed is {self.seed}; it must be 0 or more")
         self._check_files()
-        told = self._told() if self.episode is None else self._frozen(self.episode)
+        told = self._commanded() if self.episode is None else self._frozen(self.episode)
         agent = make_agent(self.agent or ("searcher" if told.searches else "scripted"))
         env = self._environment(told, agent)
         film = Film(env, STEPS_PER_SEARCH_FRAME if told.searches else STEPS_PER_FRAME)
@@ -131,10 +131,10 @@ class Arguments:
     def _filmed(self) -> bool:
         return self.save is not None or self.picture is not None
 
-    def _told(self) -> _Told:
+    def _commanded(self) -> _DemoTask:
         """The task of the drive, from a command."""
         if self.command is None:
-            raise ValueError("say what the robot is to do, or give --episode ID")
+            raise ValueError("give a command for the robot, or --episode ID")
         plan = load_floor_plan(self.map or DEFAULT_MAP)
         command = understand(self.command, self.language, plan.room_names, asking())
         spoken = language_of_text(self.command, self.language)
@@ -142,9 +142,9 @@ class Arguments:
         if self.pose is not None:
             options["pose"] = parse_pose(self.pose)
         searches = SearchHouse() in command.clauses
-        return _Told(plan, spoken, options, self.seed or 0, searches)
+        return _DemoTask(plan, spoken, options, self.seed or 0, searches)
 
-    def _frozen(self, name: str) -> _Told:
+    def _frozen(self, name: str) -> _DemoTask:
         """The task of a frozen episode, with the noise and the limit of `evaluate`."""
         from semnav_agents.evaluation.runner import EPISODE_SECONDS
         from semnav_env.judge.episodes import Expected, find_episode
@@ -152,14 +152,16 @@ class Arguments:
         others = ("command", "map", "language", "pose", "seed")
         for other in (other for other in others if getattr(self, other) is not None):
             option = other if other == "command" else f"--{other}"
-            raise ValueError(f"--episode says it all; leave out {option} {getattr(self, other)!r}")
+            raise ValueError(
+                f"--episode has these settings; leave out {option} {getattr(self, other)!r}"
+            )
         episode = find_episode(name)
         spoken = language_of_text(episode.command, episode.language)
         infeasible = episode.expected is Expected.INFEASIBLE
-        told = _Told(episode.plan(), spoken, {"episode": episode}, episode.number)
+        told = _DemoTask(episode.plan(), spoken, {"episode": episode}, episode.number)
         return replace(told, limits={"max_seconds": EPISODE_SECONDS}, infeasible=infeasible)
 
-    def _environment(self, told: _Told, agent: Agent) -> SemNavEnv:
+    def _environment(self, told: _DemoTask, agent: Agent) -> SemNavEnv:
         """The environment for a command: that of a search has a person detector and victims."""
         mode = "human" if self.show else "rgb_array" if self._filmed else None
         if not told.searches:
@@ -242,7 +244,7 @@ class Arguments:
         if "search" in outcome:
             print(_found(outcome["search"]))
         if outcome["impossible"]:
-            print(f"the robot took it for impossible: {outcome['impossible']}")
+            print(f"the robot found the command impossible: {outcome['impossible']}")
         for path in outcome["files"]:
             print(f"wrote {path}")
 

@@ -189,7 +189,7 @@ class Arguments:
             )
         if self.recheck:
             odd = [result for result in results if result.rechecked]
-            print(f"second opinion: {len(odd)} of {len(results)} episodes judged otherwise")
+            print(f"second opinion: {len(odd)} of {len(results)} episodes judged differently")
             for result in odd:
                 said = f"{' / '.join(result.verdicts)}, second opinion: {result.rechecked}"
                 print(f"{result.command}: seed {result.seed}: {said}")

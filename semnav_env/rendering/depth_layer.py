@@ -16,7 +16,7 @@ from semnav_features.frames import ORIGIN, FloatArray, Pose, points_to_parent, r
 DRAWN_POINTS = 3000
 """Approximate number of points of a cloud that are drawn."""
 
-LOOKED_AT = 2.5
+MAX_DOOR_DISTANCE = 2.5
 """Largest distance of a remembered door whose jambs are looked for, metres."""
 
 DOOR_SIGMA = 0.1
@@ -36,7 +36,7 @@ def jambs_on_the_map(cloud: PointCloud, tracker: BeliefTracker, pose: Pose) -> F
     """The jambs that a robot finds where it remembers doors, world frame, shape (n, 2)."""
     belief = tracker.belief
     here = tracker.scene().placed(relative(belief.pose, ORIGIN))
-    near = [door for door in here.doors if math.hypot(*door.midpoint) <= LOOKED_AT]
+    near = [door for door in here.doors if math.hypot(*door.midpoint) <= MAX_DOOR_DISTANCE]
     found = [find_door(cloud, door, DOOR_SIGMA) for door in near]
     jambs = [
         jamb

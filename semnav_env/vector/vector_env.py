@@ -127,7 +127,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             raise ValueError(f"reset_mask must be {self.num_envs} booleans, not all False")
         own = one_each("each", common.pop("each", [None] * self.num_envs), self.num_envs)
         if self._team is None and not mask.all():
-            raise ValueError("the first reset must be of all robots: leave reset_mask away")
+            raise ValueError("the first reset must be of all robots: leave out reset_mask")
         infos: Infos = {}
         self._unbegun |= mask
         for k in _indices(mask):
@@ -150,7 +150,9 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             raise RuntimeError("call reset() before step()")
         if np.count_nonzero(self._unbegun):
             waiting = np.flatnonzero(self._unbegun)
-            raise RuntimeError(f"reset robots {waiting} first: what they were told was refused")
+            raise RuntimeError(
+                f"reset robots {waiting} first: their command or options were refused"
+            )
         driven = ~self._over
         if self.autoreset_mode is AutoresetMode.DISABLED and not driven.all():
             raise RuntimeError(f"robots {np.flatnonzero(self._over)} must be reset first")

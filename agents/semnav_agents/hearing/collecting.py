@@ -33,10 +33,10 @@ from semnav_features.scene import Scene
 DECISION_STEPS = 3
 """Steps of the environment between decisions of an agent that hears."""
 
-KEPT_SHARE, KEPT_NEAR_SHARE, NEAR = 0.2, 0.5, 1.5
+KEPT_SHARE, KEPT_NEAR_SHARE, NEAR_GOAL_DISTANCE = 0.2, 0.5, 1.5
 """Shares of the decisions that are kept; and of those nearer to the goal than this, metres."""
 
-IMAGINED = 3
+IMAGINED_CLAUSES = 3
 """Number of imagined clauses, which were not said, for each kept sample."""
 
 LATE_STEPS = 2
@@ -157,12 +157,12 @@ class Collector:
         label = real_label(follower, pose)
         if label is None or label.goal is None:
             return
-        near = float(np.hypot(*np.subtract(label.goal.pose[:2], pose[:2]))) < NEAR
+        near = float(np.hypot(*np.subtract(label.goal.pose[:2], pose[:2]))) < NEAR_GOAL_DISTANCE
         if self.rng.random() > (KEPT_NEAR_SHARE if near else KEPT_SHARE):
             return
         samples.add(self._described(observation, shown), label)
         scene = self.env.belief.scene
-        for _ in range(IMAGINED):
+        for _ in range(IMAGINED_CLAUSES):
             self._imagine(observation, shown, follower, scene, samples)
 
     def _keep_late(

@@ -27,7 +27,7 @@ POSES_TRIED = 6
 SAME_DOOR_DISTANCE = 0.5
 """Distance of their middles below which two doors are the same, metres."""
 
-AROUND_DOOR = 2.5
+MAX_OBSTACLE_DISTANCE = 2.5
 """Distance from the middle of a door within which obstacles matter to the poses, metres."""
 
 POINT_RADIUS = 0.03
@@ -92,7 +92,7 @@ class ExitViaDoor:
             points: obstacles, in the frame of the door, shape (n, 2).
             end: where the path to the target ends before it, in that frame.
         """
-        far = self._door is None or math.dist(end[:2], self._door.middle) > AROUND_DOOR
+        far = self._door is None or math.dist(end[:2], self._door.middle) > MAX_OBSTACLE_DISTANCE
         if self._door is None or far or not self.alternatives:
             return False
         way = next(self._ways, None)
@@ -107,7 +107,7 @@ class ExitViaDoor:
 
 def _ways(side: DoorSide, points: FloatArray, robot: RobotSpec) -> Iterator[WayThrough]:
     """The ways through a door among obstacles, in the order in which they are tried."""
-    near = points[np.hypot(*(points - side.middle).T) < AROUND_DOOR]
+    near = points[np.hypot(*(points - side.middle).T) < MAX_OBSTACLE_DISTANCE]
     solid = Surroundings(np.empty((0, 4)), np.empty((0, 4))).with_points(near, POINT_RADIUS)
     behind = _poses(side.opposite, solid, robot)
     leaving = [

@@ -47,13 +47,13 @@ from semnav_features.lidar_spec import LidarSpec
 UPDATE_EVERY = 3
 """Control periods between two scans that are added to the map: the period of the detector."""
 
-LASTING = MemorySettings(travel=60.0, turned=120.0, scans=6000, capacity=16384)
+HOUSE_MEMORY = MemorySettings(travel=60.0, turned=120.0, scans=6000, capacity=16384)
 """Obstacle memory for a whole house: walls that are seen again correct the drift."""
 
-CAREFUL = PlannerSettings(margins=(0.10, 0.06, 0.04))
+CAREFUL_PLANNER = PlannerSettings(margins=(0.10, 0.06, 0.04))
 """Planner settings of a search: places that cannot be reached with a margin are left out."""
 
-SQUEEZING = PlannerSettings()
+STUCK_PLANNER = PlannerSettings()
 """Planner settings of a stuck robot: it came in, so it may get out without the margin."""
 
 NO_DOORS: FloatArray = np.empty((0, 4))
@@ -70,7 +70,7 @@ class Explorer:
 
     def __init__(self, settings: SearchSettings = SearchSettings()) -> None:
         self.settings = settings
-        self._obstacles = ObstacleMemory(LASTING)
+        self._obstacles = ObstacleMemory(HOUSE_MEMORY)
         self._house: HousePlan | None = None
 
     @property
@@ -111,7 +111,7 @@ class Explorer:
         target = self._searcher.update(pose, people)
         if target is None:
             return self._pilot.act(self._remembered, NO_DOORS, _stop(), pose, velocity)
-        self._pilot.driver.planner = SQUEEZING if self._searcher.stuck else CAREFUL
+        self._pilot.driver.planner = STUCK_PLANNER if self._searcher.stuck else CAREFUL_PLANNER
         goal = SeenGoal(GoalKind.REACH, relative(pose, target), None)
         return self._pilot.act(self._points(observation, pose), NO_DOORS, goal, pose, velocity)
 

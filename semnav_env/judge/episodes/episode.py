@@ -88,7 +88,7 @@ class Episode:
         if found != self.plan_hash:
             raise StaleEpisodeError(
                 f"{self.id}: {self.floor_plan} has changed since the episode was made (its "
-                f"fingerprint is {found}, not {self.plan_hash}); generate the episodes anew"
+                f"fingerprint is {found}, not {self.plan_hash}); generate the episodes again"
             )
         return plan
 

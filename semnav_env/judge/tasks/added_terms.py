@@ -41,4 +41,4 @@ class AddedTerms:
 
     def _refuse(self, names: Iterable[str]) -> None:
         if taken := self.added.keys() & set(names):
-            raise ValueError(f"reward terms {sorted(taken)} are there already; name yours anew")
+            raise ValueError(f"reward terms {sorted(taken)} exist already; choose other names")

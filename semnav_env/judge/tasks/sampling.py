@@ -51,10 +51,10 @@ DOORS = [
 ]
 """Doors that are drawn, by side, ordinal, and whether to stop before them."""
 
-TRIES = 50
+MAX_COMMAND_DRAWS = 50
 """Largest number of commands drawn before a start pose is given up."""
 
-SPACE = 0.3
+GOAL_CLEARANCE = 0.3
 """Free radius that is needed around a goal, metres."""
 
 
@@ -69,11 +69,11 @@ def sample_mission(
     """A random command of one to `most_clauses` clauses that can be carried out from `start`.
 
     Returns:
-        None if `TRIES` draws found none.
+        None if `MAX_COMMAND_DRAWS` draws found none.
     """
     scene = floor_plan.scene_by(rules.door)
     corridor = corridor_at(scene, start)
-    for _ in range(TRIES):
+    for _ in range(MAX_COMMAND_DRAWS):
         clauses = _draw(rng, most_clauses)
         first = clauses[1] if clauses[0] is ALONG else clauses[0]
         if leads_nowhere(first, scene, corridor, rules.grounding):
@@ -106,7 +106,7 @@ def leads_nowhere(
 
 def _has_space(floor_plan: FloorPlan, goal: Goal) -> bool:
     """Whether a goal is free of furniture, such as a desk at the end of a lounge."""
-    return not isinstance(goal, ReachGoal) or is_clear(floor_plan, goal.pose[:2], SPACE)
+    return not isinstance(goal, ReachGoal) or is_clear(floor_plan, goal.pose[:2], GOAL_CLEARANCE)
 
 
 def _draw(rng: np.random.Generator, most_clauses: int) -> tuple[Clause, ...]:

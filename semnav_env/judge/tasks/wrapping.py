@@ -53,7 +53,7 @@ class Curriculum:
         self._unheard += 1
         if self._unheard == MOST_UNHEARD + 1:
             warnings.warn(
-                f"a curriculum was asked for {MOST_UNHEARD} episodes and heard of no end; where a "
+                f"a curriculum has given {MOST_UNHEARD} episodes and was told of no end; if a "
                 "TimeLimit cuts them off, give max_seconds= in place of max_episode_steps=",
                 RuntimeWarning,
                 stacklevel=2,

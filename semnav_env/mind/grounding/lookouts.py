@@ -13,7 +13,7 @@ from semnav_env.mind.grounding.situation import Situation, turned
 from semnav_features.frames import FloatArray, Pose
 from semnav_features.scene import Door, Scene, ends_of
 
-WHAT = "the door of the room"
+REFERENT = "the door of the room"
 """The referent of the search, in words."""
 
 HEADINGS: FloatArray = math.pi / 12 * np.arange(24.0)
@@ -46,9 +46,9 @@ def exits_in_view(situation: Situation) -> list[Door] | Searching:
         if exits:
             return exits
     if not situation.lookouts:
-        return situation.turn_to(turned(begin)[2], WHAT)
+        return situation.turn_to(turned(begin)[2], REFERENT)
     lookout = next_lookout(scene, situation.lookouts)
-    return [] if lookout is None else Searching(WHAT, lookout)
+    return [] if lookout is None else Searching(REFERENT, lookout)
 
 
 def next_lookout(scene: Scene, lookouts: Sequence[Pose]) -> Pose | None:

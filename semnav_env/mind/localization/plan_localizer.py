@@ -23,7 +23,7 @@ GATES = {2: 5.99, 4: 9.49}
 coordinates: quantiles of the chi-squared distribution. A right door that is refused costs little,
 for it is seen again a step later."""
 
-RIVALS = 3
+COMPARED_DOORS = 3
 """Number of doors of the plan with which a detected one is compared: the nearest ones."""
 
 
@@ -163,7 +163,9 @@ class PlanLocalizer:
     def _nearest(self, detected: DetectedDoor) -> list[Door]:
         """The doors of the plan whose middles lie nearest to that of a detected one."""
         middle = to_parent(self.pose, detected.midpoint)
-        return nsmallest(RIVALS, self.doors_world, lambda door: math.dist(door.midpoint, middle))
+        return nsmallest(
+            COMPARED_DOORS, self.doors_world, lambda door: math.dist(door.midpoint, middle)
+        )
 
 
 def _check_finite(name: str, pose: Pose) -> None:

@@ -116,7 +116,9 @@ class EntryObservation:
             raise ValueError(f"no observation {mode!r:.80}; there are: {', '.join(MODES)}")
         taken = {entry.name for entry in extra} & set(MODES[mode])
         if taken:
-            raise ValueError(f"observation {mode!r} has {sorted(taken)} already; name yours anew")
+            raise ValueError(
+                f"observation {mode!r} has {sorted(taken)} already; choose other names"
+            )
         self.mode, self.extra, self.exact = mode, tuple(extra), mode == "truth"
         self.remembers = MEMORY_ENTRIES[0].name in MODES[mode]
         self.observes_features = "corners" in MODES[mode]

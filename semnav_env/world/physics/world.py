@@ -32,7 +32,7 @@ from semnav_features.validation import finite_floats, shown
 if TYPE_CHECKING:
     from semnav_env.world.dynamics.moving import Moving
 
-FINE = 20
+SUBSTEPS_AMONG_MOVERS = 20
 """Number of substeps if something else moves: a robot's corner then overlaps a person by less than
 a centimetre before the contact acts."""
 
@@ -57,7 +57,7 @@ class World:
         robot: body and limits.
         control_hz: commands per second.
         substeps: of the physics for each command, at least; more where the robot is fast or the
-            rate low (`LONGEST_JUMP`), and `FINE` where something else moves.
+            rate low (`LONGEST_JUMP`), and `SUBSTEPS_AMONG_MOVERS` where something else moves.
         dynamics: people, doors and furniture that move.
 
     Attributes:
@@ -86,7 +86,7 @@ class World:
         self.still = floor_plan if self.moving is None else self.moving.still
         period_way = math.hypot(robot.max_speed, robot.max_sideways_speed) * self._period
         least = math.ceil(period_way / (LONGEST_JUMP * min(robot.length, robot.width)))
-        substeps = max(substeps, least, 0 if self.moving is None else FINE)
+        substeps = max(substeps, least, 0 if self.moving is None else SUBSTEPS_AMONG_MOVERS)
         self.control_hz, self.substeps = control_hz, substeps
         self._at_rest()
         self._start: Pose | None = None
