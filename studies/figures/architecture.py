@@ -112,9 +112,9 @@ does `RobotLoop.think` call `BeliefTracker.think` (`semnav_env/mind/belief/track
 grounds again, and `Judge.think`, which completes the `Period`. Rewards, ends and infos are made
 from the `Period` by functions that take numbers for one robot and arrays for many:
 `SemNavVectorEnv` (`semnav_env/vector/vector_env.py`) is the same control period, with `run_period`
-in threads (`semnav_env/vector/tick.py`) and the functions called once. On a real robot `BeliefTracker.update` calls `understand` with the sensor
-data. `EntryObservation.observe` (`semnav_env/mind/observations/observer.py`) makes the arrays that
-an agent gets.
+in threads (`semnav_env/vector/tick.py`) and the functions called once. On a real robot
+`BeliefTracker.update` calls `understand` with the sensor data. `EntryObservation.observe`
+(`semnav_env/mind/observations/observer.py`) makes the arrays that an agent gets.
 
 **A command.** `parse` (`semnav_env/language/parser.py`) turns text into a `Command`, a tuple of
 clauses. `MissionMaker` (`semnav_env/judge/tasks/mission_maker.py`) checks on the floor plan that
