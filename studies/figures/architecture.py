@@ -37,7 +37,7 @@ ABOUT = {
     "semnav_env/world/dynamics": "people, swinging doors, moved furniture",
     "semnav_env/judge/episodes": "frozen episodes and the splits",
     "semnav_env/mind/grounding": "what a clause refers to in a scene, and where it leads",
-    "semnav_env/world/grid": "grids: where a body can be, how far a place is, which cells are near",
+    "semnav_env/world/grid": "grids: reachable poses, distances, costs of paths, cells in view",
     "semnav_env/world/lidar": "the simulated lidar",
     "semnav_env/mind/localization": "the pose of a robot in a known plan, by its doors",
     "semnav_env/judge": "the judge: whether a command was carried out",

@@ -1,4 +1,4 @@
-"""The numbers in which a clause and the one before it enter the network."""
+"""The input features of the network for a clause and the clause before it."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ def describe_clauses(tokens: NDArray[np.int64], clause: int) -> NDArray[np.float
 
     Args:
         tokens: of the command, shape (8, 5).
-        clause: index of the clause under way, one of the command's.
+        clause: index of the current clause of the command.
     """
     before = np.zeros_like(tokens[0]) if clause == 0 else tokens[clause - 1]
     return np.concatenate((_describe(tokens[clause]), _describe(before)))
 
 
 def _describe(row: NDArray[np.int64]) -> NDArray[np.float32]:
-    """One clause; all zeros for none."""
+    """The features of one clause; zeros if there is no clause."""
     if not row.any():
         return np.zeros(CLAUSE_SIZE, np.float32)
     verb, turning, referent, number, side = (int(value) for value in row)

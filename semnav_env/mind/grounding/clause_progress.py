@@ -19,7 +19,7 @@ from semnav_features.frames import Pose, to_local
 from semnav_features.kernels.compiling import kernel
 
 CLAUSE_DONE, TRAIL_DUE, ON_WAY = 1, 2, 4
-"""Events, as bits: the clause under way is completed; the robot is `WAY_SPACING` from the last
+"""Events, as bits: the current clause is completed; the robot is `WAY_SPACING` from the last
 place of its trail; the goal lies on a known way, so that what to head for changes as one drives."""
 
 NO_TRAIL = math.nan, math.nan
@@ -49,7 +49,7 @@ CLAUSE_PROGRESS = np.dtype(
     + [("ahead", "f8", 3), ("goal", GOAL_RECORD)]
     + [(name, "?") for name in ("is_open", "is_behind", "looked_back")]
 )
-"""How far a robot is in the clause under way; shape (1,). Places are (x, y) in metres, in the frame
+"""How far a robot is in the current clause; shape (1,). Places are (x, y) in metres, in the frame
 of the follower's scene.
 
 Set when a command is begun:
