@@ -140,7 +140,7 @@ class Door:
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """Where two walls meet, or where one may bend out of sight.
+    """A place where two walls meet, or where a wall may bend out of sight.
 
     Attributes:
         point: (x, y) in metres.

@@ -66,7 +66,7 @@ def polylines(
 
 
 def _linked(beams: NDArray[np.int64], points: FloatArray, link: float) -> NDArray[np.int64]:
-    """Where groups of linked neighbours begin, and the number of points at the end."""
+    """First indices of groups of linked neighbours, and the number of points as the last entry."""
     distance = np.hypot(*np.diff(points, axis=0).T)
     broken = (np.diff(beams) > 1) | (distance > link)
     return np.concatenate(([0], np.flatnonzero(broken) + 1, [len(beams)])).astype(np.int64)

@@ -22,7 +22,7 @@ def check_file(
 
     Raises:
         ValueError: of the kind `error`; names the file and what would be right.
-        OSError: there is no such file, or it may not be looked at.
+        OSError: there is no such file, or it must not be read.
     """
     status = os.stat(path)
     if stat.S_ISDIR(status.st_mode):

@@ -91,7 +91,7 @@ class Scan:
 
     @property
     def valid(self) -> np.ndarray:
-        """Which beams returned a distance, shape (n,), bool."""
+        """Mask of the beams that returned a distance, shape (n,), bool."""
         with np.errstate(invalid="ignore"):
             beyond_least = (self.ranges >= self.range_min) & (self.ranges > 0.0)
             return beyond_least & (self.ranges < self.range_max)

@@ -171,7 +171,7 @@ class StillScene(Scene):
 
     @cached_property
     def named_doors(self) -> NDArray[np.bool_]:
-        """Which doors have a name."""
+        """The doors that have a name."""
         return which_are_named(self.doors)
 
     @cached_property
@@ -208,7 +208,7 @@ def known_ends(items: Iterable[Wall | Door]) -> FloatArray:
 
 
 def which_are_named(doors: Sequence[Door]) -> NDArray[np.bool_]:
-    """Which doors have a name, shape (n,): those of a floor plan."""
+    """Mask of the doors with a name, shape (n,): those of a floor plan."""
     if type(doors) is RememberedDoors:
         return np.zeros(len(doors.ends), np.bool_)
     return np.array([door.name is not None for door in doors], dtype=np.bool_)

@@ -21,7 +21,7 @@ class BreakpointRule(IntEnum):
 
 
 class Segmentation(IntEnum):
-    """How a connected group of points is cut into straight pieces."""
+    """Settings for the cut of a connected group of points into straight pieces."""
 
     END_POINT_FIT = 0
     DYNAMIC = 1

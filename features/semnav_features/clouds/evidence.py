@@ -20,7 +20,7 @@ Size: TypeAlias = Annotated[float, Bounds(0.001, 100.0, "m")]
 
 @dataclass(frozen=True)
 class StripRules:
-    """How strips of a wall are counted.
+    """Settings for the count of strips of a wall.
 
     Attributes:
         strip: width of a strip, metres.
@@ -62,7 +62,7 @@ class Strips:
     doubt: float
 
     def balance(self, first: Indices, stop: Indices) -> FloatArray:
-        """How solid parts of the wall are: (solid - open) / (solid + open + doubt), from -1 to 1.
+        """Solidity of parts of the wall: (solid - open) / (solid + open + doubt), from -1 to 1.
 
         Args:
             first: strip with which each stretch begins.

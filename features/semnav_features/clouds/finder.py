@@ -92,7 +92,7 @@ class DoorFinder:
     def _measured(
         self, pair: JambPair, line: WallLine, frame: Pose, points: FloatArray, width: float
     ) -> DetectedDoor | None:
-        """The door of a pair, once its jambs have been looked at from the side."""
+        """The door of a pair after the measurement of its jambs from the side."""
         pair_found = settled(pair, width, self.jambs)
         if pair_found is None:
             return None
@@ -106,7 +106,7 @@ class DoorFinder:
         return _placed(pair_found, compose(compose(frame, line.frame), door.frame), door)
 
     def _prior(self, line: WallLine, sigma: float) -> float:
-        """How well a line agrees with the expected one, in the units of `JambPair.score`."""
+        """Agreement of a line with the expected one, in the units of `JambPair.score`."""
         offset = line.offset**2 / (sigma**2 + LINE_SIGMA**2)
         turn = (line.slope / self.search.turn_sigma) ** 2
         return line.support - self.jambs.prior * (offset + turn)

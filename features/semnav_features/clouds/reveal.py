@@ -16,7 +16,7 @@ from semnav_features.frames import FloatArray, Pose
 
 @dataclass(frozen=True)
 class RevealRules:
-    """How the middle of a jamb across the wall is found.
+    """Settings for the middle of a jamb across the wall.
 
     Attributes:
         strip: half the width of the strip at the edge that holds the reveal, metres.

@@ -100,7 +100,7 @@ def stamp_in_seconds(stamp: float) -> float:
 
 
 def _fault_of_angles(start: float, step: float, swept: float) -> str:
-    """What is wrong with the angles of a scan, radians."""
+    """The error in the angles of a scan, which are in radians."""
     fault = "angles that do not fit a sweep of one turn"
     if abs(start) <= _FARTHEST and _WIDEST < swept <= 360.0:
         return f"{fault}: angle_increment={step:g} looks like degrees; give radians"

@@ -110,7 +110,7 @@ class LogReader(ABC):
     @property
     @abstractmethod
     def fraction(self) -> float | None:
-        """How much of the log has been read; see `ScanLog`."""
+        """Share of the log that has been read; see `ScanLog`."""
 
     @abstractmethod
     def records(self) -> Iterator[LogRecord]:

@@ -21,7 +21,7 @@ equation (12))."""
 
 @dataclass(frozen=True)
 class Walking:
-    """How people walk.
+    """Settings of the walk of people.
 
     Attributes:
         radius: radius of a person, a disc for lidar and physics, metres.
@@ -44,7 +44,7 @@ class Walking:
 
 @dataclass(frozen=True)
 class Swinging:
-    """How doors open and close.
+    """Settings of the motion of doors.
 
     Attributes:
         open_for: shortest and longest time that a door stands open, seconds.

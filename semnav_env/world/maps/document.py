@@ -87,7 +87,7 @@ def _check_sizes(document: object) -> None:
 
 
 def _numbers(document: object) -> int:
-    """How many numbers a document holds; counting stops beyond the limit."""
+    """Count the numbers of a document; the count stops beyond the limit."""
     count, todo = 0, [document]
     while todo and count <= MAX_NUMBERS:
         value = todo.pop()

@@ -129,7 +129,7 @@ def _spaces(plan: FloorPlan, solid: BaseGeometry) -> list[Polygon]:
 
 
 def _outside(plan: FloorPlan, solid: BaseGeometry) -> Polygon:
-    """The space that holds the south-west corner of the area looked at."""
+    """The space that contains the south-west corner of the area."""
     west, south, _, _ = plan.boundary.bounds
     corner = Point(west - 0.95 * OUTSIDE_MARGIN, south - 0.95 * OUTSIDE_MARGIN)
     return next(space for space in _spaces(plan, solid) if space.contains(corner))

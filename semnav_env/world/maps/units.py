@@ -36,6 +36,6 @@ def unit_fault(widths: Iterable[float]) -> str | None:
 
 
 def certain_unit_fault(widths: Iterable[float]) -> str | None:
-    """The same as `unit_fault`, but only for widths that no building has."""
+    """Like `unit_fault`, but only for widths that no building has."""
     known = [width for width in widths if math.isfinite(width)]
     return unit_fault(known) if known and median(known) >= CERTAIN_WIDTH else None

@@ -93,7 +93,7 @@ def _note(arbiter: int, space: int, record: Any) -> None:
 
 
 def _note_by_pymunk(arbiter: pymunk.Arbiter, space: pymunk.Space, record: np.ndarray) -> None:
-    """The same as `_note`, called by Pymunk."""
+    """The callback of Pymunk that calls `_note`."""
     r = record[0]
     r["touches"] += 1
     x, y = arbiter.total_impulse

@@ -87,7 +87,7 @@ UNKNOWN_GREY = 205.0
 
 
 def solid_pixels(grey: FloatArray, threshold: float, negate: bool) -> NDArray[np.bool_]:
-    """Which pixels are occupied: darker than the threshold, or lighter if `negate`.
+    """Mask of the occupied pixels: darker than the threshold, or lighter if `negate`.
 
     The occupancy is (255 - brightness) / 255, or brightness / 255 if `negate` (ROS map_server).
     """

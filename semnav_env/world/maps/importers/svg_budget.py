@@ -98,12 +98,12 @@ def _reference(element: Element) -> str:
 
 
 def _numbers(element: Element) -> float:
-    """How many numbers the outline of an element has, at least."""
+    """Least count of numbers in the outline of an element."""
     return float(sum(len(_NUMBER.findall(element.get(name, ""))) for name in _OUTLINES))
 
 
 def _arcs(element: Element) -> float:
-    """How many arcs an element is drawn with; a command may draw several, of five numbers each."""
+    """Number of arcs of an element; a command may draw several, of five numbers each."""
     commands = _ARC.findall(element.get("d", ""))
     drawn = sum(max(1, len(_NUMBER.findall(numbers)) // 5) for numbers in commands)
     return float(drawn + 4 * element.tag.endswith(_ROUND))
