@@ -59,12 +59,12 @@ class Surroundings:
         return Surroundings(ends_of(scene.walls), ends_of(scene.doors))
 
     def with_points(self, points: FloatArray, radius: float = POINT_RADIUS) -> Surroundings:
-        """The same with a small disc around each scanned point that is finite, shape (n, 2)."""
+        """A copy with a small disc around each finite scanned point, shape (n, 2)."""
         finite = points[np.isfinite(points).all(axis=1)]
         return self.with_obstacles(shapely.MultiPoint(finite).buffer(radius, quad_segs=2))
 
     def with_obstacles(self, *areas: BaseGeometry) -> Surroundings:
-        """The same with further solid areas, such as a bin before the door."""
+        """A copy with further solid areas, such as a bin before the door."""
         return replace(self, obstacles=shapely.union_all([self.obstacles, *areas]))
 
     def room_before(self, side: DoorSide) -> BaseGeometry:

@@ -170,7 +170,7 @@ class _Path:
 
 
 def _left_of(path: FloatArray, door: Jambs) -> Mask:
-    """Which points lie to the left of a directed line."""
+    """Mask of the points to the left of a directed line."""
     line = np.broadcast_to(np.array(door), (len(path), 2, 2))
     rings = np.concatenate((line, path[:, None], line[:, :1]), axis=1)
     return np.asarray(shapely.is_ccw(shapely.linearrings(rings)))

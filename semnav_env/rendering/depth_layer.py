@@ -27,7 +27,7 @@ FLOOR = 0.1
 
 
 def cloud_on_the_map(cloud: PointCloud, pose: Pose) -> FloatArray:
-    """Some points above the floor, (x, y) in the world frame, shape (n, 2)."""
+    """A sample of the points above the floor, (x, y) in the world frame, shape (n, 2)."""
     points = cloud.points_robot[cloud.points_robot[:, 2] > FLOOR, :2]
     return points_to_parent(pose, points[:: max(1, len(points) // DRAWN_POINTS)])
 

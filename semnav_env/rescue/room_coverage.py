@@ -1,4 +1,4 @@
-"""How much of each room has been looked at, as only the floor plan tells."""
+"""The seen share of each room, for which the floor plan is needed."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ class PersonDetectorSettings:
 
 @dataclass(frozen=True)
 class PersonMapSettings:
-    """How detections become reports.
+    """Settings by which detections become reports.
 
     Attributes:
         prior: probability that the first detection at a place is of a person.

@@ -56,7 +56,7 @@ class HeldAction:
 
     @property
     def over(self) -> Mask:
-        """Which episodes are over, terminated or truncated."""
+        """Mask of the episodes that are terminated or truncated."""
         return self.terminated | self.truncated
 
 

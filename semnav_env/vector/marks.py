@@ -60,7 +60,7 @@ _load: Any = intrinsic(_code_of_load)
 
 @overload(set_mark)
 def _compiled_set_mark(marks: Marks, place: int) -> Callable[[Marks, int], bool]:
-    """What compiled code calls as `set_mark`."""
+    """The implementation of `set_mark` in compiled code."""
 
     def exchange(marks: Marks, place: int) -> bool:
         return bool(_exchange(marks, place) == 0)
@@ -70,7 +70,7 @@ def _compiled_set_mark(marks: Marks, place: int) -> Callable[[Marks, int], bool]
 
 @overload(is_set)
 def _compiled_is_set(marks: Marks, place: int) -> Callable[[Marks, int], bool]:
-    """What compiled code calls as `is_set`."""
+    """The implementation of `is_set` in compiled code."""
 
     def load(marks: Marks, place: int) -> bool:
         return bool(_load(marks, place) != 0)

@@ -176,7 +176,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         return tuple(env.render() for env in self.envs)
 
     def call(self, name: str, *arguments: Any, **options: Any) -> tuple[Any, ...]:
-        """What a method of each single environment returns, or the value of an attribute."""
+        """Results of a method of each single environment, or the values of an attribute."""
         found = [env.get_wrapper_attr(name) for env in self.envs]
         return tuple(each(*arguments, **options) if callable(each) else each for each in found)
 

@@ -54,7 +54,7 @@ class Drive:
         return "" if self.metrics.success else type(clauses[active]).__name__
 
     def as_infeasible(self) -> Drive:
-        """The same drive, judged for an impossible command.
+        """The result of the same drive for an impossible command.
 
         The drive is a success if the robot stood still, said that the command is impossible, and
         made no mistake before. Without a true route it has no SPL and sDTW.

@@ -78,7 +78,7 @@ class JoinedVecEnv(VecEnv):
     def env_method(
         self, method_name: str, *arguments: Any, indices: VecEnvIndices = None, **options: Any
     ) -> list[Any]:
-        """What a method of single environments returns, part by part."""
+        """Call a method of the single environments; returns a result for each part."""
         return [
             result
             for part, rows in self._chosen(indices)

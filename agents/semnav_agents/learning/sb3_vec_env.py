@@ -127,7 +127,7 @@ class SB3VecEnv(VecEnv):
     def env_method(
         self, method_name: str, *arguments: Any, indices: VecEnvIndices = None, **options: Any
     ) -> list[Any]:
-        """What a method of single environments returns; `reset` and `step` are refused."""
+        """Call a method of the single environments; `reset` and `step` are refused."""
         methods = self.get_attr(method_name, indices)
         return [method(*arguments, **options) for method in methods]
 

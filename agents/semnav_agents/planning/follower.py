@@ -18,7 +18,7 @@ drives in one step."""
 
 @dataclass(frozen=True, slots=True)
 class PathProgress:
-    """How far a path has been driven: the index of the leg, and of the last sample passed."""
+    """The progress along a path: the index of the leg, and of the last sample passed."""
 
     leg: int = 0
     sample: int = 0
@@ -50,7 +50,7 @@ class Steering:
         return self.forward, self.left, self.yaw_rate
 
     def slowed(self, share: float) -> Steering:
-        """The same steering at a share of its velocity."""
+        """A steering with a share of the velocity and the same curvature."""
         forward, left, yaw_rate = (share * value for value in self.twist)
         return replace(self, forward=forward, left=left, yaw_rate=yaw_rate)
 

@@ -23,7 +23,7 @@ from semnav_features.frames import FloatArray, Pose, wrap_angle
 
 @dataclass(frozen=True)
 class MemorySettings:
-    """How long and how finely obstacles are remembered.
+    """Duration and resolution of the memory of obstacles.
 
     Attributes:
         radius: distance from the lidar beyond which hits are neither taken nor kept, metres.
@@ -169,6 +169,6 @@ def points_of_segments(segments: FloatArray, spacing: float = 0.02) -> FloatArra
 
 
 def point_counts(segments: FloatArray, spacing: float = 0.02) -> NDArray[np.intp]:
-    """How many of `points_of_segments` lie on each segment, shape (n,)."""
+    """Number of the `points_of_segments` on each segment, shape (n,)."""
     lengths = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
     return np.maximum(2, np.ceil(lengths / spacing).astype(np.intp) + 1)

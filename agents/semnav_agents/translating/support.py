@@ -50,7 +50,7 @@ class TextSupport:
 
     @classmethod
     def of(cls, words: Sequence[str]) -> TextSupport:
-        """That of some words, whose language is recognised."""
+        """The command of some words, whose language is recognised."""
         each = tuple(part for word in words for part in word.split(" "))
         return cls(each, lexicon_for(each, recognised(each)))
 
@@ -94,7 +94,7 @@ class TextSupport:
 
 
 def _named(command: Command) -> set[str]:
-    """What a command names, by the keys of `NEEDED`."""
+    """The features that a command names, by the keys of `NEEDED`."""
     found: set[str] = set()
     for clause in command.clauses:
         what = reference_of(clause)

@@ -111,7 +111,7 @@ class Drafter:
         return None
 
     def turns(self, clauses: int) -> Command | None:
-        """Draw a command that only turns at junctions, so that doors are not counted anew."""
+        """Draw a command with turns at junctions only, so that no count of doors restarts."""
         said: tuple[Clause, ...] = ()
         for _ in range(MAX_CLAUSE_DRAWS):
             clause = self._clauses.turn()

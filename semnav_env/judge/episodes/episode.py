@@ -102,7 +102,7 @@ class Episode:
         return tokens
 
     def understood(self, rooms: tuple[str, ...]) -> Self:
-        """The same episode with programs and tokens stored.
+        """A copy of the episode that stores programs and tokens.
 
         Args:
             rooms: names of the rooms of its floor plan.

@@ -30,7 +30,7 @@ from semnav_features.frames import FloatArray, Point, wrap_angle
 
 @dataclass(frozen=True)
 class EventThresholds:
-    """What counts as a turn and as a stop.
+    """Thresholds for a turn and for a stop.
 
     Attributes:
         stop_seconds: shortest time of standing still that is a stop.

@@ -26,7 +26,7 @@ from semnav_features.frames import Pose, path_length, wrap_angle
 
 @dataclass(frozen=True)
 class DescriptionLimits:
-    """How exactly a command must describe a route, and how long the search for one may be.
+    """Required accuracy of the description of a route, and limits of the search for it.
 
     Attributes:
         end_distance: largest distance from the end of a route to the end of its command, metres,
@@ -72,7 +72,7 @@ class PartialDescription:
     words: int
 
     def key(self) -> tuple[object, ...]:
-        """What the rest of the description depends on, to 5 cm and 3 degrees."""
+        """The state that determines the rest of the description, to 5 cm and 3 degrees."""
         x, y, heading = self.begin
         past = bool(self.clauses) and _is_past(self.clauses[-1])
         turned = round(math.cos(heading) * 20), round(math.sin(heading) * 20)

@@ -38,7 +38,7 @@ class ClauseError(GroundingError):
         return self._message
 
     def in_words_of(self, language: Language) -> ClauseError:
-        """The same error with the clause in the words of a language."""
+        """A copy of the error with the clause in the words of a language."""
         return ClauseError(self.command, self.clause, self.reason, language)
 
     def __reduce__(self) -> tuple[Any, ...]:

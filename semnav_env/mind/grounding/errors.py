@@ -12,7 +12,7 @@ class GroundingError(ValueError):
     """The referent of a clause cannot be there; the message says what is there."""
 
     def in_words_of(self, language: Language) -> GroundingError:
-        """The same error with the words of the command in a language, if it contains such words."""
+        """A copy of the error with any words of the command in the given language."""
         return self
 
 

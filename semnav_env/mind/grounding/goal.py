@@ -60,7 +60,7 @@ class SeekGoal(BaseGoal):
 
     @property
     def because(self) -> str:
-        """What was understood, for the picture and the log."""
+        """The object of the goal in words, for the picture and the log."""
         return f"looking for {self.what}"
 
 

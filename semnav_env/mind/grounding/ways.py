@@ -40,7 +40,7 @@ class Way:
     heading: float = 0.0
 
     def seen_from(self, frame: Pose) -> Way:
-        """The same way in another frame."""
+        """A copy of the way in another frame."""
         places = tuple(to_local(frame, place) for place in self.places)
         door = self.door
         if door is not None:

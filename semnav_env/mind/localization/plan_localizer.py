@@ -29,7 +29,7 @@ COMPARED_DOORS = 3
 
 @dataclass(frozen=True)
 class LocalizerRules:
-    """Which detected doors correct the pose.
+    """Settings of the choice of detected doors that correct the pose.
 
     Attributes:
         least_confidence: of a detection, 0 to 1.

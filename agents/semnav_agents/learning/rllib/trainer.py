@@ -43,7 +43,7 @@ class RayTrainer:
         folder: for the agent and, in `tensorboard`, the curves; made if it does not exist.
         seed: of weights, trials, noise and exploration.
         options: in how many processes robots are driven.
-        steps: number of decisions that were trained before; 0 starts anew.
+        steps: number of decisions that were trained before; 0 for a new training.
     """
 
     def __init__(
