@@ -69,7 +69,8 @@ class RewardWeights:
             shorter.
         clause: weight of each clause carried out.
         success: weight of the whole command, once.
-        failure: weight of a wrong door, a wrong turn or stopping short, once.
+        failure: weight of a wrong door, a wrong turn, an incomplete clause or stopping short,
+            once.
         contact: weight of each step in contact.
         time: weight of each step.
 
